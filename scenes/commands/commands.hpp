@@ -71,7 +71,7 @@ void add_quiet(Command& app, Common& common);                      // -q
 void add_scene(Command& app, std::string& scene, Common& common);  // SCENE, --set, -q
 void add_work(Command& app, Common& common);                       // -v -j --progress --force --no-cache -n --json
 void add_shard(Command& app, std::optional<std::string>& shard);
-Ask shard_argument(const std::string& text);  // "2/3"; throws UsageError
+Selection shard_argument(const std::string& text);  // "2/3"; throws UsageError
 
 // ---- what they do alike -------------------------------------------------------------------------
 

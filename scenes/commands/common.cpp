@@ -54,16 +54,16 @@ void add_shard(Command& app, std::optional<std::string>& shard) {
                "NAME.2of3.mp4. Other outputs belong to the first");
 }
 
-Ask shard_argument(const std::string& text) {
-    Ask ask;
+Selection shard_argument(const std::string& text) {
+    Selection selection;
     const std::size_t slash = std::min(text.find('/'), text.size());
     const std::string_view all = text;
-    ask.shard = output::number_in<int>(all.substr(0, slash)).value_or(0);
-    ask.shards = output::number_in<int>(all.substr(std::min(slash + 1, text.size()))).value_or(0);
+    selection.shard = output::number_in<int>(all.substr(0, slash)).value_or(0);
+    selection.shards = output::number_in<int>(all.substr(std::min(slash + 1, text.size()))).value_or(0);
     constexpr int kMost = 10000;
-    if (ask.shards < 1 || ask.shards > kMost || ask.shard < 1 || ask.shard > ask.shards)
+    if (selection.shards < 1 || selection.shards > kMost || selection.shard < 1 || selection.shard > selection.shards)
         throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3", text));
-    return ask;
+    return selection;
 }
 
 Scene with_default_output(Scene scene) {

@@ -110,8 +110,8 @@ Node output_node(const FigureArguments& args) {
     for (const auto& [key, text] : options)
         if (text) add(output, key, value_node(*text));
     if (!args.compare.empty()) add(output, "compare", compared_node(args));
-    if (args.impacts) add(output, "impacts", truth_node(true));
-    if (args.residuals) add(output, "residuals", truth_node(true));
+    if (args.impacts) add(output, "impacts", boolean_node(true));
+    if (args.residuals) add(output, "residuals", boolean_node(true));
     if (args.apart) add(output, "comparison", text_node("panels"));
     if (!args.notes.empty()) {
         Node notes = array_node();

@@ -59,7 +59,7 @@ Node json_of(const KeyRow& row) {
     add(out, "default", key.value && !key.required() ? *key.value : Node{});
     add(out, "min", bound(key.range.least));
     add(out, "max", bound(key.range.most));
-    add(out, "required", truth_node(key.required()));
+    add(out, "required", boolean_node(key.required()));
     add(out, "meaning", text_node(key.meaning));
     return out;
 }

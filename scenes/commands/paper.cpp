@@ -13,10 +13,10 @@
 #include "scenes/format/embedded.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/motions/motions.hpp"
+#include "scenes/motions/motion_store.hpp"
 #include "scenes/outputs/run_context.hpp"
 #include "scenes/plan/figure_times.hpp"
-#include "scenes/plan/survey.hpp"
+#include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
@@ -68,9 +68,9 @@ std::vector<Job> jobs_of(const PaperArguments& args) {
 }
 
 // One set of studies for all of them; those that begin or end at events are of all of their scenes without `find`.
-void prepare(std::vector<Job>& jobs, const FindImpacts& find, Studies& studies) {
+void prepare(std::vector<Job>& jobs, const FindEvents& find, Studies& studies) {
     for (Job& job : jobs) {
-        const bool known = find || !job.how.series.looks_at_impacts();
+        const bool known = find || !job.how.series.needs_events();
         const FigureOutput how = known ? with_found_times(job.how, job.scene, find) : without_events(job.how);
         job.make = recipe_named(how.figure)->prepare(job.scene, how, studies);
     }
@@ -143,20 +143,20 @@ int act(const PaperArguments& args) {
     writer.prepare(files_of(args, jobs));
     Progress progress(resolve(options.progress));
     const std::optional<Cache> cache = open_cache(options.no_cache);
-    Motions motions(cache ? &*cache : nullptr, nullptr, progress,
-                    {thread_count(options.threads), options.quiet, options.verbose});
+    MotionStore motions(cache ? &*cache : nullptr, nullptr, progress,
+                        {thread_count(options.threads), options.quiet, options.verbose});
     prepare(
         jobs,
         [&](const sim::Problem& problem, const sim::Request& request) {
-            return motions.find(problem, request, request.enough ? 0 : request.end_time);
+            return motions.find_events(problem, request, request.enough ? 0 : request.end_time);
         },
         studies);
     const auto findings = prepare_findings(studies);
     const std::vector<Study> all = studies.take();
-    for (const Study& study : all) motions.want(study.problem, {study.request}, study.because);
-    motions.make();
+    for (const Study& study : all) motions.request(study.problem, {study.request}, study.because);
+    motions.compute();
     std::vector<sim::Result> made;
-    for (std::size_t i = 0; i < all.size(); ++i) made.push_back(std::move(motions.take(i).front()));
+    for (std::size_t i = 0; i < all.size(); ++i) made.push_back(std::move(motions.take_results(i).front()));
     Results results;
     for (const sim::Result& result : made) results.studies.push_back(&result);
 

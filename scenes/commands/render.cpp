@@ -8,8 +8,8 @@
 #include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
 #include "scenes/format/reader.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
@@ -274,18 +274,18 @@ std::pair<long, long> frames_argument(const std::string& text, long begin, long 
     return {from, to};
 }
 
-Ask asked_part(const RenderArguments& args, const Scene& scene) {
-    Ask ask;
-    if (!args.frames && !args.shard) return ask;
+Selection asked_part(const RenderArguments& args, const Scene& scene) {
+    Selection selection;
+    if (!args.frames && !args.shard) return selection;
     if (args.frames && args.shard) throw UsageError("--frames and --shard exclude each other; keep one");
     if (args.shard) return shard_argument(*args.shard);
     const Plan made = plan(scene);
     const Pictures& whole = made.pictures.at(0);
-    if (!whole.settled)
+    if (!whole.times_known)
         throw UsageError("--frames: only the impacts tell how many frames a film in slow motion has; use --shard");
-    ask.frames =
+    selection.frames =
         frames_argument(*args.frames, whole.first_frame, whole.first_frame + static_cast<long>(whole.draw.size()));
-    return ask;
+    return selection;
 }
 
 // In a scene such a poster is the film's nearest frame, so that films can be shortened; here it was asked for.
@@ -311,7 +311,7 @@ int act(const RenderArguments& args) {
     require_poster_inside(film.span, scene.end_time);
     scene.set_outputs({render_output(args, std::move(film))});
     RunOptions options = run_options(args.common, "");
-    options.ask = asked_part(args, scene);
+    options.selection = asked_part(args, scene);
     run_or_plan({&scene, 1}, options, args.common);
     return 0;
 }

@@ -36,7 +36,7 @@ int act(const RunArguments& args) {
         }
     if (scenes.empty()) return code;
     RunOptions options = run_options(args.common, args.directory);
-    if (args.shard) options.ask = shard_argument(*args.shard);
+    if (args.shard) options.selection = shard_argument(*args.shard);
     run_or_plan(scenes, options, args.common);
     return code;
 }

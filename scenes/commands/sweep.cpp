@@ -229,8 +229,8 @@ int act(const SweepArguments& args) {
     RunOptions options = run_options(args.common, "");
     if (args.shard) {
         const SweepPart part = part_argument(*args.shard, std::getenv);
-        options.ask.shard = static_cast<int>(part.part) + 1;
-        options.ask.shards = static_cast<int>(part.parts);
+        options.selection.shard = static_cast<int>(part.part) + 1;
+        options.selection.shards = static_cast<int>(part.parts);
     }
     if (!args.emit && !args.common.dry_run) {
         run(scene, options);
@@ -242,8 +242,8 @@ int act(const SweepArguments& args) {
             *args.emit, command_of(args), args.file,
             static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
     else
-        print_text(
-            sweep_plan(grid, planned_files(plan(scene, options.ask)), thread_count(options.threads), args.common.json));
+        print_text(sweep_plan(grid, planned_files(plan(scene, options.selection)), thread_count(options.threads),
+                              args.common.json));
     return 0;
 }
 

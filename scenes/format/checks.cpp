@@ -47,23 +47,23 @@ Place place_in_scene(const Node& root, std::string_view path, bool& exact) {
 
 }  // namespace
 
-void judge_physics(ObjectReader& r, const sim::Problem& problem) {
-    const bool partial = r.findings().any();
+void check_physics(ObjectReader& r, const sim::Problem& problem) {
+    const bool partial = r.diagnostics().any();
     for (const sim::Finding& finding : sim::validate(problem)) {
         bool exact = false;
         const Place place = place_in_scene(*r.node(), finding.path, exact);
         // With unread values replaced by defaults, only what the user wrote himself can be judged.
-        if (partial && (!exact || !finding.fatal || r.findings().failed(finding.path))) continue;
+        if (partial && (!exact || !finding.fatal || r.diagnostics().failed(finding.path))) continue;
         const bool named = finding.message.starts_with(finding.path);
-        r.findings().add(
+        r.diagnostics().add(
             {place, named ? finding.message : fmt::format("{}: {}", finding.path, finding.message), finding.fatal});
     }
 }
 
-void judge_words(ObjectReader& r, const char* key, const std::string& text) {
+void check_words(ObjectReader& r, const char* key, const std::string& text) {
     if (const std::string problem = render::problem_with_words(text); !problem.empty())
-        r.findings().warning(r.place(key).place,
-                             fmt::format("{}: {}; it is shown as it is written", r.path(key), problem));
+        r.diagnostics().warning(r.place(key).place,
+                                fmt::format("{}: {}; it is shown as it is written", r.path(key), problem));
 }
 
 // ---- pictures ----------------------------------------------------------------------------------
@@ -84,10 +84,10 @@ static bool needs_cam(const render::Anchor& anchor) {
     return anchor.kind == render::Anchor::Kind::contact || anchor.kind == render::Anchor::Kind::cam;
 }
 
-void judge_camera(ObjectReader& r, const View& view) {
+void check_camera(ObjectReader& r, const View& view) {
     for (const char* key : {"yaw", "pitch", "swing"})
         if (r.has(key) && view.style != render::Style::solid)
-            r.findings().warning(
+            r.diagnostics().warning(
                 r.place(key).place,
                 fmt::format("{} turns the solid view alone; \"style\": \"solid\" shows that", r.path(key)));
     const auto judge = [&](const render::Anchor& follow, const std::string& key) {
@@ -100,9 +100,9 @@ void judge_camera(ObjectReader& r, const View& view) {
         if (view.keyframes[i].follow) judge(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i));
 }
 
-void judge_view(ObjectReader& r, const View& view) {
+void check_view(ObjectReader& r, const View& view) {
     if (r.has("exposures") && view.poses() == 1)
-        r.findings().warning(
+        r.diagnostics().warning(
             r.place("exposures").place,
             fmt::format("{} needs a \"shutter\" or \"strobe\" to be exposed for", r.path("exposures")));
 }
@@ -111,7 +111,7 @@ void judge_view(ObjectReader& r, const View& view) {
 static constexpr int kWidestLogo = 10, kTallestLogo = 5;
 
 static void read_logo(ObjectReader& r, Picture& picture) {
-    if (!r.has("logo") || r.findings().failed(r.path("logo"))) return;
+    if (!r.has("logo") || r.diagnostics().failed(r.path("logo"))) return;
     if (picture.logo.empty())
         return r.fail(r.place("logo"), "logo",
                       fmt::format("{} is empty; name a .png file, or remove the key", r.path("logo")));
@@ -122,38 +122,38 @@ static void read_logo(ObjectReader& r, Picture& picture) {
             return r.fail(r.place("logo"), "logo",
                           fmt::format("{} = {} has {} × {} pixels; a logo is at most {} times as wide as high and {} "
                                       "times as high as wide",
-                                      r.path("logo"), shown(r.place("logo")), raster.width, raster.height, kWidestLogo,
-                                      kTallestLogo));
+                                      r.path("logo"), as_written(r.place("logo")), raster.width, raster.height,
+                                      kWidestLogo, kTallestLogo));
         picture.logo_digest = output::digest(raster);
         picture.logo_image = std::make_shared<const render::Image>(output::to_image(raster));
     } catch (const output::IoError& error) {
         r.fail(r.place("logo"), "logo",
-               fmt::format("{} = {}: {}", r.path("logo"), shown(r.place("logo")), error.what()));
+               fmt::format("{} = {}: {}", r.path("logo"), as_written(r.place("logo")), error.what()));
     }
 }
 
-void judge_picture(ObjectReader& r, Picture& picture) {
+void check_picture(ObjectReader& r, Picture& picture) {
     read_logo(r, picture);
     if (const double memory = memory_of(picture); memory >= kMuchMemory)  // told before it is drawn
-        r.findings().warning(r.node()->place,
-                             fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
-                                         r.what(), picture.size.width, picture.size.height, memory / 1e9));
+        r.diagnostics().warning(r.node()->place,
+                                fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
+                                            r.object_name(), picture.size.width, picture.size.height, memory / 1e9));
     if (const auto paper = picture.view.paper) {
         const render::Color ink =
             picture.view.colors.ink ? render::rgb(*picture.view.colors.ink) : render::palette(picture.view.theme).ink;
         if (render::contrast(ink, render::rgb(*paper)) < 3)
-            r.findings().warning(
+            r.diagnostics().warning(
                 r.place("background").place,
                 fmt::format("{} leaves the text hardly readable; choose another \"theme\"", r.path("background")));
     }
     if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
-        r.findings().warning(
+        r.diagnostics().warning(
             r.node()->place,
             fmt::format("{} = \"ghosts\" shows none without \"compare\", or more scenes given to `beamcam render`",
                         r.path("comparison")));
     for (std::size_t i = 0; i < picture.compare.size(); ++i)
         if (std::string& label = picture.compare[i].label; label.empty()) label = std::to_string(i + 1);
-    judge_layout(r, picture);
+    check_layout(r, picture);
 }
 
 // ---- films -------------------------------------------------------------------------------------
@@ -179,8 +179,8 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     return {};
 }
 
-void judge_speed(ObjectReader& r, const Speed& speed) {
-    if (r.findings().failed(r.what())) return;
+void check_speed(ObjectReader& r, const Speed& speed) {
+    if (r.diagnostics().failed(r.object_name())) return;
     for (std::size_t i = 1; i < speed.intervals.size(); ++i) {
         const Instant &before = speed.intervals[i - 1].to, &from = speed.intervals[i].from;
         const std::string key = fmt::format("intervals.{}.from", i);
@@ -200,14 +200,14 @@ void judge_speed(ObjectReader& r, const Speed& speed) {
 namespace {
 
 // Instants that a film does not reach are warnings, so that films can be shortened.
-void judge_instants(ObjectReader& r, const FrameSpan& span, const View& view, double end) {
+void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, double end) {
     const auto judge = [&](const std::string& key, const Instant& at, const char* consequence) {
         if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
-            r.findings().warning(r.place(key).place,
-                                 fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: {}",
-                                             r.path(key), at.t, span.from, end, consequence));
+            r.diagnostics().warning(r.place(key).place,
+                                    fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: {}",
+                                                r.path(key), at.t, span.from, end, consequence));
     };
-    const auto readable = [&](const char* key) { return !r.findings().failed(r.path(key)); };
+    const auto readable = [&](const char* key) { return !r.diagnostics().failed(r.path(key)); };
     for (std::size_t i = 0; i < span.events.size() && readable("events"); ++i)
         judge(fmt::format("events.{}.at", i), span.events[i].at, "it is not shown");
     for (std::size_t i = 0; i < span.speed.intervals.size() && readable("speed"); ++i) {
@@ -231,12 +231,12 @@ void judge_instants(ObjectReader& r, const FrameSpan& span, const View& view, do
 
 }  // namespace
 
-void judge_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) {
-    const Findings& findings = r.findings();
-    if (findings.failed(r.path("from")) || findings.failed(r.path("to")) || findings.failed("time")) return;
+void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) {
+    const Diagnostics& diagnostics = r.diagnostics();
+    if (diagnostics.failed(r.path("from")) || diagnostics.failed(r.path("to")) || diagnostics.failed("time")) return;
     if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
-        return r.fail(*r.node(), "to", fmt::format("{}: {}", r.what(), problem));
-    judge_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
+        return r.fail(*r.node(), "to", fmt::format("{}: {}", r.object_name(), problem));
+    check_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
     const sim::Problem& shown = picture.compare.empty() ? r.context().scene.problem : picture.compare.front().problem;
     for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)
         if (const auto& anchor = span.events[i].anchor; anchor && needs_cam(*anchor)) {
@@ -255,7 +255,7 @@ void take_usual_codec(ObjectReader& r, VideoOutput& video) {
 namespace {
 
 // What the codec, the container and the picture ask of each other.
-void judge_format(ObjectReader& r, const VideoOutput& video) {
+void check_format(ObjectReader& r, const VideoOutput& video) {
     const std::string ending = std::filesystem::path(video.file).extension().string();
     const output::Codec codec = video.encoding.codec;
     const auto refuse = [&](const char* key, const std::string& problem) {
@@ -263,7 +263,7 @@ void judge_format(ObjectReader& r, const VideoOutput& video) {
     };
     if (const std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
         return r.fail(r.place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
-                      fmt::format("{}: {}", r.what(), problem));
+                      fmt::format("{}: {}", r.object_name(), problem));
     refuse("size", output::size_problem(codec, video.size.width, video.size.height));
     refuse("fps", output::rate_problem(codec, video.span.fps.value()));
     if (r.has("preset") && codec != output::Codec::h264)
@@ -279,13 +279,13 @@ void judge_format(ObjectReader& r, const VideoOutput& video) {
 
 }  // namespace
 
-void judge_video(ObjectReader& r, VideoOutput& video) {
+void check_video(ObjectReader& r, VideoOutput& video) {
     constexpr FrameRate kGifRate{25, 1};  // what a GIF has by default
     if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
     if (!video.encoding.crf)
         if (const auto quality = output::quality_scale(video.encoding.codec)) video.encoding.crf = quality->usual;
-    judge_span(r, video.span, video);
-    judge_format(r, video);
+    check_span(r, video.span, video);
+    check_format(r, video);
 }
 
 // ---- tables, files -----------------------------------------------------------------------------
@@ -298,25 +298,26 @@ void refuse_many_rows(ObjectReader& r, double rate, double each) {
     if (r.has("rate") && rows > kMostRows)
         r.fail(r.place("rate"), "rate",
                fmt::format("{} = {} would make {:.3g} rows, more than {:.3g}; lower it", r.path("rate"),
-                           shown(r.place("rate")), rows, kMostRows));
+                           as_written(r.place("rate")), rows, kMostRows));
 }
 
 }  // namespace
 
-void judge_table(ObjectReader& r, TrajectoryOutput& table) {
+void check_table(ObjectReader& r, TrajectoryOutput& table) {
     name_after_scene(r, table.file, ".csv");
     refuse_many_rows(r, table.rate, 1);
 }
 
-void judge_shapes(ObjectReader& r, ShapesOutput& shapes) {
+void check_shapes(ObjectReader& r, ShapesOutput& shapes) {
     name_after_scene(r, shapes.file, "-shapes.csv");
     refuse_many_rows(r, shapes.rate, shapes.stations);
 }
 
-void judge_sweep(ObjectReader& r, SweepOutput& sweep) {
+void check_sweep(ObjectReader& r, SweepOutput& sweep) {
     name_after_scene(r, sweep.file, "-sweep.nc");
-    if (!r.context().scene.sweep && !r.findings().any())
-        r.fail(*r.node(), "type", fmt::format("{}: the scene has no \"sweep\", whose points it would hold", r.what()));
+    if (!r.context().scene.sweep && !r.diagnostics().any())
+        r.fail(*r.node(), "type",
+               fmt::format("{}: the scene has no \"sweep\", whose points it would hold", r.object_name()));
 }
 
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {
@@ -343,7 +344,7 @@ void refuse_shared_files(ObjectReader& r, const Node& list, const std::vector<Ou
 
 }  // namespace
 
-void judge_outputs(ObjectReader& r, Scene& scene) {
+void check_outputs(ObjectReader& r, Scene& scene) {
     const Member* list = r.node()->find("outputs");
     if (!list || list->value.items.size() != scene.outputs.size()) return;
     const Source& source = r.context().source;

@@ -13,31 +13,31 @@ namespace beamcam::scenes {
 // More than eight motions neither colours nor eyes tell apart.
 inline constexpr std::size_t kMostCompared = 8;
 
-Form layout_form(std::optional<render::LayoutNode>& layout);
+ValueFormat layout_format(std::optional<render::LayoutNode>& layout);
 
 // Of words on pictures: a formula that cannot be read.
-void judge_words(ObjectReader& r, const char* key, const std::string& text);
+void check_words(ObjectReader& r, const char* key, const std::string& text);
 // Labels and titles of figures are markup.
-void judge_markup(ObjectReader& r, const std::string& key, const std::string& text);
-void judge_physics(ObjectReader& r, const sim::Problem& problem);
+void check_markup(ObjectReader& r, const std::string& key, const std::string& text);
+void check_physics(ObjectReader& r, const sim::Problem& problem);
 // The units in which the scene writes its angle and its speed are those of its pictures.
 void take_written_units(ObjectReader& r, render::Units& units);
-void judge_camera(ObjectReader& r, const View& view);  // `r`: of the camera
-void judge_view(ObjectReader& r, const View& view);    // `r`: of the view
-void judge_picture(ObjectReader& r, Picture& picture);
+void check_camera(ObjectReader& r, const View& view);  // `r`: of the camera
+void check_view(ObjectReader& r, const View& view);    // `r`: of the view
+void check_picture(ObjectReader& r, Picture& picture);
 bool is_of_contact(sim::ChannelKind kind);  // without a cam it has no values
-void judge_layout(ObjectReader& r, const Picture& picture);
-void judge_speed(ObjectReader& r, const Speed& speed);  // `r`: of the speed
-void judge_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
+void check_layout(ObjectReader& r, const Picture& picture);
+void check_speed(ObjectReader& r, const Speed& speed);  // `r`: of the speed
+void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
 void take_usual_codec(ObjectReader& r, VideoOutput& video);
-void judge_video(ObjectReader& r, VideoOutput& video);
-void judge_figure(ObjectReader& r, FigureOutput& figure);
-void judge_series_panel(ObjectReader& r, const SeriesPanel& panel);
-void judge_table(ObjectReader& r, TrajectoryOutput& table);
-void judge_shapes(ObjectReader& r, ShapesOutput& shapes);
-void judge_sweep(ObjectReader& r, SweepOutput& sweep);
+void check_video(ObjectReader& r, VideoOutput& video);
+void check_figure(ObjectReader& r, FigureOutput& figure);
+void check_series_panel(ObjectReader& r, const SeriesPanel& panel);
+void check_table(ObjectReader& r, TrajectoryOutput& table);
+void check_shapes(ObjectReader& r, ShapesOutput& shapes);
+void check_sweep(ObjectReader& r, SweepOutput& sweep);
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
-void judge_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands
+void check_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands
 
 // Why a span has no frames, or too many; empty when it is fine.
 std::string problem_with_span(const FrameSpan& span, double end_time);

@@ -15,7 +15,7 @@ namespace {
 // The mechanics of another scene file, beside this one.
 std::optional<Node> other_scene(ObjectReader& r, const Node& node, const std::string& key) {
     if (node.kind != Node::Kind::string) {
-        r.fail(node, key, fmt::format("{} must be a file name in quotes, not {}", r.path(key), shown(node)));
+        r.fail(node, key, fmt::format("{} must be a file name in quotes, not {}", r.path(key), as_written(node)));
         return std::nullopt;
     }
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / node.text;
@@ -29,29 +29,29 @@ void set_values(ObjectReader& r, const Node& set, const std::string& key, Node& 
     if (set.kind != Node::Kind::object)
         return r.fail(
             set, key,
-            fmt::format("{} must be an object such as {{\"cam.speed\": 5}}, not {}", r.path(key), shown(set)));
+            fmt::format("{} must be an object such as {{\"cam.speed\": 5}}, not {}", r.path(key), as_written(set)));
     std::vector<Message> wrong;
     for (const Member& member : set.members)
         if (is_mechanics(member.key.substr(0, member.key.find('.'))))
             set_value(out, member.key, member.value, wrong);
         else
-            r.findings().error(member.key_place, r.path(key + "." + member.key),
-                               fmt::format("{}: {} is no part of the mechanics; only {} can differ", r.path(key),
-                                           in_quotes(member.key), fmt::join(mechanics_sections(), ", ")));
-    for (const Message& message : wrong) r.findings().error(message.place, r.path(key), message.text);
+            r.diagnostics().error(member.key_place, r.path(key + "." + member.key),
+                                  fmt::format("{}: {} is no part of the mechanics; only {} can differ", r.path(key),
+                                              in_quotes(member.key), fmt::join(mechanics_sections(), ", ")));
+    for (const Message& message : wrong) r.diagnostics().error(message.place, r.path(key), message.text);
 }
 
 // The problem of these mechanics; what is wrong with them is reported at the entry.
 void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
-    Findings found;
+    Diagnostics found;
     ObjectReader sections(found, &root, "");
     sections.problem(problem);
     sections.finish();
     if (found.any()) {
-        for (const Message& message : found.take()) r.findings().error(message.place, r.path("set"), message.text);
+        for (const Message& message : found.take()) r.diagnostics().error(message.place, r.path("set"), message.text);
         return;
     }
-    if (r.findings().failed(r.path("set"))) return;
+    if (r.diagnostics().failed(r.path("set"))) return;
     for (const sim::Finding& finding : sim::validate(problem))
         if (finding.fatal) r.fail(*r.node(), "", fmt::format("{}: {}: {}", r.path(""), finding.path, finding.message));
 }
@@ -62,7 +62,7 @@ void visit(SceneVisitor& v, Compared& motion) {
     std::optional<Node> base;  // of a reader: what `set` changes
     bool readable = true;
     v.text("label", motion.label, "Its name in the picture; its number when left out.");
-    v.check([&motion](ObjectReader& r) { judge_words(r, "label", motion.label); });
+    v.check([&motion](ObjectReader& r) { check_words(r, "label", motion.label); });
     v.check([&](ObjectReader& r) { base = mechanics_of(r.context().root); });
     const auto read_other = [&](ObjectReader& r, const Node& node, const std::string& key) {
         const auto other = other_scene(r, node, key);
@@ -71,17 +71,17 @@ void visit(SceneVisitor& v, Compared& motion) {
         base = *other;
         move_to(*base, node.place);
     };
-    v.form("scene", {"file name", R"({"type": "string"})", read_other, [] { return std::nullopt; }},
-           "Another scene's file, from this one's folder; this scene when left out.");
+    v.value("scene", {"file name", R"({"type": "string"})", read_other, [] { return std::nullopt; }},
+            "Another scene's file, from this one's folder; this scene when left out.");
     const auto read_set = [&](ObjectReader& r, const Node& node, const std::string& key) {
         if (readable) set_values(r, node, key, *base);
     };
-    v.form(sim::derived("set"),
-           {"object of key paths",
-            fmt::format(R"-({{"type": "object", "propertyNames": {{"pattern": "^({})(\\.|$)"}}}})-",
-                        fmt::join(mechanics_sections(), "|")),
-            read_set, [&] { return written(motion.problem); }},
-           "What differs, by key path: {\"cam.speed\": 5, \"beam.model\": \"rigid\"}.");
+    v.value(sim::derived("set"),
+            {"object of key paths",
+             fmt::format(R"-({{"type": "object", "propertyNames": {{"pattern": "^({})(\\.|$)"}}}})-",
+                         fmt::join(mechanics_sections(), "|")),
+             read_set, [&] { return to_tree(motion.problem); }},
+            "What differs, by key path: {\"cam.speed\": 5, \"beam.model\": \"rigid\"}.");
     v.check([&](ObjectReader& r) {
         if (readable) read_problem(r, *base, motion.problem);
     });

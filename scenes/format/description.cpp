@@ -82,24 +82,24 @@ class Describer final : public SceneVisitor {
         d.value = array_node();
         for (const double value : values) d.value->items.push_back(number_node(value));
     }
-    void whole(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override {
+    void integer(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override {
         DescribedKey& d = add_key(key, "whole number", meaning);
         d.range = sim::between(least, most);
         d.schema = node_of(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", least, most));
         if (value) d.value = integer_node(*value);
     }
-    void truth(const Key& key, bool& value, const char* meaning) override {
+    void boolean(const Key& key, bool& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "true or false", meaning);
         d.schema = node_of(R"({"type": "boolean"})");
-        d.value = truth_node(value);
+        d.value = boolean_node(value);
     }
     void text(const Key& key, std::string& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "text", meaning);
         d.schema = node_of(R"({"type": "string"})");
         d.value = text_node(value);
     }
-    void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
-              const char* meaning) override {
+    void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
+                 const char* meaning) override {
         DescribedKey& d = add_key(key, "word", meaning);
         d.words = words;
         d.schema = object_node();
@@ -124,12 +124,12 @@ class Describer final : public SceneVisitor {
             shapes_.push_back(std::move(shape));
         }
     }
-    void form(const Key& key, const Form& form, const char* meaning) override {
+    void value(const Key& key, const ValueFormat& form, const char* meaning) override {
         DescribedKey& d = add_key(key, form.type, meaning);
         d.schema = node_of(form.schema);
         if (!key.derived) d.value = form.write();
     }
-    void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) override {
+    void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char* meaning) override {
         const std::optional<Node> value = form.write();
         Describer inside(meaning);
         fields(inside);
@@ -156,8 +156,8 @@ class Describer final : public SceneVisitor {
             add(d.schema, "maxItems", integer_node(static_cast<long>(list.most)));
         }
     }
-    void restrict(const char* schema) override { common_.restrictions.push_back(node_of(schema)); }
-    void exclude(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
+    void constrain_schema(const char* schema) override { common_.restrictions.push_back(node_of(schema)); }
+    void exclusive(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
 
   private:
     DescribedKey& add_key(const Key& key, std::string type, const char* meaning) {

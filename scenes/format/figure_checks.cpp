@@ -11,7 +11,7 @@
 
 namespace beamcam::scenes {
 
-void judge_markup(ObjectReader& r, const std::string& key, const std::string& text) {
+void check_markup(ObjectReader& r, const std::string& key, const std::string& text) {
     try {
         render::parse_markup(text);
     } catch (const std::invalid_argument& error) {
@@ -35,9 +35,9 @@ void refuse_mixed_units(ObjectReader& r, const char* key, const std::vector<sim:
 }
 
 // The stretch that it shows. Events are where they are: only times can be judged here.
-void judge_stretch(ObjectReader& r, const FigureOutput& figure) {
+void check_stretch(ObjectReader& r, const FigureOutput& figure) {
     const SeriesKeys& series = figure.series;
-    if (series.looks_at_impacts() || series.at) return;
+    if (series.needs_events() || series.at) return;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))
         r.fail(r.place("from"), "from",
@@ -45,10 +45,10 @@ void judge_stretch(ObjectReader& r, const FigureOutput& figure) {
 }
 
 // Keys of the series that this figure does not have; the stretch and the windows of those that have them.
-void judge_other_figure(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
+void check_other_figure(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
     const SeriesKeys& series = figure.series;
     const bool stretch = recipe && recipe->takes_stretch, windows = recipe && recipe->takes_channel;
-    if (stretch) judge_stretch(r, figure);
+    if (stretch) check_stretch(r, figure);
     for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "compare",
                                        "comparison", "residuals", "notes"})
         if (r.has(key) && !(stretch && (key == "from" || key == "to")) && !(windows && key == "channels"))
@@ -57,14 +57,14 @@ void judge_other_figure(ObjectReader& r, const FigureOutput& figure, const Recip
         r.fail(r.place("channels"), "channels",
                fmt::format("{}: a {} shows one channel", r.path("channels"), figure.figure));
     const double length = series.to.value_or(r.context().scene.end_time) - series.from;
-    if (windows && series.window && !series.looks_at_impacts() && !(2 * *series.window <= length))
+    if (windows && series.window && !series.needs_events() && !(2 * *series.window <= length))
         r.fail(r.place("window"), "window",
                fmt::format("{} = {:g} s is more than half of the {:g} s that it moves along", r.path("window"),
                            *series.window, length));
 }
 
 // Keys that belong to some figures alone.
-void judge_own_keys(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
+void check_own_keys(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
     if (r.has("value") && recipe && !recipe->takes_value)
         r.fail(r.place("value"), "value",
                fmt::format("{} belongs to the figures \"bifurcation\", \"map\" and \"basins\"", r.path("value")));
@@ -75,7 +75,7 @@ void judge_own_keys(ObjectReader& r, const FigureOutput& figure, const Recipe* r
             r.fail(r.place(key), key, fmt::format("{} belongs to the figure \"{}\"", r.path(key), owner));
 }
 
-void judge_abscissa(ObjectReader& r, const SeriesKeys& series) {
+void check_abscissa(ObjectReader& r, const SeriesKeys& series) {
     if (series.x_low && series.x_high && !(*series.x_low < *series.x_high))
         r.fail(r.place("x_high"), "x_high", fmt::format("{} must be above \"x_low\"", r.path("x_high")));
     if ((series.against == "turns" || series.against == "phase") && !r.context().scene.problem.cam &&
@@ -101,12 +101,12 @@ void warn_of_undrawn_data(ObjectReader& r, const SeriesKeys& series) {
     for (const Measurement& data : r.context().scene.data)
         if (!data.find(*along) &&
             std::ranges::any_of(series.panels, [&](const SeriesPanel& panel) { return shows(panel, data); }))
-            r.findings().warning(r.place("x").place,
-                                 fmt::format("{} = \"{}\": the data {} do not hold {}; they are not drawn", r.path("x"),
-                                             series.against, in_quotes(data.label), series.against));
+            r.diagnostics().warning(r.place("x").place,
+                                    fmt::format("{} = \"{}\": the data {} do not hold {}; they are not drawn",
+                                                r.path("x"), series.against, in_quotes(data.label), series.against));
 }
 
-void judge_residuals(ObjectReader& r, const SeriesKeys& series) {
+void check_residuals(ObjectReader& r, const SeriesKeys& series) {
     if (!series.residuals) return;
     const auto measured = [&](const SeriesPanel& panel) {
         return std::ranges::any_of(panel.channels, [&](const sim::Channel& channel) {
@@ -117,35 +117,35 @@ void judge_residuals(ObjectReader& r, const SeriesKeys& series) {
     if (series.against != "t" && series.against != "turns")
         r.fail(r.place("residuals"), "residuals",
                fmt::format("{}: differences are drawn against \"t\" or \"turns\" alone", r.path("residuals")));
-    else if (!r.findings().failed("data") && std::ranges::none_of(series.panels, measured))
+    else if (!r.diagnostics().failed("data") && std::ranges::none_of(series.panels, measured))
         r.fail(r.place("residuals"), "residuals",
                fmt::format("{}: the scene has no \"data\" of what the panels show", r.path("residuals")));
 }
 
-void judge_comparison(ObjectReader& r, SeriesKeys& series) {
+void check_comparison(ObjectReader& r, SeriesKeys& series) {
     if (series.apart && series.compare.empty())
         r.fail(r.place("comparison"), "comparison",
                fmt::format("{} = \"panels\" needs motions: \"compare\"", r.path("comparison")));
     for (std::size_t i = 0; i < series.compare.size(); ++i) {
         std::string& label = series.compare[i].label;
         if (label.empty()) label = std::to_string(i + 1);
-        judge_markup(r, "compare", label);
+        check_markup(r, "compare", label);
     }
 }
 
-void judge_series(ObjectReader& r, FigureOutput& figure) {
+void check_series(ObjectReader& r, FigureOutput& figure) {
     SeriesKeys& series = figure.series;
-    if (series.panels.empty() && !r.findings().any())
-        r.fail(
-            *r.node(), "channels",
-            fmt::format("{} shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]", r.what()));
+    if (series.panels.empty() && !r.diagnostics().any())
+        r.fail(*r.node(), "channels",
+               fmt::format("{} shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]",
+                           r.object_name()));
     // Lines of a spectrum differ by orders of magnitude; panels of one's own say their scale.
     if (series.against == "frequency" && r.has("channels"))
         for (SeriesPanel& panel : series.panels) panel.logarithmic = true;
-    judge_stretch(r, figure);
-    judge_abscissa(r, series);
-    judge_residuals(r, series);
-    judge_comparison(r, series);
+    check_stretch(r, figure);
+    check_abscissa(r, series);
+    check_residuals(r, series);
+    check_comparison(r, series);
     warn_of_undrawn_data(r, series);
 }
 
@@ -157,24 +157,24 @@ std::string problem_with_value(std::string_view diagram, const std::string& valu
     return fmt::format("the samples have no column {}{}", in_quotes(value), suggestion_or_list(value, known));
 }
 
-void judge_series_panel(ObjectReader& r, const SeriesPanel& panel) {
+void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     refuse_mixed_units(r, "channels", panel.channels);
     refuse_mixed_units(r, "right", panel.right);
-    judge_markup(r, "title", panel.title);
-    judge_markup(r, "label", panel.label);
+    check_markup(r, "title", panel.title);
+    check_markup(r, "label", panel.label);
     if (panel.low && panel.high && !(*panel.low < *panel.high))
         r.fail(r.place("high"), "high", fmt::format("{} must be above \"low\"", r.path("high")));
     if (panel.logarithmic && panel.low && !(*panel.low > 0))
         r.fail(r.place("low"), "low", fmt::format("{}: a logarithmic axis begins above 0", r.path("low")));
 }
 
-void judge_figure(ObjectReader& r, FigureOutput& figure) {
+void check_figure(ObjectReader& r, FigureOutput& figure) {
     if (figure.file.empty()) figure.file = figure.figure + ".pdf";
     const Recipe* recipe = recipe_named(figure.figure);
-    if (figure.figure != "series") judge_other_figure(r, figure, recipe);
-    judge_own_keys(r, figure, recipe);
-    if (figure.figure == "series") judge_series(r, figure);
-    if (!r.has("figure") || r.findings().any()) return;  // judged when the physics is known
+    if (figure.figure != "series") check_other_figure(r, figure, recipe);
+    check_own_keys(r, figure, recipe);
+    if (figure.figure == "series") check_series(r, figure);
+    if (!r.has("figure") || r.diagnostics().any()) return;  // judged when the physics is known
     const Scene& scene = r.context().scene;
     if (const auto refusal = refusal_of(*recipe, scene))
         return r.fail(r.place("figure"), "figure",

@@ -25,7 +25,7 @@ void visit(SceneVisitor& v, Output& output) { v.alternatives(types_of(output)); 
 void visit_outputs(SceneVisitor& v, Scene& scene) {
     v.list("outputs", SceneVisitor::items_of(scene.outputs),
            "The files that `beamcam run` makes. None: one film named after the scene.");
-    v.check([&scene](ObjectReader& r) { judge_outputs(r, scene); });
+    v.check([&scene](ObjectReader& r) { check_outputs(r, scene); });
 }
 
 // ---- the scene ---------------------------------------------------------------------------------
@@ -35,7 +35,7 @@ void visit(SceneVisitor& v, Scene& scene) {
     v.text(sim::written_if(false, "$schema"), schema, "Where an editor finds the schema.");
     v.text(sim::written_if(!scene.title.empty(), "title"), scene.title,
            "Shown on pictures; mathematics stands between dollars: $\\omega_1 = \\frac{a}{b}$, $\\dot\\theta$.");
-    v.check([&scene](ObjectReader& r) { judge_words(r, "title", scene.title); });
+    v.check([&scene](ObjectReader& r) { check_words(r, "title", scene.title); });
     v.problem(scene.problem);
     // A step of a millisecond is 16 digits less than the latest end.
     const auto time = [&scene](sim::Visitor& inside) {
@@ -55,7 +55,7 @@ void visit(SceneVisitor& v, Scene& scene) {
                      "Of rotation; as cam.speed is written when left out.");
         },
         "In which units films tell angles and speeds.", nullptr);
-    v.check([&scene](ObjectReader& r) { judge_physics(r, scene.problem); });
+    v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });
     Sweep sweep = scene.sweep.value_or(Sweep{});
     bool swept = scene.sweep.has_value();
     v.object(

@@ -23,7 +23,7 @@ class SceneVisitor;
 using sim::Key;
 
 // A value that scenes spell in a way of its own, such as "1280x720" or "impact:2".
-struct Form {
+struct ValueFormat {
     const char* type;    // for people: "[width, height]"
     std::string schema;  // of JSON
     std::function<void(ObjectReader& reader, const Node& node, const std::string& key)> read;
@@ -36,20 +36,21 @@ struct List {
     std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
     const char* of = "objects";  // for messages: "2 to 8 motions"
     const char* example = nullptr;
-    std::optional<Form> form = {};  // of items that are no objects
-    const char* nested = nullptr;   // the items have the shape of what contains the list; its name in the schema
+    std::optional<ValueFormat> form = {};  // of items that are no objects
+    const char* nested = nullptr;          // the items have the shape of what contains the list; its name in the schema
 };
 
 class SceneVisitor : public sim::Visitor {
   public:
     using Fields = std::function<void(Visitor&)>;
 
-    virtual void form(const Key& key, const Form& form, const char* meaning) = 0;
-    virtual void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) = 0;  // or object
+    virtual void value(const Key& key, const ValueFormat& form, const char* meaning) = 0;
+    virtual void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields,
+                                 const char* meaning) = 0;  // or object
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
-    virtual void exclude(const char* one, const char* other) = 0;
+    virtual void exclusive(const char* one, const char* other) = 0;
     // JSON Schema of what the keys visited so far ask of each other; `check` judges it.
-    virtual void restrict(const char*) {}
+    virtual void constrain_schema(const char*) {}
     virtual void problem(sim::Problem& problem) { visit(*this, problem); }
     // What the keys visited so far ask of each other and of the scene; only a reader judges it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}
@@ -62,7 +63,7 @@ class SceneVisitor : public sim::Visitor {
     void choice(const Key& key, std::string& value, const std::vector<std::string>& words, const char* meaning) {
         auto chosen = static_cast<std::size_t>(std::ranges::find(words, value) - words.begin());
         if (chosen == words.size()) chosen = 0;
-        word(key, words, chosen, meaning);
+        keyword(key, words, chosen, meaning);
         value = words[chosen];
     }
 
@@ -89,8 +90,8 @@ void visit(SceneVisitor& v, Compared& motion);
 void visit(SceneVisitor& v, Measurement& data);
 void visit(SceneVisitor& v, Sweep& sweep);
 
-Node written(const Scene& scene);  // every key, defaults too
-Node written(const sim::Problem& problem);
-Node written(const Output& output);
+Node to_tree(const Scene& scene);  // every key, defaults too
+Node to_tree(const sim::Problem& problem);
+Node to_tree(const Output& output);
 
 }  // namespace beamcam::scenes

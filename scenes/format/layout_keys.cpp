@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/format/value_formats.hpp"
 
 namespace beamcam::scenes {
 
@@ -51,12 +51,12 @@ void read_panel(ObjectReader& r, const Node& node, const std::string& key, Panel
         out.channels = {*channel};
     } else {
         r.fail(node, key,
-               fmt::format("{} = {} is no panel{}", r.path(key), shown(node),
+               fmt::format("{} = {} is no panel{}", r.path(key), as_written(node),
                            is_text ? suggestion_or_list(node.text, panel_words(problem)) : ""));
     }
 }
 
-Form panel_form(PanelSpec& panel) {
+ValueFormat panel_format(PanelSpec& panel) {
     return {"panel or channel", R"({"anyOf": [{"const": "strip"}, {"$ref": "#/$defs/panelName"}]})",
             [&panel](ObjectReader& r, const Node& node, const std::string& key) { read_panel(r, node, key, panel); },
             [&panel] { return text_node(type_of(panel.kind).name); }};
@@ -67,12 +67,12 @@ void read_strip_channels(ObjectReader& r, const Node& node, const std::string& k
     if (node.kind != Node::Kind::array || node.items.empty())
         return r.fail(
             node, key,
-            fmt::format("{} must be an array of names such as [\"theta\"], not {}", r.path(key), shown(node)));
+            fmt::format("{} must be an array of names such as [\"theta\"], not {}", r.path(key), as_written(node)));
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         const Node& item = node.items[i];
         const std::string at = fmt::format("{}.{}", key, i);
         const auto fail = [&](const std::string& why) {
-            r.fail(item, at, fmt::format("{} = {} {}", r.path(at), shown(item), why));
+            r.fail(item, at, fmt::format("{} = {} {}", r.path(at), as_written(item), why));
         };
         const bool is_text = item.kind == Node::Kind::string;
         const auto channel = is_text ? known_channel(problem, item.text) : std::nullopt;
@@ -94,8 +94,8 @@ void read_strip_channels(ObjectReader& r, const Node& node, const std::string& k
 
 bool names_a_strip(const ObjectReader& r) { return r.place("panel").text == type_of(PanelKind::strip).name; }
 
-Form strip_channels_form(PanelSpec& panel) {
-    Form form = channels_form(panel.channels);
+ValueFormat strip_channels_format(PanelSpec& panel) {
+    ValueFormat form = channels_format(panel.channels);
     form.read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
         if (names_a_strip(r))
             read_strip_channels(r, node, key, panel);
@@ -105,7 +105,7 @@ Form strip_channels_form(PanelSpec& panel) {
     return form;
 }
 
-Form window_form(PanelSpec& panel) {
+ValueFormat window_format(PanelSpec& panel) {
     const auto read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
         double window = 0;
         if (!type_of(panel.kind).takes_window)
@@ -137,39 +137,40 @@ std::string names_of(const char* quotes, bool (*holds)(const PanelType&)) {
 }
 
 void visit_panel(SceneVisitor& v, PanelSpec& panel) {
-    v.form(sim::required("panel", "\"mechanism\""), panel_form(panel),
-           (names_of("", [](const PanelType&) { return true; }) + ", or a channel.").c_str());
-    v.form("channels", strip_channels_form(panel), "Of a strip: curves of one unit.");
+    v.value(sim::required("panel", "\"mechanism\""), panel_format(panel),
+            (names_of("", [](const PanelType&) { return true; }) + ", or a channel.").c_str());
+    v.value("channels", strip_channels_format(panel), "Of a strip: curves of one unit.");
     v.check([&panel](ObjectReader& r) {
         if (panel.kind == PanelKind::strip && r.has("panel") && !r.has("channels") && panel.channels.empty())
             r.fail(*r.node(), "channels",
-                   fmt::format("{} is a strip and needs \"channels\", for example [\"theta\"]", r.what()));
+                   fmt::format("{} is a strip and needs \"channels\", for example [\"theta\"]", r.object_name()));
     });
-    v.form("window", window_form(panel),
-           "Of a strip or the energies: so much time, all of it when left out; or, of a strip, one \"collision\" after "
-           "the other.");
+    v.value(
+        "window", window_format(panel),
+        "Of a strip or the energies: so much time, all of it when left out; or, of a strip, one \"collision\" after "
+        "the other.");
     const std::string timeless = names_of("\"", [](const PanelType&t) { return !t.takes_window; }),
                       steady = names_of("\"", [](const PanelType&t) { return !t.takes_collisions; });
-    v.restrict((R"({"allOf": [
+    v.constrain_schema((R"({"allOf": [
         {"if": {"properties": {"panel": {"const": "strip"}}},
          "then": {"required": ["channels"]}, "else": {"properties": {"channels": false}}},
         {"if": {"properties": {"panel": {"enum": [)" +
-                timeless + R"(]}}},
+                        timeless + R"(]}}},
          "then": {"properties": {"window": false}}},
         {"if": {"properties": {"panel": {"enum": [)" +
-                steady + R"(]}}},
+                        steady + R"(]}}},
          "then": {"properties": {"window": {"not": {"const": "collision"}}}}}]})")
-                   .c_str());
+                           .c_str());
     int motion = panel.member + 1;
-    v.whole(sim::written_if(motion > 1, "motion"), motion, 1, static_cast<int>(kMostCompared),
-            "Which of the compared motions, counted from 1.");
+    v.integer(sim::written_if(motion > 1, "motion"), motion, 1, static_cast<int>(kMostCompared),
+              "Which of the compared motions, counted from 1.");
     panel.member = motion - 1;
 }
 
 // ---- rows and columns --------------------------------------------------------------------------
 
 // An item that is a name alone.
-Form named_panel_form(std::vector<LayoutNode>& children) {
+ValueFormat named_panel_format(std::vector<LayoutNode>& children) {
     const auto read = [&children](ObjectReader& r, const Node& node, const std::string& key) {
         LayoutNode& child = children.emplace_back();
         if (node.kind == Node::Kind::string && node.text == type_of(PanelKind::strip).name)
@@ -177,8 +178,9 @@ Form named_panel_form(std::vector<LayoutNode>& children) {
                    fmt::format("{} = {} needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}",
                                r.path(key), in_quotes(node.text)));
         else if (node.kind != Node::Kind::string)
-            r.fail(node, key,
-                   fmt::format("{} must be a panel's name or an object {{ … }}, not {}", r.path(key), shown(node)));
+            r.fail(
+                node, key,
+                fmt::format("{} must be a panel's name or an object {{ … }}, not {}", r.path(key), as_written(node)));
         else
             read_panel(r, node, key, child.panel);
     };
@@ -188,7 +190,7 @@ Form named_panel_form(std::vector<LayoutNode>& children) {
 void visit_children(SceneVisitor& v, LayoutNode& node, const char* key, const char* meaning) {
     List children = SceneVisitor::items_of(node.children);
     children.least = 1, children.most = kMostPanels, children.of = "panels", children.nested = "layoutNode";
-    children.form = named_panel_form(node.children);
+    children.form = named_panel_format(node.children);
     v.list(sim::required(key, "[\"theta\", \"gap\"]"), children, meaning);
 }
 
@@ -213,17 +215,17 @@ void visit(SceneVisitor& v, LayoutNode& node) {
                           [&](SceneVisitor& s) { visit_children(s, node, "rows", "Panels, from the top."); }),
                     shape(Kind::columns, "Panels side by side.",
                           [&](SceneVisitor& s) { visit_children(s, node, "columns", "Panels, from the left."); })});
-    v.exclude("rows", "columns");
+    v.exclusive("rows", "columns");
     v.number("share", node.share, sim::dimension::kNone, {0, 1000, true, false, "is outside 0 … 1000"},
              "Share of the room, against its neighbours.");
 }
 
-Form layout_form(std::optional<LayoutNode>& layout) {
+ValueFormat layout_format(std::optional<LayoutNode>& layout) {
     const auto read = [&layout](ObjectReader& r, const Node& node, const std::string& key) {
         layout.reset();
         if (node.kind == Node::Kind::string && node.text == "auto") return;
         std::vector<LayoutNode> one;
-        named_panel_form(one).read(r, node, key);
+        named_panel_format(one).read(r, node, key);
         layout = one.front();
     };
     const auto write = [&layout]() -> std::optional<Node> {
@@ -261,7 +263,7 @@ std::string without_cam(const sim::Problem& own, const Picture& picture, const P
 
 }  // namespace
 
-void judge_layout(ObjectReader& r, const Picture& picture) {
+void check_layout(ObjectReader& r, const Picture& picture) {
     if (!picture.layout || !r.has("layout")) return;
     const auto refuse = [&](const std::string& problem) {
         r.fail(r.place("layout"), "layout", r.path("layout") + problem);
@@ -281,7 +283,7 @@ void judge_layout(ObjectReader& r, const Picture& picture) {
                 fmt::format(": \"window\": \"collision\" is of one motion's collisions, and the picture compares {}; "
                             "give a time such as \"50 ms\"",
                             picture.compare.size()));
-    if (r.findings().failed("cam")) return;
+    if (r.diagnostics().failed("cam")) return;
     for (const PanelSpec& panel : panels)
         if (const std::string what = without_cam(r.context().scene.problem, picture, panel); !what.empty())
             refuse(

@@ -28,12 +28,12 @@ const std::vector<std::pair<std::string, sim::Channel>>& measurable() {
     return kAll;
 }
 
-Form column_units_form(std::vector<std::pair<std::string, std::string>>& units) {
+ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>& units) {
     const auto read = [&units](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::object)
-            return r.fail(
-                node, key,
-                fmt::format("{} must be an object such as {{\"angle\": \"deg\"}}, not {}", r.path(key), shown(node)));
+            return r.fail(node, key,
+                          fmt::format("{} must be an object such as {{\"angle\": \"deg\"}}, not {}", r.path(key),
+                                      as_written(node)));
         for (const Member& member : node.members)
             if (member.value.kind == Node::Kind::string)
                 units.emplace_back(member.key, member.value.text);
@@ -67,7 +67,7 @@ class MeasurementReader {
             return fail("file", error.what());
         }
         if (m_.label.empty()) m_.label = render::escaped(path.stem().string());
-        judge_markup(r_, "label", m_.label);
+        check_markup(r_, "label", m_.label);
         if (m_.columns.empty())
             for (const auto& [known, channel] : measurable())
                 if (table.find(known)) m_.columns.emplace_back(channel, known);
@@ -80,17 +80,17 @@ class MeasurementReader {
                                                  suggestion_or_list(column, table.names)));
         m_.times = column(table, "t", m_.time_column, "s");
         for (double& t : m_.times) t += m_.offset;
-        judge_channels();
+        check_channels();
         for (const auto& [channel, from] : m_.columns)
             m_.values.push_back(column(table, name(channel), from, unit(channel, r_.context().scene.problem)));
-        judge_values();
-        judge_times();
+        check_values();
+        check_times();
     }
 
   private:
     void fail(const std::string& key, const std::string& why) {
         failed_ = true;
-        r_.fail(r_.place(key), key, fmt::format("{} = {}: {}", r_.path(key), shown(r_.place(key)), why));
+        r_.fail(r_.place(key), key, fmt::format("{} = {}: {}", r_.path(key), as_written(r_.place(key)), why));
     }
 
     std::vector<double> column(const output::NamedTable& table, const std::string& key, const std::string& from,
@@ -114,21 +114,21 @@ class MeasurementReader {
         return out;
     }
 
-    void judge_channels() {
+    void check_channels() {
         for (const auto& [channel, from] : m_.columns)
             if (is_of_contact(channel.kind) && !r_.context().scene.problem.cam)
                 fail(r_.has(name(channel)) ? name(channel) : "file",
                      fmt::format("{} is of the contact, and the scene has no cam", name(channel)));
     }
 
-    void judge_values() {
+    void check_values() {
         if (m_.times.empty() && !failed_) fail("file", "there are no rows below the names of the columns");
         for (std::size_t i = 0; i < m_.values.size() && !failed_; ++i)
             if (std::ranges::none_of(m_.values[i], [](double value) { return std::isfinite(value); }))
                 fail("file", fmt::format("the column {} has no number", in_quotes(m_.columns[i].second)));
     }
 
-    void judge_times() {
+    void check_times() {
         if (failed_) return;
         for (std::size_t i = 0; i < m_.times.size(); ++i)
             if (!std::isfinite(m_.times[i]) || (i > 0 && !(m_.times[i] > m_.times[i - 1])))
@@ -155,8 +155,8 @@ void visit(SceneVisitor& v, Measurement& m) {
     v.text("label", m.label, "Its name in pictures; the file's name when left out.");
     v.text("t", m.time_column, "The column with the time.");
     v.number("offset", m.offset, sim::dimension::kTime, sim::kAny, "The motion's time at the file's zero.");
-    v.form("units", column_units_form(m.units),
-           "Units of columns, by their names: {\"angle\": \"deg\", \"time\": \"ms\"}; SI units when left out.");
+    v.value("units", column_units_format(m.units),
+            "Units of columns, by their names: {\"angle\": \"deg\", \"time\": \"ms\"}; SI units when left out.");
     v.choice("draw", m.drawn, {{Drawn::automatic, "auto"}, {Drawn::points, "points"}, {Drawn::line, "line"}},
              "How: points where they are few, or a line.");
     for (const auto& [known, channel] : measurable()) {
@@ -169,7 +169,7 @@ void visit(SceneVisitor& v, Measurement& m) {
             m.columns.emplace_back(channel, column);
     }
     v.check([&m](ObjectReader& r) {
-        if (!r.findings().failed(r.path("file")) && r.has("file")) MeasurementReader(r, m).read();
+        if (!r.diagnostics().failed(r.path("file")) && r.has("file")) MeasurementReader(r, m).read();
     });
 }
 

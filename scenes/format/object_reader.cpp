@@ -14,7 +14,7 @@ namespace beamcam::scenes {
 
 using sim::Alternative, sim::Range, sim::Unit;
 
-std::string shown(const Node& node) {
+std::string as_written(const Node& node) {
     switch (node.kind) {
         case Node::Kind::null:
             return "null";
@@ -49,11 +49,11 @@ std::string without_indices(std::string_view path) {
 
 }  // namespace
 
-ObjectReader::ObjectReader(Findings& findings, const Node* object, std::string path, std::string root,
+ObjectReader::ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root,
                            const SceneContext* context)
-    : findings_(findings), object_(object), path_(std::move(path)), root_(std::move(root)), context_(context) {
+    : diagnostics_(diagnostics), object_(object), path_(std::move(path)), root_(std::move(root)), context_(context) {
     if (object_ && object_->kind != Node::Kind::object) {
-        fail(*object_, "", fmt::format("{} must be an object {{ … }}, not {}", what(), shown(*object_)));
+        fail(*object_, "", fmt::format("{} must be an object {{ … }}, not {}", object_name(), as_written(*object_)));
         object_ = nullptr;
     }
 }
@@ -80,7 +80,7 @@ const Node& ObjectReader::place(std::string_view key) const {
 }
 
 ObjectReader ObjectReader::inside(const Node& node, std::string_view key) const {
-    ObjectReader reader(findings_, &node, path(key), root_, context_);
+    ObjectReader reader(diagnostics_, &node, path(key), root_, context_);
     reader.ranges_ = ranges_;
     return reader;
 }
@@ -89,13 +89,13 @@ const Node* ObjectReader::take(const Key& key) {
     known_.emplace_back(key.name);
     const Member* member = object_ ? object_->find(key.name) : nullptr;
     if (!member && object_ && key.example)
-        findings_.error(object_->place, path(key.name),
-                        fmt::format("{} needs \"{}\", for example {}", what(), key.name, key.example));
+        diagnostics_.error(object_->place, path(key.name),
+                           fmt::format("{} needs \"{}\", for example {}", object_name(), key.name, key.example));
     return member ? &member->value : nullptr;
 }
 
 void ObjectReader::fail(const Node& node, std::string_view key, std::string text) {
-    findings_.error(node.place, path(key), std::move(text));
+    diagnostics_.error(node.place, path(key), std::move(text));
 }
 
 // ---- the kinds of values -----------------------------------------------------------------------
@@ -109,7 +109,7 @@ bool ObjectReader::number_value(const Node& node, std::string_view key, const si
     if (node.kind != Node::Kind::string) {
         fail(node, key,
              fmt::format("{} must be a number{}, not {}", path(key),
-                         unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit), shown(node)));
+                         unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit), as_written(node)));
         return false;
     }
     const QuantityText read = parse_quantity(node.text);
@@ -134,7 +134,7 @@ bool ObjectReader::ranged_value(const Node& node, std::string_view key, const Un
     if (ranges_ && !range.contains(value)) {
         fail(node, key,
              fmt::format(
-                 "{} = {} {}", path(key), shown(node),
+                 "{} = {} {}", path(key), as_written(node),
                  range.complaint ? range.complaint : fmt::format("is outside {:g} … {:g}", range.least, range.most)));
         return false;
     }
@@ -142,23 +142,24 @@ bool ObjectReader::ranged_value(const Node& node, std::string_view key, const Un
     return true;
 }
 
-bool ObjectReader::whole_value(const Node& node, std::string_view key, int least, int most, int& out) {
+bool ObjectReader::integer_value(const Node& node, std::string_view key, int least, int most, int& out) {
     if (node.kind != Node::Kind::number || node.number != std::round(node.number)) {
-        fail(node, key, fmt::format("{} must be a whole number, not {}", path(key), shown(node)));
+        fail(node, key, fmt::format("{} must be a whole number, not {}", path(key), as_written(node)));
         return false;
     }
     if (node.number < least || node.number > most) {
-        fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), shown(node), least, most));
+        fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), as_written(node), least, most));
         return false;
     }
     out = static_cast<int>(node.number);
     return true;
 }
 
-bool ObjectReader::word_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
-                              std::size_t& chosen) {
+bool ObjectReader::keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
+                                 std::size_t& chosen) {
     if (node.kind != Node::Kind::string) {
-        fail(node, key, fmt::format("{} must be one of {}, not {}", path(key), fmt::join(words, ", "), shown(node)));
+        fail(node, key,
+             fmt::format("{} must be one of {}, not {}", path(key), fmt::join(words, ", "), as_written(node)));
         return false;
     }
     const auto found = std::ranges::find(words, node.text);
@@ -177,7 +178,7 @@ bool ObjectReader::word_value(const Node& node, std::string_view key, const std:
 bool ObjectReader::numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
                                  std::vector<double>& out) {
     if (node.kind != Node::Kind::array) {
-        fail(node, key, fmt::format("{} must be an array [ … ], not {}", path(key), shown(node)));
+        fail(node, key, fmt::format("{} must be an array [ … ], not {}", path(key), as_written(node)));
         return false;
     }
     std::vector<double> values(node.items.size());
@@ -215,7 +216,7 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
     else if (unit.plain && node->kind != Node::Kind::number)
         fail(*node, key.name,
              fmt::format("{} must be {}a number, not {}", path(key.name), word ? fmt::format("\"{}\" or ", word) : "",
-                         shown(*node)));
+                         as_written(*node)));
     else if (ranged_value(*node, key.name, unit, range, read))
         value = read;
 }
@@ -256,18 +257,18 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     values = std::move(read);
 }
 
-void ObjectReader::whole(const Key& key, std::optional<int>& value, int least, int most, const char*) {
+void ObjectReader::integer(const Key& key, std::optional<int>& value, int least, int most, const char*) {
     int read = 0;
-    if (const Node* node = take(key); node && whole_value(*node, key.name, least, most, read)) value = read;
+    if (const Node* node = take(key); node && integer_value(*node, key.name, least, most, read)) value = read;
 }
 
-void ObjectReader::truth(const Key& key, bool& value, const char*) {
+void ObjectReader::boolean(const Key& key, bool& value, const char*) {
     const Node* node = take(key);
     if (!node) return;
     if (node->kind == Node::Kind::boolean)
         value = node->boolean;
     else
-        fail(*node, key.name, fmt::format("{} must be true or false, not {}", path(key.name), shown(*node)));
+        fail(*node, key.name, fmt::format("{} must be true or false, not {}", path(key.name), as_written(*node)));
 }
 
 void ObjectReader::text(const Key& key, std::string& value, const char*) {
@@ -276,11 +277,11 @@ void ObjectReader::text(const Key& key, std::string& value, const char*) {
     if (node->kind == Node::Kind::string)
         value = node->text;
     else
-        fail(*node, key.name, fmt::format("{} must be a text in quotes, not {}", path(key.name), shown(*node)));
+        fail(*node, key.name, fmt::format("{} must be a text in quotes, not {}", path(key.name), as_written(*node)));
 }
 
-void ObjectReader::word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) {
-    if (const Node* node = take(key)) word_value(*node, key.name, words, chosen);
+void ObjectReader::keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) {
+    if (const Node* node = take(key)) keyword_value(*node, key.name, words, chosen);
 }
 
 void ObjectReader::object(const Key& key, const Fields& fields, const char*, bool* present) {
@@ -293,7 +294,7 @@ void ObjectReader::object(const Key& key, const Fields& fields, const char*, boo
     if (present && node->kind != Node::Kind::object)
         return fail(*node, key.name,
                     fmt::format("{} must be an object {{ … }}, or null for no {}, not {}", path(key.name), key.name,
-                                shown(*node)));
+                                as_written(*node)));
     if (present) *present = true;
     ObjectReader reader = inside(*node, key.name);
     fields(reader);
@@ -301,7 +302,7 @@ void ObjectReader::object(const Key& key, const Fields& fields, const char*, boo
 }
 
 std::vector<std::string> ObjectReader::keys_of(const Alternative& alternative) const {
-    ObjectReader nothing(findings_, nullptr, path_, root_, context_);
+    ObjectReader nothing(diagnostics_, nullptr, path_, root_, context_);
     alternative.fields(nothing);
     return nothing.known_;
 }
@@ -319,7 +320,7 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all) {
         const std::string example = fmt::format("\"{}\"", first);
         const Node* node = take(sim::required(tag, example.c_str()));
         std::size_t chosen = 0;
-        if (!node || !word_value(*node, tag, words, chosen)) {
+        if (!node || !keyword_value(*node, tag, words, chosen)) {
             if (depth == 0 && all.size() > 1) unclear_ = true;
             for (const Alternative* each : left)
                 for (std::string& key : keys_of(*each)) known_.push_back(std::move(key));
@@ -334,11 +335,11 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all) {
     (named == left.rend() ? left.front() : *named)->fields(*this);
 }
 
-void ObjectReader::form(const Key& key, const Form& form, const char*) {
+void ObjectReader::value(const Key& key, const ValueFormat& form, const char*) {
     if (const Node* node = take(key)) form.read(*this, *node, key.name);
 }
 
-void ObjectReader::either(const Key& key, const Form& form, const Fields& fields, const char*) {
+void ObjectReader::value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char*) {
     const Node* node = take(key);
     if (!node) return;
     if (node->kind != Node::Kind::object) return form.read(*this, *node, key.name);
@@ -357,7 +358,7 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
                                 list.least > 0     ? fmt::format("of {} to {} {}", list.least, list.most, list.of)
                                 : size > list.most ? fmt::format("of at most {} {}", list.most, list.of)
                                                    : "[ … ]",
-                                shown(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
+                                as_written(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
     for (std::size_t i = 0; i < node->items.size(); ++i) {
         const Node& item = node->items[i];
         const std::string at = fmt::format("{}.{}", key.name, i);
@@ -371,11 +372,12 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
     }
 }
 
-void ObjectReader::exclude(const char* one, const char* other) {
+void ObjectReader::exclusive(const char* one, const char* other) {
     for (const char* key : {one, other})
         if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
     if (has(one) && has(other))
-        fail(place(other), other, fmt::format("{} has both \"{}\" and \"{}\"; keep one of them", what(), one, other));
+        fail(place(other), other,
+             fmt::format("{} has both \"{}\" and \"{}\"; keep one of them", object_name(), one, other));
 }
 
 void ObjectReader::problem(sim::Problem& problem) {
@@ -394,11 +396,12 @@ void ObjectReader::finish(const Elsewhere& elsewhere) {
     for (const Member& member : object_->members) {
         if (member.key.starts_with("x-") || std::ranges::find(known_, member.key) != known_.end()) continue;
         const std::string where = elsewhere ? elsewhere(member.key) : "";
-        findings_.error(member.key_place, path(member.key),
-                        !where.empty()
-                            ? fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), what(), where)
-                            : fmt::format("unknown key {} in {}{}", in_quotes(member.key), what(),
-                                          findings_.many() ? "" : suggestion_or_list(member.key, known_)));
+        diagnostics_.error(
+            member.key_place, path(member.key),
+            !where.empty()
+                ? fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), object_name(), where)
+                : fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(),
+                              diagnostics_.many() ? "" : suggestion_or_list(member.key, known_)));
     }
 }
 

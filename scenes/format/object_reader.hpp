@@ -19,10 +19,10 @@
 namespace beamcam::scenes {
 
 // A value as the user wrote it.
-std::string shown(const Node& node);
+std::string as_written(const Node& node);
 
 // What went wrong so far, and where.
-class Findings {
+class Diagnostics {
   public:
     void error(const Place& place, const std::string& path, std::string text) {
         messages_.push_back({place, std::move(text), true});
@@ -58,14 +58,14 @@ class ObjectReader final : public SceneVisitor {
   public:
     using Elsewhere = std::function<std::string(const std::string& key)>;
 
-    ObjectReader(Findings& findings, const Node* object, std::string path, std::string root = "the scene",
+    ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root = "the scene",
                  const SceneContext* context = nullptr);
 
     std::string path(std::string_view key) const;
-    std::string what() const { return path_.empty() ? root_ : path_; }
+    std::string object_name() const { return path_.empty() ? root_ : path_; }
     const Node* node() const { return object_; }
     const SceneContext& context() const { return *context_; }
-    Findings& findings() { return findings_; }
+    Diagnostics& diagnostics() { return diagnostics_; }
     bool has(std::string_view key) const { return object_ && object_->find(key); }
     // The value of a key, or of one inside it, "events.0.at"; where there is none, the object nearest to it.
     const Node& place(std::string_view key) const;
@@ -78,27 +78,29 @@ class ObjectReader final : public SceneVisitor {
     bool number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out);
     bool ranged_value(const Node& node, std::string_view key, const sim::Unit& unit, const sim::Range& range,
                       double& out);
-    bool whole_value(const Node& node, std::string_view key, int least, int most, int& out);
-    bool word_value(const Node& node, std::string_view key, const std::vector<std::string>& words, std::size_t& chosen);
+    bool integer_value(const Node& node, std::string_view key, int least, int most, int& out);
+    bool keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
+                       std::size_t& chosen);
 
     // ---- visited keys ----
-    using SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::whole;
+    using SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;
     void number(const Key& key, double& value, const sim::Unit& unit, const sim::Range& range,
                 const char* meaning) override;
     void number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
                 const char* meaning, const char* word = nullptr) override;
     void numbers(const Key& key, std::vector<double>& values, const sim::Unit& unit, const sim::Range& range,
                  const sim::Length& length, const char* meaning) override;
-    void whole(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override;
-    void truth(const Key& key, bool& value, const char* meaning) override;
+    void integer(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override;
+    void boolean(const Key& key, bool& value, const char* meaning) override;
     void text(const Key& key, std::string& value, const char* meaning) override;
-    void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char* meaning) override;
+    void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
+                 const char* meaning) override;
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override;
     void alternatives(const std::vector<sim::Alternative>& all) override;
-    void form(const Key& key, const Form& form, const char* meaning) override;
-    void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) override;
+    void value(const Key& key, const ValueFormat& form, const char* meaning) override;
+    void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char* meaning) override;
     void list(const Key& key, const List& list, const char* meaning) override;
-    void exclude(const char* one, const char* other) override;
+    void exclusive(const char* one, const char* other) override;
     void problem(sim::Problem& problem) override;  // its ranges are judged by sim::validate
     void check(const std::function<void(ObjectReader&)>& judge) override;
 
@@ -114,7 +116,7 @@ class ObjectReader final : public SceneVisitor {
     std::string wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
                                 const sim::Dimension& got) const;
 
-    Findings& findings_;
+    Diagnostics& diagnostics_;
     const Node* object_;
     std::string path_, root_;
     const SceneContext* context_;

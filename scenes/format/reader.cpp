@@ -20,9 +20,9 @@ Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const
                 std::vector<Message>& messages) {
     Scene scene;
     scene.name = scene_name;
-    Findings findings;
+    Diagnostics diagnostics;
     const SceneContext context{scene, root, source, files};
-    ObjectReader reader(findings, &root, "", "the scene", &context);
+    ObjectReader reader(diagnostics, &root, "", "the scene", &context);
     visit(reader, scene);
     reader.finish([](const std::string& key) {
         static constexpr std::string_view kOfOutputs[] = {
@@ -32,7 +32,7 @@ Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const
                    ? std::string()
                    : fmt::format("into an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
     });
-    for (Message& message : findings.take()) messages.push_back(std::move(message));
+    for (Message& message : diagnostics.take()) messages.push_back(std::move(message));
     return scene;
 }
 
@@ -64,7 +64,7 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
-    Findings found;
+    Diagnostics found;
     read_outputs({scene, parsed.root, resolved, files}, found, list, scene);
     const bool fine = !found.any();
     messages = found.take();
@@ -76,10 +76,10 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     return fine && !scene.outputs.empty();
 }
 
-void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene) {
+void read_outputs(const SceneContext& context, Diagnostics& diagnostics, const Node& outputs, Scene& scene) {
     Node alone = object_node();
     add(alone, "outputs", outputs);
-    ObjectReader reader(findings, &alone, "", "the scene", &context);
+    ObjectReader reader(diagnostics, &alone, "", "the scene", &context);
     visit_outputs(reader, scene);
 }
 

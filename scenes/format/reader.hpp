@@ -42,9 +42,9 @@ Source load_source(const std::string& path);
 Source load_named_source(const std::string& path);
 
 // The outputs of a scene that is read already: `outputs` is their list.
-class Findings;
+class Diagnostics;
 struct SceneContext;
-void read_outputs(const SceneContext& context, Findings& findings, const Node& outputs, Scene& scene);
+void read_outputs(const SceneContext& context, Diagnostics& diagnostics, const Node& outputs, Scene& scene);
 // One output of a scene that stands resolved, as if the scene listed it alone: it becomes the scene's only one.
 // `scene_name`: the file beside which others are looked for. Messages name its keys behind `prefix`, such as "--" or
 // "entries.fall.output.". False: it cannot be read.

@@ -29,7 +29,7 @@ fs::path identity_of(const std::string& path) {
 const std::vector<std::string>& mechanics_sections() {
     static const std::vector<std::string> kSections = [] {
         std::vector<std::string> all;
-        for (const Member& section : written(sim::Problem{}).members) all.push_back(section.key);
+        for (const Member& section : to_tree(sim::Problem{}).members) all.push_back(section.key);
         return all;
     }();
     return kSections;

@@ -112,7 +112,7 @@ class SchemaWriter {
         add(out, "type", text_node("object"));
         add(out, "properties", std::move(properties));
         add(out, "patternProperties", node_of(R"({"^x-": true})"));
-        add(out, "additionalProperties", truth_node(false));
+        add(out, "additionalProperties", boolean_node(false));
         if (!needed.items.empty()) add(out, "required", std::move(needed));
         const Node& known = out.find("properties")->value;
         std::vector<Node> together;

@@ -23,7 +23,7 @@ static void visit(SceneVisitor& v, sim::CamSpan& span) {
     v.number(sim::written_if(!span.time, "cam_turns"), span.turns, sim::kPlainNumber, kTurns,
              "Turns of the cam; of a cam at rest, seconds.");
     v.number("time", span.time, dim::kTime, sim::kNotNegative, "Time, rounded up to whole turns of the cam.");
-    v.exclude("cam_turns", "time");
+    v.exclusive("cam_turns", "time");
 }
 
 // The dimension of the scene's key; none where it is refused anyway.
@@ -34,7 +34,7 @@ static sim::Dimension dimension_of(const std::string& key, const ObjectReader& r
 
 // A value of another key, in its units.
 template <class Number>  // double, or optional<double>
-static Form value_form(Number& value, const std::string& of) {
+static ValueFormat value_format(Number& value, const std::string& of) {
     const auto read = [&value, &of](ObjectReader& r, const Node& node, const std::string& key) {
         double given = 0;
         if (r.number_value(node, key, dimension_of(of, r), given)) value = given;
@@ -46,10 +46,11 @@ static Form value_form(Number& value, const std::string& of) {
             }};
 }
 
-static Form values_form(std::vector<double>& values, const std::string& of) {
+static ValueFormat values_format(std::vector<double>& values, const std::string& of) {
     const auto read = [&values, &of](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::array || node.items.empty())
-            return r.fail(node, key, fmt::format("{} must be a list of numbers, not {}", r.path(key), shown(node)));
+            return r.fail(node, key,
+                          fmt::format("{} must be a list of numbers, not {}", r.path(key), as_written(node)));
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             double given = 0;
             if (r.number_value(node.items[i], fmt::format("{}.{}", key, i), dimension_of(of, r), given))
@@ -69,22 +70,22 @@ static Form values_form(std::vector<double>& values, const std::string& of) {
 
 static void visit(SceneVisitor& v, RandomKey& key) {
     v.text(sim::required("key", "\"initial.angle\""), key.key, "A key of the scene that is a number.");
-    v.form("from", value_form(key.from, key.key), "Lowest value.");
-    v.form("to", value_form(key.to, key.key), "Highest value.");
+    v.value("from", value_format(key.from, key.key), "Lowest value.");
+    v.value("to", value_format(key.to, key.key), "Highest value.");
 }
 
 static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
-    v.form("from", value_form(over.from, over.key), "First value.");
-    v.form("to", value_form(over.to, over.key), "Last value.");
-    v.whole("count", over.count, 1, 100'000'000, "How many values, both ends included.");
+    v.value("from", value_format(over.from, over.key), "First value.");
+    v.value("to", value_format(over.to, over.key), "Last value.");
+    v.integer("count", over.count, 1, 100'000'000, "How many values, both ends included.");
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}}, "Of the values between the ends.");
-    v.form("values", values_form(over.values, over.key), "The values themselves.");
+    v.value("values", values_format(over.values, over.key), "The values themselves.");
     v.text(sim::written_if(!over.file.empty(), "file"), over.file, "A .csv or .npz file with the values.");
     v.text(sim::written_if(!over.column.empty(), "column"), over.column, "Its column.");
-    v.exclude("from", "values");
-    v.exclude("from", "file");
-    v.exclude("values", "file");
+    v.exclusive("from", "values");
+    v.exclusive("from", "file");
+    v.exclusive("values", "file");
 }
 
 namespace {
@@ -112,7 +113,7 @@ std::string set_section(std::string_view channel, sim::Sampling& sampling, const
     return "";
 }
 
-Form sample_form(sim::Sampling& sampling) {
+ValueFormat sample_format(sim::Sampling& sampling) {
     const auto read = [&sampling](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind == Node::Kind::string && node.text == "impacts")
             sampling.kind = SampleKind::impacts;
@@ -121,7 +122,7 @@ Form sample_form(sim::Sampling& sampling) {
         else
             r.fail(node, key,
                    fmt::format("{} must be \"impacts\", \"apexes\" or {{\"section\": CHANNEL, \"at\": VALUE}}, not {}",
-                               r.path(key), shown(node)));
+                               r.path(key), as_written(node)));
     };
     const auto write = [&sampling]() -> std::optional<Node> {
         if (sampling.kind == SampleKind::impacts) return text_node("impacts");
@@ -144,19 +145,19 @@ void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
     });
 }
 
-Form seed_form(SweepSeeds& seeds) {
+ValueFormat seed_format(SweepSeeds& seeds) {
     const auto one = [&seeds](ObjectReader& r, const Node& node, const std::string& key) {
         const auto found = std::ranges::find_if(kSeedKinds, [&](const auto& k) { return node.text == k.name; });
         if (node.kind != Node::Kind::string || found == std::end(kSeedKinds) || found->value == SeedKind::random)
-            return r.fail(
-                node, key,
-                fmt::format("{} must be \"same\", \"carry-up\" or \"carry-down\", not {}", r.path(key), shown(node)));
+            return r.fail(node, key,
+                          fmt::format("{} must be \"same\", \"carry-up\" or \"carry-down\", not {}", r.path(key),
+                                      as_written(node)));
         seeds.kinds.push_back(found->value);
     };
     const auto read = [&seeds, one](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind == Node::Kind::string) {  // as after --seed
             if (const std::string problem = parse_seeds(node.text, seeds); !problem.empty())
-                r.fail(node, key, fmt::format("{}: {}, not {}", r.path(key), problem, shown(node)));
+                r.fail(node, key, fmt::format("{}: {}, not {}", r.path(key), problem, as_written(node)));
             return;
         }
         seeds.kinds.clear();
@@ -178,8 +179,8 @@ Form seed_form(SweepSeeds& seeds) {
 }
 
 void visit_random(SceneVisitor& v, SweepSeeds& seeds) {
-    v.whole(sim::required("random", "8"), seeds.random, 1, kMostRandom,
-            "So many motions from random starts at each point.");
+    v.integer(sim::required("random", "8"), seeds.random, 1, kMostRandom,
+              "So many motions from random starts at each point.");
     List keys = SceneVisitor::items_of(seeds.keys);
     keys.of = "keys";
     v.list(
@@ -202,20 +203,20 @@ void visit(SceneVisitor& v, Sweep& sweep) {
     over.least = 1, over.most = 2, over.of = "keys";
     over.example = "[{\"key\": \"cam.speed\", \"from\": 40, \"to\": 52, \"count\": 601}]";
     v.list(sim::required("over", over.example), over, "What varies: one key, or two as a grid.");
-    v.either(
-        "sample", sample_form(sweep.sampling),
+    v.value_or_object(
+        "sample", sample_format(sweep.sampling),
         [&](sim::Visitor& inside) { visit_section(static_cast<SceneVisitor&>(inside), sweep.sampling); },
         "What is kept of each motion: its state at impacts, at apexes, or where a channel passes a value.");
     v.object("transient", sweep.sampling.transient, "What passes before samples are kept.");
     v.object("keep", sweep.sampling.keep, "How long samples are kept.");
-    v.either(
-        "seed", seed_form(sweep.seeds),
+    v.value_or_object(
+        "seed", seed_format(sweep.seeds),
         [&](sim::Visitor& inside) { visit_random(static_cast<SceneVisitor&>(inside), sweep.seeds); },
         "Where each motion starts: as the scene says, from where that of the value before ended (upwards, downwards), "
         "or at random.");
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
-            if (!r.findings().failed(r.path(problem.key)))  // told already
+            if (!r.diagnostics().failed(r.path(problem.key)))  // told already
                 r.fail(r.place("over"), problem.key, fmt::format("{}: {}", r.path(problem.key), problem.text));
     });
 }

@@ -414,7 +414,7 @@ Node integer_node(long value) {
     node.text = std::to_string(value);
     return node;
 }
-Node truth_node(bool value) {
+Node boolean_node(bool value) {
     Node node = of_kind(Node::Kind::boolean);
     node.boolean = value;
     return node;

@@ -63,7 +63,7 @@ struct Member {
 // Values that are written; numbers of a tree that was read keep their spelling.
 Node number_node(double value);
 Node integer_node(long value);
-Node truth_node(bool value);
+Node boolean_node(bool value);
 Node text_node(std::string value);
 Node array_node(std::vector<Node> items = {});
 Node object_node();

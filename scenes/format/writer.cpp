@@ -28,12 +28,12 @@ class Writer final : public SceneVisitor {
         for (const double value : values) all.items.push_back(number_node(value));
         put(key, std::move(all));
     }
-    void whole(const Key& key, std::optional<int>& value, int, int, const char*) override {
+    void integer(const Key& key, std::optional<int>& value, int, int, const char*) override {
         if (value) put(key, integer_node(*value));
     }
-    void truth(const Key& key, bool& value, const char*) override { put(key, truth_node(value)); }
+    void boolean(const Key& key, bool& value, const char*) override { put(key, boolean_node(value)); }
     void text(const Key& key, std::string& value, const char*) override { put(key, text_node(value)); }
-    void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) override {
+    void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) override {
         put(key, text_node(words[chosen]));
     }
     void object(const Key& key, const Fields& fields, const char*, bool* present) override {
@@ -49,11 +49,11 @@ class Writer final : public SceneVisitor {
             return each.fields(*this);
         }
     }
-    void form(const Key& key, const Form& form, const char*) override {
+    void value(const Key& key, const ValueFormat& form, const char*) override {
         if (!key.written) return;
         if (auto node = form.write()) put(key, std::move(*node));
     }
-    void either(const Key& key, const Form& form, const Fields& fields, const char* meaning) override {
+    void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char* meaning) override {
         if (auto node = form.write())
             put(key, std::move(*node));
         else
@@ -69,7 +69,7 @@ class Writer final : public SceneVisitor {
         }
         put(key, std::move(all));
     }
-    void exclude(const char*, const char*) override {}
+    void exclusive(const char*, const char*) override {}
 
   private:
     void put(const Key& key, Node value) {
@@ -85,7 +85,7 @@ namespace {
 
 // Visitors may write; this one does not, but takes a copy that it may.
 template <class Struct>
-Node tree_of(Struct visited) {
+Node written_tree(Struct visited) {
     Writer writer;
     visit(writer, visited);
     return writer.take();
@@ -93,10 +93,10 @@ Node tree_of(Struct visited) {
 
 }  // namespace
 
-Node written(const Scene& scene) { return tree_of(scene); }
-Node written(const sim::Problem& problem) { return tree_of(problem); }
-Node written(const Output& output) { return tree_of(output); }
+Node to_tree(const Scene& scene) { return written_tree(scene); }
+Node to_tree(const sim::Problem& problem) { return written_tree(problem); }
+Node to_tree(const Output& output) { return written_tree(output); }
 
-std::string to_json(const Scene& scene) { return to_text(written(scene)); }
+std::string to_json(const Scene& scene) { return to_text(to_tree(scene)); }
 
 }  // namespace beamcam::scenes

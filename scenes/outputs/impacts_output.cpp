@@ -1,15 +1,15 @@
 // Output "impacts": all impacts and collisions, as JSON or CSV.
 #include "output/data/records.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/outputs/run_context.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
 
 void ImpactsOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".json", ".csv"}),
-           "Name of the file; the scene's name with -impacts.json when left out.");
+    v.value("file", file_format(file, {".json", ".csv"}),
+            "Name of the file; the scene's name with -impacts.json when left out.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, "-impacts.json"); });
 }
 
@@ -22,7 +22,7 @@ void ImpactsOutput::plan(Planner& planner, std::size_t output) const {
         return fmt::format("{} in {}", counted(from.run.impacts.size(), "impact"),
                            counted(from.run.collisions.size(), "collision"));
     };
-    planner.look_until(planner.run_end(), file);
+    planner.simulate_until(planner.run_end(), file);
     planner.add(DataFile{output, file, "impacts", write});
 }
 

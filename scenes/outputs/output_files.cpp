@@ -5,7 +5,7 @@
 
 #include "output/files/atomic_file.hpp"
 #include "scenes/figures/make.hpp"
-#include "scenes/plan/survey.hpp"
+#include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -54,9 +54,9 @@ std::vector<fs::path> OutputFiles::files_of(const Pictures& p) const {
     std::vector<fs::path> all;
     if (p.kind != Pictures::Kind::frames) {
         all.push_back(path_of(p.file));
-        if (!p.poster_file.empty() && (!p.settled || p.makes_poster())) all.push_back(path_of(p.poster_file));
+        if (!p.poster_file.empty() && (!p.times_known || p.makes_poster())) all.push_back(path_of(p.poster_file));
         if (!p.subtitles_file.empty() && p.part.empty()) all.push_back(path_of(p.subtitles_file));
-    } else if (!p.settled) {
+    } else if (!p.times_known) {
         all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, also before their number is known
     } else {
         for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));

@@ -3,7 +3,7 @@
 
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/plan/picture_times.hpp"
 #include "scenes/plan/planner.hpp"
 
@@ -20,9 +20,9 @@ static constexpr Range kZooms = between(0.1, 100, "is outside 0.1 … 100; 1 sho
 
 static void visit(SceneVisitor& v, Keyframe& key) {
     using render::Ease;
-    v.form(required("at", "\"impact:1\""), instant_form(key.at), "The instant at which the camera has arrived.");
+    v.value(required("at", "\"impact:1\""), instant_format(key.at), "The instant at which the camera has arrived.");
     v.number("zoom", key.zoom, dim::kNone, kZooms, "Magnification; as before when left out, like all of these.");
-    v.form("follow", anchor_form(key.follow), "What stands in the middle.");
+    v.value("follow", anchor_format(key.follow), "What stands in the middle.");
     v.number("yaw", key.yaw, dim::kAngle, kVisible, "Of the solid view.");
     v.number("pitch", key.pitch, dim::kAngle, kVisible, "Of the solid view.");
     v.number("over", key.over, dim::kTime, kNotNegative,
@@ -34,8 +34,8 @@ static void visit(SceneVisitor& v, Keyframe& key) {
 
 static void visit_camera(SceneVisitor& v, View& view) {
     v.number("zoom", view.shot.zoom, dim::kNone, kZooms, "Magnification of the mechanism; 1 shows all of its motion.");
-    v.form(
-        "follow", anchor_form(view.shot.follow),
+    v.value(
+        "follow", anchor_format(view.shot.follow),
         "What stands in the middle: all that the film shows, the tip, the contact (where beam and cam are nearest), "
         "the cam's axis, the hub's, or a place [x, y]. What vibrates is followed by its mean over a third of a second "
         "of the film.");
@@ -46,7 +46,7 @@ static void visit_camera(SceneVisitor& v, View& view) {
              "Of the solid view: amplitude of the yaw; over a film the camera swings once to either side and back.");
     v.list("keyframes", SceneVisitor::items_of(view.keyframes),
            "Where the camera moves to, in a film; a still shows where it is then.");
-    v.check([&view](ObjectReader& r) { judge_camera(r, view); });
+    v.check([&view](ObjectReader& r) { check_camera(r, view); });
 }
 
 static void visit(SceneVisitor& v, View& view) {
@@ -73,10 +73,10 @@ static void visit(SceneVisitor& v, View& view) {
              "Multiple exposure: the beam is also seen where it was at the multiples of this time of the motion; cam "
              "and hub "
              "stand as they are at the frame's own instant.");
-    v.exclude("shutter", "strobe");
-    v.whole(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
-            "How many exact instants the shutter sees, or how many of the latest flashes are shown.");
-    v.check([&view](ObjectReader& r) { judge_view(r, view); });
+    v.exclusive("shutter", "strobe");
+    v.integer(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
+              "How many exact instants the shutter sees, or how many of the latest flashes are shown.");
+    v.check([&view](ObjectReader& r) { check_view(r, view); });
     v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
              between(1, 1e6, "is outside 1 (true shape) … 1e6"),
              "Factor on the deflection, stated on the picture; 1 is the true shape. auto picks a round one by the "
@@ -86,19 +86,19 @@ static void visit(SceneVisitor& v, View& view) {
 }
 
 static void visit(SceneVisitor& v, render::Shown& show) {
-    v.truth("title", show.title, "The scene's title.");
-    v.truth("parameters", show.parameters, "The line below the title.");
-    v.truth("clock", show.clock, "The time.");
-    v.truth("legend", show.legend, "Colour scales, and how far deflection is exaggerated and time slowed down.");
-    v.truth("accuracy", show.accuracy, "Tolerance and closure of the energy balance, in the corner.");
-    v.truth("labels", show.labels, "Names, numbers and scale bar within the mechanism.");
+    v.boolean("title", show.title, "The scene's title.");
+    v.boolean("parameters", show.parameters, "The line below the title.");
+    v.boolean("clock", show.clock, "The time.");
+    v.boolean("legend", show.legend, "Colour scales, and how far deflection is exaggerated and time slowed down.");
+    v.boolean("accuracy", show.accuracy, "Tolerance and closure of the energy balance, in the corner.");
+    v.boolean("labels", show.labels, "Names, numbers and scale bar within the mechanism.");
 }
 
 static void visit(SceneVisitor& v, render::OwnColors& colors) {
-    v.form("ink", color_form(colors.ink), "Of words and axes.");
-    v.form("motion", color_form(colors.motion), "Of the beam's bending, of curves of motion.");
-    v.form("contact", color_form(colors.contact), "Of forces and impacts.");
-    v.form("steel", color_form(colors.steel), "Of the bodies.");
+    v.value("ink", color_format(colors.ink), "Of words and axes.");
+    v.value("motion", color_format(colors.motion), "Of the beam's bending, of curves of motion.");
+    v.value("contact", color_format(colors.contact), "Of forces and impacts.");
+    v.value("steel", color_format(colors.steel), "Of the bodies.");
 }
 
 static void visit_picture(SceneVisitor& v, Picture& picture) {
@@ -106,10 +106,11 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
     v.object("view", picture.view, "How the mechanism is seen.");
     v.choice("theme", picture.view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
              "Colours.");
-    v.form("background", background_form(picture.view),
-           "paper: the theme's; \"#rrggbb\": this colour; transparent: none behind the picture, where the format can.");
-    v.either(
-        "show", show_form(picture.view.show),
+    v.value(
+        "background", background_format(picture.view),
+        "paper: the theme's; \"#rrggbb\": this colour; transparent: none behind the picture, where the format can.");
+    v.value_or_object(
+        "show", show_format(picture.view.show),
         [&picture](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), picture.view.show); },
         "What stands around the panels: all, a preset (talk: no parameters, no accuracy; paper: labels, legend and "
         "clock, "
@@ -132,9 +133,9 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
     v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
              "Size of words, lines and marks; at 1 the numbers of axes are 2 % of the height of a 16:9 picture.");
-    v.form("size", size_form(picture.size), "Width and height in pixels; even for H.264, VP9 and AV1.");
-    v.either(
-        "layout", layout_form(picture.layout),
+    v.value("size", size_format(picture.size), "Width and height in pixels; even for H.264, VP9 and AV1.");
+    v.value_or_object(
+        "layout", layout_format(picture.layout),
         [&picture](sim::Visitor& inside) {
             if (!picture.layout) picture.layout.emplace();
             visit(static_cast<SceneVisitor&>(inside), *picture.layout);
@@ -150,17 +151,17 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
     v.list("compare", compare,
            "The motions that the picture shows, aligned in time: this scene's mechanics, or another scene's, with "
            "changes. The first is the main one.");
-    v.truth(written_if(picture.horizon, "horizon"), picture.horizon,
-            "Curves against time are paler during the intervals in which θ is not reproducible; costs further runs, "
-            "tighter and by another method.");
-    v.check([&picture](ObjectReader& r) { judge_picture(r, picture); });
+    v.boolean(written_if(picture.horizon, "horizon"), picture.horizon,
+              "Curves against time are paler during the intervals in which θ is not reproducible; costs further runs, "
+              "tighter and by another method.");
+    v.check([&picture](ObjectReader& r) { check_picture(r, picture); });
 }
 
 // ---- how time runs in films --------------------------------------------------------------------
 
 static void visit(SceneVisitor& v, SpeedInterval& interval) {
-    v.form(required("from", "\"impact:1\""), instant_form(interval.from), "Its first instant.");
-    v.form(required("to", "\"0.4 s\""), instant_form(interval.to), "Its last.");
+    v.value(required("from", "\"impact:1\""), instant_format(interval.from), "Its first instant.");
+    v.value(required("to", "\"0.4 s\""), instant_format(interval.to), "Its last.");
     v.number("factor", interval.factor, dim::kNone, kSpeedRange, "Speed there.");
     v.check([&interval](ObjectReader& r) {
         const bool times = interval.from.kind == Instant::Kind::time && interval.to.kind == Instant::Kind::time;
@@ -194,20 +195,20 @@ static void visit(SceneVisitor& v, Speed& speed) {
     };
     v.alternatives({{{{"around", "impacts"}}, "Slow motion around impacts.", !by_intervals, fields},
                     {{{"around", "intervals"}}, "Speeds of intervals of time.", by_intervals, intervals}});
-    v.check([&speed](ObjectReader& r) { judge_speed(r, speed); });
+    v.check([&speed](ObjectReader& r) { check_speed(r, speed); });
 }
 
 static void visit(SceneVisitor& v, FilmEvent& event) {
-    v.form(required("at", "\"impact:1\""), instant_form(event.at), "When.");
+    v.value(required("at", "\"impact:1\""), instant_format(event.at), "When.");
     v.number("freeze", event.freeze, dim::kTime, kNotNegative,
              "The picture stands still for so long, in the film's time.");
     v.text("text", event.text, "Words beside the contact; mathematics as in the title.");
-    v.form(
-        "anchor", anchor_form(event.anchor),
+    v.value(
+        "anchor", anchor_format(event.anchor),
         "What the words stand beside, with a line to it, in place of the contact; all: they stand at the lower edge.");
     v.number(written_if(event.fade > 0, "fade"), event.fade, dim::kTime, kNotNegative,
              "The words come and go in so long, in the film's time.");
-    v.check([&event](ObjectReader& r) { judge_words(r, "text", event.text); });
+    v.check([&event](ObjectReader& r) { check_words(r, "text", event.text); });
     v.number(
         "show", event.show, dim::kTime, kNotNegative,
         "How long the words are shown, in the film's time; at least as long as the picture stands still. When left "
@@ -215,19 +216,19 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
 }
 
 static void visit_span(SceneVisitor& v, FrameSpan& span) {
-    v.form("fps", frame_rate_form(span.fps),
-           "Frames a second, 0.1 to 1000, or a fraction such as \"30000/1001\"; 29.97 means that one.");
-    v.form("from", bound_form(span.from, span.from_event), "First instant.");
-    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
-    v.either(
-        written_if(!span.duration, "speed"), speed_form(span.speed),
+    v.value("fps", frame_rate_format(span.fps),
+            "Frames a second, 0.1 to 1000, or a fraction such as \"30000/1001\"; 29.97 means that one.");
+    v.value("from", bound_format(span.from, span.from_event), "First instant.");
+    v.value("to", bound_format(span.to, span.to_event), "Last instant; the end of the scene when left out.");
+    v.value_or_object(
+        written_if(!span.duration, "speed"), speed_format(span.speed),
         [&span](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), span.speed); },
         "How fast time runs: a factor, 1 is real time; \"impacts\": slow motion around them, or an object that says "
         "how "
         "slow.");
     v.number("duration", span.duration, dim::kTime, kPositive,
              "How long the film is to last, freezes and all, in place of \"speed\".");
-    v.exclude("speed", "duration");
+    v.exclusive("speed", "duration");
     v.number(written_if(span.hold > 0, "hold"), span.hold, dim::kTime, kNotNegative,
              "The last picture stands still for so long, in the film's time.");
     v.list("events", SceneVisitor::items_of(span.events),
@@ -245,27 +246,27 @@ void VideoOutput::visit(SceneVisitor& v) {
             all.push_back({codec, output::name(codec)});
         return all;
     }();
-    v.form("file", file_form(file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}),
-           "Name of the film; the scene's name with .mp4 when left out.");
+    v.value("file", file_format(file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}),
+            "Name of the film; the scene's name with .mp4 when left out.");
     v.check([this](ObjectReader& r) { take_usual_codec(r, *this); });
     visit_picture(v, *this);
     visit_span(v, span);
-    v.form(
-        "poster", instant_form(span.poster),
+    v.value(
+        "poster", instant_format(span.poster),
         "The frame at this instant, or the first after it, is also put beside the film as a picture: fall.png beside "
         "fall.mp4. A time outside the film stands for its nearest frame.");
     v.choice(written_if(subtitles != Subtitles::none, "subtitles"), subtitles,
              {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}},
              "A file beside the film that tells of its impacts and captions: fall.vtt beside fall.mp4.");
-    v.truth(written_if(chapters, "chapters"), chapters, "Chapters at the impacts, in .mp4, .mov and .mkv.");
+    v.boolean(written_if(chapters, "chapters"), chapters, "Chapters at the impacts, in .mp4, .mov and .mkv.");
     v.choice(
         sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
         "Codec; by the ending when left out: .mp4 h264 (or av1, hevc), .webm vp9 (av1), .mov prores (h264, hevc), .mkv "
         "ffv1 "
         "(h264, vp9, av1).");
-    v.whole("crf", encoding.crf, 0, 63,
-            "Quality of h264 and hevc (to 51), vp9 and av1: 0 is best; 18, 20, 24 and 26 look lossless and are the "
-            "defaults.");
+    v.integer("crf", encoding.crf, 0, 63,
+              "Quality of h264 and hevc (to 51), vp9 and av1: 0 is best; 18, 20, 24 and 26 look lossless and are the "
+              "defaults.");
     v.choice(written_if(encoding.codec == Codec::h264, "preset"), encoding.preset,
              {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
              "x264's trade of time for size; of h264 alone.");
@@ -274,59 +275,59 @@ void VideoOutput::visit(SceneVisitor& v) {
         {{false, "constant"}, {true, "variable"}},
         "variable: a picture that does not change is coded once and lasts longer, up to 5 s; players show the same, "
         "some editors want a constant rate. Parts (--shard, --frames) are constant.");
-    v.check([this](ObjectReader& r) { judge_video(r, *this); });
+    v.check([this](ObjectReader& r) { check_video(r, *this); });
 }
 
 void FramesOutput::visit(SceneVisitor& v) {
-    v.form("file", numbered_file_form(file),
-           "Name of the files with #### for the frame number; the scene's name with -####.png when left out.");
+    v.value("file", numbered_file_format(file),
+            "Name of the files with #### for the frame number; the scene's name with -####.png when left out.");
     visit_picture(v, *this);
     visit_span(v, span);
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, "-####.png");
-        judge_span(r, span, *this);
+        check_span(r, span, *this);
     });
 }
 
 void StillOutput::visit(SceneVisitor& v) {
-    v.form(
-        "file", file_form(file, {".png"}),
+    v.value(
+        "file", file_format(file, {".png"}),
         "Name of the file; the scene's name with .png when left out. In lines, for print, it is the figure \"strobe\" "
         "with \"at\".");
     visit_picture(v, *this);
-    v.form(required("at", "\"370 ms\""), instant_form(at), "The instant that it shows.");
+    v.value(required("at", "\"370 ms\""), instant_format(at), "The instant that it shows.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, ".png"); });
 }
 
 void PageOutput::visit(SceneVisitor& v) {
     using render::Theme;
-    v.form("file", file_form(file, {".html"}), "Name of the page; the scene's name with .html when left out.");
+    v.value("file", file_format(file, {".html"}), "Name of the page; the scene's name with .html when left out.");
     v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
              "Colours.");
     v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
              between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
-    v.form(
-        "fps", frame_rate_form(span.fps),
+    v.value(
+        "fps", frame_rate_format(span.fps),
         "Poses a second that are looked at, at least a thousand in all; those that the page finds by interpolation are "
         "left out of it.");
-    v.form("from", bound_form(span.from, span.from_event), "First instant.");
-    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
+    v.value("from", bound_format(span.from, span.from_event), "First instant.");
+    v.value("to", bound_format(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, ".html");
-        judge_span(r, span, *this);
+        check_span(r, span, *this);
     });
 }
 
 void ModelOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".glb"}), "Name of the model; the scene's name with .glb when left out.");
+    v.value("file", file_format(file, {".glb"}), "Name of the model; the scene's name with .glb when left out.");
     v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
              between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
-    v.form("fps", frame_rate_form(span.fps), "Poses a second, between which players interpolate.");
-    v.form("from", bound_form(span.from, span.from_event), "First instant.");
-    v.form("to", bound_form(span.to, span.to_event), "Last instant; the end of the scene when left out.");
+    v.value("fps", frame_rate_format(span.fps), "Poses a second, between which players interpolate.");
+    v.value("from", bound_format(span.from, span.from_event), "First instant.");
+    v.value("to", bound_format(span.to, span.to_event), "Last instant; the end of the scene when left out.");
     v.check([this](ObjectReader& r) {
         name_after_scene(r, file, ".glb");
-        judge_span(r, span, *this);
+        check_span(r, span, *this);
     });
 }
 

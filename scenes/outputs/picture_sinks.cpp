@@ -52,9 +52,9 @@ class PngSink final : public PictureSink {
     std::mutex mutex_;  // of the counts
 };
 
-class CaptureSink final : public PictureSink {
+class CallbackSink final : public PictureSink {
   public:
-    CaptureSink(const Pictures& p, const Capture& capture) : p_(p), capture_(capture) {}
+    CallbackSink(const Pictures& p, const DrawCallbacks& capture) : p_(p), capture_(capture) {}
     Input input(Gate&) override {
         return
             [this](long k, const render::Image& image, const render::DirtyTiles&) { capture_.picture(p_, k, image); };
@@ -62,7 +62,7 @@ class CaptureSink final : public PictureSink {
 
   private:
     const Pictures& p_;
-    const Capture& capture_;
+    const DrawCallbacks& capture_;
 };
 
 }  // namespace
@@ -78,8 +78,8 @@ std::map<std::string, std::string> png_metadata(const SinkFiles& to) {
 std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files) {
     return std::make_unique<PngSink>(p, files);
 }
-std::unique_ptr<PictureSink> make_capture_sink(const Pictures& p, const Capture& capture) {
-    return std::make_unique<CaptureSink>(p, capture);
+std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& capture) {
+    return std::make_unique<CallbackSink>(p, capture);
 }
 
 void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context) {

@@ -9,7 +9,7 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/outputs/capture.hpp"
+#include "scenes/outputs/draw_callbacks.hpp"
 #include "scenes/outputs/film_track.hpp"
 #include "scenes/outputs/output_files.hpp"
 
@@ -47,7 +47,7 @@ output::VideoOptions video_options(const Pictures& p);
 
 std::unique_ptr<PictureSink> make_video_sink(const Pictures& p, render::Film& film, const SinkFiles& files);
 std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files);
-std::unique_ptr<PictureSink> make_capture_sink(const Pictures& p, const Capture& capture);
+std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& capture);
 
 // Draws what is asked for of a film, on several threads.
 void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context);

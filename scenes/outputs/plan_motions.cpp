@@ -10,8 +10,8 @@ namespace {
 // The poses of a request go to disk as they are found.
 StoredPoses store_poses(sim::Request& request, std::size_t frames, std::size_t survey) {
     sim::PoseRequest &all = request.poses[frames], &some = request.poses[survey];
-    StoredPoses stored{std::make_shared<SpooledPoses>(all.times.size(), all.stations),
-                       std::make_shared<SurveyedPoses>(some.times.size(), some.contacts, some.stations)};
+    StoredPoses stored{std::make_shared<PoseSpool>(all.times.size(), all.stations),
+                       std::make_shared<SampledPoses>(some.times.size(), some.contacts, some.stations)};
     all.take = [to = stored.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
     some.take = [to = stored.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
     return stored;
@@ -25,39 +25,41 @@ Results PlanResults::of_figure(std::size_t figure) const {
     return all;
 }
 
-void PlanMotions::ask() {
+void PlanMotions::request_all() {
     if (plan_.simulation) {
         std::vector<sim::Request> requests = requests_of(plan_);
         for (const Pictures& p : plan_.pictures)
             results_.poses.push_back(p.compared.empty() ? store_poses(requests.front(), p.poses, p.survey)
                                                         : StoredPoses{});
-        own_ = motions_.want(problem_, std::move(requests));
+        own_ = motions_.request(problem_, std::move(requests));
     }
-    ask_for_others();
+    request_others();
 }
 
-void PlanMotions::ask_for_others() {
+void PlanMotions::request_others() {
     for (const FigureFile& f : plan_.figures)
         for (const Study& study : f.studies)
             if (!study.of_scene)
-                others_.push_back(motions_.want(study.problem, {study.request}, f.file, study.may_fail));
+                others_.push_back(motions_.request(study.problem, {study.request}, f.file, study.may_fail));
     for (const Pictures& p : plan_.pictures) {
         std::vector<StoredPoses>& stored = results_.compared_poses.emplace_back();
         for (const ComparedMotion& each : p.compared) {
             sim::Request request = each.request;
             stored.push_back(store_poses(request, 0, 1));
             others_.push_back(
-                motions_.want(each.problem, {std::move(request)}, fmt::format("{}, {}", p.file, each.label)));
+                motions_.request(each.problem, {std::move(request)}, fmt::format("{}, {}", p.file, each.label)));
         }
     }
 }
 
-PlanResults PlanMotions::take() { return take(own_ ? motions_.take(*own_) : std::vector<sim::Result>()); }
+PlanResults PlanMotions::take_results() {
+    return take_results(own_ ? motions_.take_results(*own_) : std::vector<sim::Result>());
+}
 
-PlanResults PlanMotions::take(std::vector<sim::Result> own) {
+PlanResults PlanMotions::take_results(std::vector<sim::Result> own) {
     auto next = own.begin();
     auto other = others_.begin();
-    const auto take_other = [&] { return std::move(motions_.take(*other++).front()); };
+    const auto take_other = [&] { return std::move(motions_.take_results(*other++).front()); };
     if (plan_.simulation) {
         results_.run = std::move(*next++);
         for (std::size_t i = 0; i < plan_.simulation->ends.size(); ++i) results_.ends.push_back(std::move(*next++));
@@ -73,8 +75,8 @@ PlanResults PlanMotions::take(std::vector<sim::Result> own) {
     return std::move(results_);
 }
 
-const sim::Result* PlanMotions::reached() const {
-    return own_ && !motions_.reached(*own_).empty() ? &motions_.reached(*own_).front() : nullptr;
+const sim::Result* PlanMotions::partial_results() const {
+    return own_ && !motions_.partial_results(*own_).empty() ? &motions_.partial_results(*own_).front() : nullptr;
 }
 
 }  // namespace beamcam::scenes

@@ -5,16 +5,16 @@
 #include <optional>
 #include <vector>
 
-#include "scenes/motions/motions.hpp"
-#include "scenes/motions/spooled.hpp"
+#include "scenes/motions/motion_store.hpp"
+#include "scenes/motions/pose_spool.hpp"
 #include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
 
 // The poses of a picture on disk, so that memory does not grow with their number.
 struct StoredPoses {
-    std::shared_ptr<SpooledPoses> frames;
-    std::shared_ptr<SurveyedPoses> survey;  // by which scales are chosen
+    std::shared_ptr<PoseSpool> frames;
+    std::shared_ptr<SampledPoses> survey;  // by which scales are chosen
 };
 
 struct PlanResults {
@@ -33,20 +33,20 @@ struct PlanResults {
 class PlanMotions {
   public:
     // The plan is settled before anything is asked for; all must outlive this.
-    PlanMotions(const Plan& plan, const sim::Problem& problem, Motions& motions)
+    PlanMotions(const Plan& plan, const sim::Problem& problem, MotionStore& motions)
         : plan_(plan), problem_(problem), motions_(motions) {}
 
-    void ask();             // for all
-    void ask_for_others();  // than the scene's own, whose results `take` is given then
-    PlanResults take();
-    PlanResults take(std::vector<sim::Result> own);  // as requests_of the plan
+    void request_all();     // for all
+    void request_others();  // than the scene's own, whose results `take` is given then
+    PlanResults take_results();
+    PlanResults take_results(std::vector<sim::Result> own);  // as requests_of the plan
     // The scene's own motion as far as a failed run came; nothing where another motion failed.
-    const sim::Result* reached() const;
+    const sim::Result* partial_results() const;
 
   private:
     const Plan& plan_;
     const sim::Problem& problem_;
-    Motions& motions_;
+    MotionStore& motions_;
     std::optional<std::size_t> own_;   // wish for the scene's own motion
     std::vector<std::size_t> others_;  // wishes for others, in the order of `take`
     PlanResults results_;              // so far the stores of poses

@@ -51,7 +51,7 @@ void make_motions(RunContext& context, const SceneRuns& all) {
     const auto start = Clock::now();
     for (const auto& scene : all) scene->ask_for_motions();
     try {
-        context.motions.make();
+        context.motions.compute();
     } catch (const sim::SolverError&) {
         try {
             for (const auto& scene : all) scene->keep_partial_tables();
@@ -112,12 +112,12 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
 
 void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, options); }
 
-void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptions& options) {
+void draw(const Plan& plan, const Scene& scene, DrawCallbacks& capture, const RunOptions& options) {
     RunContext context(options);
     PlanMotions motions(plan, scene.problem, context.motions);
-    motions.ask_for_others();
-    context.motions.make();
-    PlanResults results = motions.take(std::move(capture.results));
+    motions.request_others();
+    context.motions.compute();
+    PlanResults results = motions.take_results(std::move(capture.results));
     for (std::size_t i = 0; i < plan.pictures.size() && capture.compared; ++i)
         for (std::size_t k = 0; k < results.compared[i].size(); ++k) capture.compared(i, k, results.compared[i][k]);
     std::optional<SweepRun> sweep;
@@ -134,17 +134,17 @@ void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptio
     for (std::size_t i = 0; i < plan.pictures.size(); ++i) {
         stop_if_interrupted();
         const render::Film film(film_setup(plan, i, scene, results));
-        draw(plan.pictures[i], film, *make_capture_sink(plan.pictures[i], capture), context);
+        draw(plan.pictures[i], film, *make_callback_sink(plan.pictures[i], capture), context);
     }
 }
 
 Plan plan_for(const Scene& scene, const RunOptions& options) {
     const std::optional<Cache> cache = open_cache(options.no_cache);
     output::Manifest manifest(options.force);
-    const Survey found =
-        survey(scene, options.ask, options.directory, manifest, cache ? &*cache : nullptr, options.force);
-    Plan made = plan(scene, options.ask, found.known);
-    note_unwritten(made, scene);
+    const UpToDate found = check_up_to_date(scene, options.selection, options.directory, manifest,
+                                            cache ? &*cache : nullptr, options.force);
+    Plan made = plan(scene, options.selection, found.existing);
+    add_omitted_text(made, scene);
     if (cache) estimate(made, scene, History(cache->directory()), thread_count(options.threads));
     return made;
 }

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "scenes/motions/progress.hpp"
-#include "scenes/outputs/capture.hpp"
+#include "scenes/outputs/draw_callbacks.hpp"
 #include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
@@ -18,7 +18,7 @@ struct RunOptions {
     int threads = 0;        // that draw; 0: one for each core
     bool force = false;     // replace files that beamcam did not make, and make all of them anew
     bool no_cache = false;  // neither read nor keep trajectories
-    Ask ask;                // a part of the work
+    Selection selection;    // a part of the work
     bool quiet = false;     // no word about what was written
     bool verbose = false;
     ProgressStyle progress = ProgressStyle::automatic;
@@ -40,7 +40,7 @@ void run(std::span<const Scene> scenes, const RunOptions& options);
 void run(const Scene& scene, const RunOptions& options);
 
 // Hands the pictures of a plan, settled and simulated, to whoever compares them.
-void draw(const Plan& plan, const Scene& scene, Capture& capture, const RunOptions& options);
+void draw(const Plan& plan, const Scene& scene, DrawCallbacks& capture, const RunOptions& options);
 
 // What `run` would do, in the light of what is there already.
 Plan plan_for(const Scene& scene, const RunOptions& options);

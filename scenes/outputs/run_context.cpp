@@ -2,7 +2,7 @@
 
 #include "output/files/interrupt.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/plan/survey.hpp"
+#include "scenes/plan/up_to_date.hpp"
 
 namespace beamcam::scenes {
 

@@ -9,7 +9,7 @@
 #include "output/data/manifest.hpp"
 #include "output/files/standard_output.hpp"
 #include "output/files/work.hpp"
-#include "scenes/motions/motions.hpp"
+#include "scenes/motions/motion_store.hpp"
 #include "scenes/outputs/run.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
@@ -40,7 +40,7 @@ struct RunContext {
     output::Manifest manifest;
     std::optional<Cache> cache;
     History history;
-    Motions motions;
+    MotionStore motions;
     output::Work work;
     Times times;
     std::size_t refused = 0;  // outputs that cannot be made

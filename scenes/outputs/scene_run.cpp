@@ -38,9 +38,9 @@ sim::Table reached_rows(const sim::Table& table) {
 SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
-      found_(survey(scene, context.options.ask, context.options.directory, context.manifest, context.kept(),
-                    context.options.force)),
-      plan_(scenes::plan(scene, context.options.ask, found_.known)),
+      found_(check_up_to_date(scene, context.options.selection, context.options.directory, context.manifest,
+                              context.kept(), context.options.force)),
+      plan_(scenes::plan(scene, context.options.selection, found_.existing)),
       files_(scene, found_.inputs, context),
       motions_(plan_, scene.problem, context.motions) {}
 
@@ -54,12 +54,12 @@ void SceneRun::prepare() {
 }
 
 void SceneRun::say_what_is_left() {
-    for (std::size_t output : found_.known.finished) {
+    for (std::size_t output : found_.existing.finished) {
         ++context_.work.files_left;
         context_.say("left {} as it is: made from the same inputs (--force makes it anew)\n",
                      files_.path_of(file_of(scene_.outputs[output])).string());
     }
-    for (const auto& [output, frames] : found_.known.frames) {
+    for (const auto& [output, frames] : found_.existing.frames) {
         context_.work.frames_left += static_cast<long>(frames.size());
         context_.say("left {} frames of {} as they are: made from the same inputs\n", frames.size(),
                      files_.path_of(file_of(scene_.outputs[output])).string());
@@ -78,15 +78,15 @@ void SceneRun::try_encoders() {
 }
 
 void SceneRun::find_impacts(double far) {
-    if (!plan_.impacts_until) return;
+    if (!plan_.events_until) return;
     const auto start = Clock::now();
-    settle(
+    resolve_event_times(
         plan_, scene_,
         [&](const sim::Problem& problem, const sim::Request& request) {
-            return context_.motions.find(problem, request,
-                                         &problem == &scene_.problem ? far
-                                         : request.enough            ? 0
-                                                                     : request.end_time);
+            return context_.motions.find_events(problem, request,
+                                                &problem == &scene_.problem ? far
+                                                : request.enough            ? 0
+                                                                            : request.end_time);
         },
         [&](std::size_t output, const std::string& why) { refuse(output, why); });
     context_.times.simulate += seconds_since(start);
@@ -101,10 +101,11 @@ void SceneRun::make_sweep() {
     if (is_stdout(plan_.sweep)) {
         sweep_ = std::make_unique<SweepRun>(scene_);
     } else {
-        const Ask& ask = context_.options.ask;
+        const Selection& selection = context_.options.selection;
         const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
         sweep_ = std::make_unique<SweepRun>(
-            scene_, SweepPart{static_cast<std::uint64_t>(ask.shard - 1), static_cast<std::uint64_t>(ask.shards)},
+            scene_,
+            SweepPart{static_cast<std::uint64_t>(selection.shard - 1), static_cast<std::uint64_t>(selection.shards)},
             store);
         if (sweep_->dropped_others())
             context_.say(
@@ -113,7 +114,7 @@ void SceneRun::make_sweep() {
     }
     for (const Output& output : scene_.outputs)
         if (const auto* finished = std::get_if<SweepOutput>(&output);
-            finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_goes_on)
+            finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_end_states)
             sweep_->take_from(files_.path_of(finished->file));
     if (sweep_->points_there() > 0) context_.say("{} points are there already\n", sweep_->points_there());
     try {
@@ -132,12 +133,12 @@ void SceneRun::make_sweep() {
 // What tells of the work comes last.
 void SceneRun::write_outputs() {
     for (const DataFile& d : plan_.data)
-        if (!d.tells_of_work) write_data(d);
+        if (!d.reports_work) write_data(d);
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
     for (std::size_t i = 0; i < plan_.pictures.size(); ++i)
         attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
     for (const DataFile& d : plan_.data)
-        if (d.tells_of_work) write_data(d);
+        if (d.reports_work) write_data(d);
     if (sweep_ && !refused_) sweep_->remove();
 }
 
@@ -202,7 +203,7 @@ void SceneRun::write_pictures(std::size_t picture) {
                      film.exaggeration());
     if (film.cuts_title())
         context_.say("warning: {} shows only the beginning of the title: {}\n", p.file,
-                     no_room_to_write(p.picture.size));
+                     why_text_is_omitted(p.picture.size));
     if (const int empty = film.empty_frames(); empty > 0)
         context_.say(
             "warning: {} shows nothing of the mechanism in {} of {}: the camera looks past it; change \"follow\" or "
@@ -222,16 +223,17 @@ void SceneRun::write_document(const Pictures& p, const std::string& bytes) {
 
 // What was asked for and the picture does not show.
 void SceneRun::warn_of_missing(const Pictures& p) const {
-    if (!p.too_small.empty())
-        context_.say("warning: {} shows no {}: {}\n", p.file, p.too_small, no_room(p.picture.size));
+    if (!p.omitted_panels.empty())
+        context_.say("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.picture.size));
     constexpr std::size_t kFewFrames = 12;
     if (const std::size_t frames = plan_.times(p).size();
         (p.kind == Pictures::Kind::video || p.kind == Pictures::Kind::frames) && p.span.real_time() &&
         frames < kFewFrames)
         context_.say("warning: {} has {}; \"duration\": \"4 s\" (speed {:.2g}) would show its {:g} s in slow motion\n",
                      p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
-    if (!p.unshown.empty())
-        context_.say("warning: {} does not show {}: not within the film\n", p.file, fmt::join(p.unshown, " or "));
+    if (!p.unreached_events.empty())
+        context_.say("warning: {} does not show {}: not within the film\n", p.file,
+                     fmt::join(p.unreached_events, " or "));
     if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // they draw no letters
     std::string written = scene_.title;
     for (const render::Callout& words : p.callouts) written += words.text;
@@ -239,12 +241,12 @@ void SceneRun::warn_of_missing(const Pictures& p) const {
     if (const std::string lost = render::characters_without_font(written); !lost.empty())
         context_.say("warning: {} leaves out {}: no font has them\n", p.file, lost);
     if (!context_.options.verbose || context_.options.quiet) return;
-    if (const std::string what = unwritten(p, scene_); !what.empty())
-        context_.say("warning: {} shows no {}: {}\n", p.file, what, no_room_to_write(p.picture.size));
+    if (const std::string what = omitted_text(p, scene_); !what.empty())
+        context_.say("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.picture.size));
 }
 
 void SceneRun::keep_partial_tables() {
-    const sim::Result* partial = motions_.reached();
+    const sim::Result* partial = motions_.partial_results();
     if (!partial) return;
     for (const DataFile& d : plan_.data) {
         if (is_stdout(d.file) || !d.table || *d.table >= partial->tables.size()) continue;

@@ -7,7 +7,7 @@
 
 #include "scenes/outputs/output_files.hpp"
 #include "scenes/outputs/plan_motions.hpp"
-#include "scenes/plan/survey.hpp"
+#include "scenes/plan/up_to_date.hpp"
 #include "scenes/sweep/sweep_run.hpp"
 
 namespace beamcam::scenes {
@@ -27,8 +27,8 @@ class SceneRun {
     void find_impacts(double far);
     // The points of the scene's sweep, if outputs show them.
     void make_sweep();
-    void ask_for_motions() { motions_.ask(); }
-    void take_motions() { results_ = motions_.take(); }
+    void ask_for_motions() { motions_.request_all(); }
+    void take_motions() { results_ = motions_.take_results(); }
     void write_outputs();
     // What a failed run reached is worth looking at, under a name that no script takes for the result.
     void keep_partial_tables();
@@ -46,7 +46,7 @@ class SceneRun {
 
     const Scene& scene_;
     RunContext& context_;
-    const Survey found_;
+    const UpToDate found_;
     Plan plan_;  // settled by find_impacts
     OutputFiles files_;
     PlanMotions motions_;

@@ -5,27 +5,27 @@
 
 #include "output/data/tables.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/film_times.hpp"
 
 namespace beamcam::scenes {
 
 void ShapesOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".csv", ".npz"}),
-           "Name of the file; the scene's name with -shapes.csv when left out.");
+    v.value("file", file_format(file, {".csv", ".npz"}),
+            "Name of the file; the scene's name with -shapes.csv when left out.");
     v.number(sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
              "Instants at k/rate, and at the end.");
     v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Exactly these instants, in this order.");
-    v.exclude("rate", "times");
-    v.whole("stations", stations, 2, 1001, "Places along the beam, equally spaced from its root to its tip.");
-    v.check([this](ObjectReader& r) { judge_shapes(r, *this); });
+    v.exclusive("rate", "times");
+    v.integer("stations", stations, 2, 1001, "Places along the beam, equally spaced from its root to its tip.");
+    v.check([this](ObjectReader& r) { check_shapes(r, *this); });
 }
 
 void ShapesOutput::plan(Planner& planner, std::size_t output) const {
     const Scene& scene = planner.scene();
     std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
-    planner.look_until(*std::ranges::max_element(instants), file);
+    planner.simulate_until(*std::ranges::max_element(instants), file);
     std::vector<sim::PoseRequest>& poses = planner.request().poses;
     poses.push_back({.times = std::move(instants), .stations = stations});
     DataFile data{output, file, "shapes", {}};

@@ -2,14 +2,15 @@
 #include "output/data/records.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
 
 void SummaryOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".json"}), "Name of the file; the scene's name with -summary.json when left out.");
-    v.truth(
+    v.value("file", file_format(file, {".json"}),
+            "Name of the file; the scene's name with -summary.json when left out.");
+    v.boolean(
         "horizon", horizon,
         "State during which intervals the motion is reproducible; costs further runs, tighter and by another method.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, "-summary.json"); });
@@ -21,7 +22,7 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
         data.emplace_back(each.within(0, planner.run_end()), 0);
         sim::TableRequest table = data.back().first.request();
         data.back().second = planner.add_table(std::move(table.times), std::move(table.channels));
-        planner.ask_for_horizon();
+        planner.require_horizon();
     }
     const auto write = [data](const DataSource& from) {
         std::vector<output::Agreement> all;
@@ -35,13 +36,13 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
             output::print_json(output::summary_json(from.problem, from.run, extrema, &from.work, all));
         return from.run.reproducibility;
     };
-    planner.look_until(planner.run_end(), file);
+    planner.simulate_until(planner.run_end(), file);
     planner.request().turning_points = true;
     if (planner.request().extrema.empty())
         for (const sim::Channel& channel : all_channels(planner.scene().problem))
             if (channel.kind != sim::ChannelKind::t) planner.request().extrema.push_back(channel);
-    if (horizon) planner.ask_for_horizon();
-    planner.add(DataFile{.output = output, .file = file, .stage = "summary", .write = write, .tells_of_work = true});
+    if (horizon) planner.require_horizon();
+    planner.add(DataFile{.output = output, .file = file, .stage = "summary", .write = write, .reports_work = true});
 }
 
 }  // namespace beamcam::scenes

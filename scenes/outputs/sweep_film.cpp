@@ -18,7 +18,7 @@
 #include "scenes/figures/sweep_words.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/outputs/sweep_shots.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/version.hpp"
@@ -212,10 +212,10 @@ class SweepFilm {
 void judge(ObjectReader& r, SweepFilmOutput& film) {
     name_after_scene(r, film.file, "-sweep.mp4");
     const Scene& scene = r.context().scene;
-    if (r.findings().any()) return;
+    if (r.diagnostics().any()) return;
     if (!scene.sweep || scene.sweep->over.size() != 1)
         return r.fail(*r.node(), "type",
-                      fmt::format("{}: the scene has no \"sweep\" over one key, which it would show", r.what()));
+                      fmt::format("{}: the scene has no \"sweep\" over one key, which it would show", r.object_name()));
     const output::Codec codec = *output::default_codec(std::filesystem::path(film.file).extension().string());
     const auto refuse = [&](const char* key, const std::string& problem) {
         if (!problem.empty()) r.fail(r.place(key), key, fmt::format("{}: {}", r.path(key), problem));
@@ -226,8 +226,9 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
         refuse("size", fmt::format("{}x{} is too small for a diagram beside the beam: at least {}x{}", film.size.width,
                                    film.size.height, kLongSide, kShortSide));
     if (const std::string missing = without_room(film.size); !missing.empty())
-        r.findings().warning(r.has("size") ? r.place("size").place : r.node()->place,
-                             fmt::format("{} leaves no room to write {}; a larger \"size\" would", r.what(), missing));
+        r.diagnostics().warning(
+            r.has("size") ? r.place("size").place : r.node()->place,
+            fmt::format("{} leaves no room to write {}; a larger \"size\" would", r.object_name(), missing));
     refuse("value", problem_with_value("bifurcation", film.value, scene));
     refuse("fps", output::rate_problem(codec, film.fps.value()));
     if (film.crf && !output::quality_scale(codec)) refuse("crf", "this codec has no quality to choose; remove it");
@@ -237,10 +238,10 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
 
 void SweepFilmOutput::visit(SceneVisitor& v) {
     using render::Style;
-    v.form("file", file_form(file, kSweepFilmEndings),
-           "Name of the film; the scene's name with -sweep.mp4 when left out.");
-    v.form("size", size_form(size), "Width and height in pixels, even.");
-    v.form("fps", frame_rate_form(fps), "Frames a second.");
+    v.value("file", file_format(file, kSweepFilmEndings),
+            "Name of the film; the scene's name with -sweep.mp4 when left out.");
+    v.value("size", size_format(size), "Width and height in pixels, even.");
+    v.value("fps", frame_rate_format(fps), "Frames a second.");
     v.number("duration", duration, dim::kTime, between(1, 3600, "is outside 1 s … 3600 s"),
              "How long the film lasts; each value of the key that is shown has about a second.");
     v.number("turns", turns, dim::kNone, between(0.01, 20, "is outside 0.01 … 20"),
@@ -253,19 +254,20 @@ void SweepFilmOutput::visit(SceneVisitor& v) {
              "Language of its words.");
     v.text(written_if(!value.empty(), "value"), value,
            "Column of the samples that the diagram shows; of impacts v_n_before, else theta when left out.");
-    v.whole(written_if(crf.has_value(), "crf"), crf, 0, 63, "Quality, as in films.");
+    v.integer(written_if(crf.has_value(), "crf"), crf, 0, 63, "Quality, as in films.");
     v.check([this](ObjectReader& r) { judge(r, *this); });
 }
 
 void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
-    if (planner.ask().shards > 1) return planner.skip(file, "a part of a sweep has no film; collect the parts first");
+    if (planner.selection().shards > 1)
+        return planner.skip(file, "a part of a sweep has no film; collect the parts first");
     DataFile film{output, file, "sweep-film", {}};
     film.content = fmt::format("{} frames of {} × {}", frames_of(*this), size.width, size.height);
     film.write = [how = *this, scene = planner.scene()](const DataSource& from) {
         return fmt::format("{} frames", SweepFilm(how, scene, *from.sweep).write(*from.file, from.progress));
     };
-    planner.ask_for_sweep(file);
-    planner.ask_for_ends_of_sweep();
+    planner.require_sweep(file);
+    planner.require_sweep_end_states();
     planner.add(std::move(film));
 }
 

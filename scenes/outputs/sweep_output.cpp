@@ -6,24 +6,24 @@
 #include "output/data/sweep_data.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 
 void SweepOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".nc", ".csv", ".npz"}),
-           "Name of the file; the scene's name with -sweep.nc when left out.");
-    v.check([this](ObjectReader& r) { judge_sweep(r, *this); });
+    v.value("file", file_format(file, {".nc", ".csv", ".npz"}),
+            "Name of the file; the scene's name with -sweep.nc when left out.");
+    v.check([this](ObjectReader& r) { check_sweep(r, *this); });
 }
 
 void SweepOutput::plan(Planner& planner, std::size_t output) const {
     DataFile data{output, file, "sweep", {}};
-    if (const Ask& ask = planner.ask(); ask.shards > 1) {
+    if (const Selection& selection = planner.selection(); selection.shards > 1) {
         if (!file.ends_with(".nc")) return planner.skip(file, "parts of a sweep are .nc files, which collect joins");
-        data.file = shard_file(file, ask.shard, ask.shards);
-        data.part = fmt::format("{}/{}", ask.shard, ask.shards);
+        data.file = shard_file(file, selection.shard, selection.shards);
+        data.part = fmt::format("{}/{}", selection.shard, selection.shards);
     }
     for (const SweptKey& over : planner.scene().sweep->over)
         data.content += (data.content.empty() ? "over " : " and ") + over.key;
@@ -36,7 +36,7 @@ void SweepOutput::plan(Planner& planner, std::size_t output) const {
         }
         return fmt::format("{} rows", from.sweep->rows_in_all());
     };
-    planner.ask_for_sweep(data.file);
+    planner.require_sweep(data.file);
     planner.add(std::move(data));
 }
 

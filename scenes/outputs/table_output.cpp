@@ -7,7 +7,7 @@
 #include "output/data/tables.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/film_times.hpp"
 
@@ -16,14 +16,14 @@ namespace beamcam::scenes {
 namespace dim = sim::dimension;
 
 void TrajectoryOutput::visit(SceneVisitor& v) {
-    v.form("file", file_form(file, {".csv", ".npz"}), "Name of the file; the scene's name with .csv when left out.");
-    v.form("channels", channels_form(channels),
-           "Columns in this order; the time always comes first. All when left out.");
+    v.value("file", file_format(file, {".csv", ".npz"}), "Name of the file; the scene's name with .csv when left out.");
+    v.value("channels", channels_format(channels),
+            "Columns in this order; the time always comes first. All when left out.");
     v.number(sim::written_if(times.empty(), "rate"), rate, dim::kFrequency, sim::kPositive,
              "Rows at k/rate, and at the end.");
     v.numbers("times", times, dim::kTime, kFromStart, {1}, "Exactly these rows, in this order.");
-    v.exclude("rate", "times");
-    v.check([this](ObjectReader& r) { judge_table(r, *this); });
+    v.exclusive("rate", "times");
+    v.check([this](ObjectReader& r) { check_table(r, *this); });
 }
 
 namespace {
@@ -46,7 +46,7 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
     const sim::Channel t{sim::ChannelKind::t, 0};
     if (std::ranges::find(columns, t) == columns.end()) columns.insert(columns.begin(), t);
     std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
-    planner.look_until(*std::ranges::max_element(instants), file);
+    planner.simulate_until(*std::ranges::max_element(instants), file);
 
     Node names = array_node();
     for (const sim::Channel& channel : columns) names.items.push_back(text_node(name(channel)));

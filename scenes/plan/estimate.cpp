@@ -45,7 +45,7 @@ void estimate(Plan& plan, const Scene& scene, const History& history, int thread
         for (ComparedMotion& each : p.compared)
             each.cost =
                 cost(history, motion_work(motion_key(each.problem), each.problem, false, false), each.request.end_time);
-        if (p.settled) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
+        if (p.times_known) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
     }
     for (FigureFile& f : plan.figures) f.cost = cost(history, figure_work(f), 1);
     for (DataFile& d : plan.data)

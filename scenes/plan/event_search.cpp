@@ -41,7 +41,7 @@ std::optional<sim::EventCounts> enough_for(const Bounds& bounds) {
 Bounds bounds_of(const Pictures& p) { return {p.span.from_event, p.span.to_event}; }
 Bounds bounds_of(const SeriesKeys& keys) { return {keys.from_event, keys.to_event, keys.at}; }
 
-sim::Request events_until(double end, bool apexes) {
+sim::Request events_request(double end, bool apexes) {
     sim::Request request;
     request.end_time = end;
     request.turning_points = apexes;
@@ -49,7 +49,7 @@ sim::Request events_until(double end, bool apexes) {
 }
 
 sim::Result find_events(const sim::Problem& problem, sim::Request request, const Bounds& bounds,
-                        const FindImpacts& find) {
+                        const FindEvents& find) {
     request.enough = enough_for(bounds);
     sim::Result found = find(problem, request);
     const auto lacks = [&](const std::optional<Instant>& at) { return at && !find_instant(*at, found); };

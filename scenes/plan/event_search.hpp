@@ -13,10 +13,10 @@ using Bounds = std::vector<std::optional<Instant>>;  // where something begins o
 Bounds bounds_of(const Pictures& p);
 Bounds bounds_of(const SeriesKeys& keys);
 
-sim::Request events_until(double end, bool apexes);
+sim::Request events_request(double end, bool apexes);
 
 // The motion as far as the request looks, or until it has all of these bounds; none: it is looked at until its end.
 sim::Result find_events(const sim::Problem& problem, sim::Request request, const Bounds& bounds,
-                        const FindImpacts& find);
+                        const FindEvents& find);
 
 }  // namespace beamcam::scenes

@@ -25,7 +25,7 @@ void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& 
     for (Study& study : figure.studies) study.of_scene = Studies::key(study.problem) == own;
 }
 
-bool looks_at_apexes(const FigureOutput& how) {
+bool needs_apexes(const FigureOutput& how) {
     for (const auto& each : {how.series.from_event, how.series.to_event, how.series.at})
         if (each && each->kind == Instant::Kind::apex) return true;
     return false;
@@ -47,11 +47,11 @@ FigureOutput with_event_times(FigureOutput how, const sim::Result& motion, doubl
     return how;
 }
 
-FigureOutput with_found_times(const FigureOutput& how, const Scene& scene, const FindImpacts& find) {
+FigureOutput with_found_times(const FigureOutput& how, const Scene& scene, const FindEvents& find) {
     const SeriesKeys& keys = how.series;
-    if (!keys.looks_at_impacts()) return with_event_times(how, {}, scene.end_time);
+    if (!keys.needs_events()) return with_event_times(how, {}, scene.end_time);
     const sim::Problem& counted = keys.compare.empty() ? scene.problem : keys.compare.front().problem;
-    const sim::Request request = events_until(keys.to.value_or(scene.end_time), looks_at_apexes(how));
+    const sim::Request request = events_request(keys.to.value_or(scene.end_time), needs_apexes(how));
     const bool ends_at_event = keys.to_event || keys.at;
     return with_event_times(how, find_events(counted, request, ends_at_event ? bounds_of(keys) : Bounds(), find),
                             scene.end_time);

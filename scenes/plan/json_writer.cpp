@@ -35,7 +35,7 @@ Json stage_of(const Simulation& simulation, const sim::Problem& problem) {
 
 Json stage_of(const Pictures& p, const std::vector<double>& times) {
     Json stage = {{"stage", kind_name(p.kind)}, {"file", p.file}, {"output", p.output}};
-    if (p.settled) {
+    if (p.times_known) {
         stage["frames"] = p.draw.size();
         stage["from"] = times[static_cast<std::size_t>(p.draw.front())];
         stage["last"] = times[static_cast<std::size_t>(p.draw.back())];
@@ -58,7 +58,7 @@ Json stage_of(const Pictures& p, const std::vector<double>& times) {
 
 std::string to_json(const Plan& plan, const Scene& scene) {
     Json out, stages = Json::array();
-    if (plan.impacts_until) stages.push_back({{"stage", "impacts"}, {"until", *plan.impacts_until}});
+    if (plan.events_until) stages.push_back({{"stage", "impacts"}, {"until", *plan.events_until}});
     if (plan.simulation) stages.push_back(stage_of(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared) {

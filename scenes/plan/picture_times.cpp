@@ -24,7 +24,7 @@ void end_at_event(Pictures& p, const sim::Result& motion) {
         p.span.fps = rate_of_page(p.span.fps, with_times(p.span, motion).from, p.end_time);
 }
 
-bool looks_at_apexes(const Pictures& p) {
+bool needs_apexes(const Pictures& p) {
     std::vector<Instant> named = p.span.instants();
     named.push_back(p.at);
     for (const Keyframe& key : p.picture.view.keyframes) named.push_back(key.at);
@@ -39,14 +39,14 @@ FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& moti
 }
 
 // Slow around the impacts of all that is shown; "impact:N" counts those of the first.
-FilmTimes times_of_compared(Pictures& p, const FindImpacts& find) {
-    const sim::Result first = find_events(p.compared.front().problem, events_until(p.end_time, looks_at_apexes(p)),
+FilmTimes times_of_compared(Pictures& p, const FindEvents& find) {
+    const sim::Result first = find_events(p.compared.front().problem, events_request(p.end_time, needs_apexes(p)),
                                           p.ends_at_event() ? bounds_of(p) : Bounds(), find);
     end_at_event(p, first);
     for (ComparedMotion& each : p.compared) each.request.end_time = p.end_time;
     std::vector<sim::Impact> all = first.impacts;
     for (std::size_t i = 1; i < p.compared.size(); ++i) {
-        const sim::Result other = find(p.compared[i].problem, events_until(p.end_time, false));
+        const sim::Result other = find(p.compared[i].problem, events_request(p.end_time, false));
         all.insert(all.end(), other.impacts.begin(), other.impacts.end());
     }
     std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
@@ -76,12 +76,12 @@ void choose_frames(Pictures& p, const FilmTimes& times) {
     const auto count = static_cast<long>(times.frames.size());
     const long begin = p.first_frame, end = begin + count;
     long from = begin, to = end;
-    if (p.kind != Pictures::Kind::still && p.ask.frames) {
-        from = std::max(begin, p.ask.frames->first);
-        to = std::min(end, p.ask.frames->second);
-    } else if (p.kind != Pictures::Kind::still && p.ask.shards > 1) {
-        from = begin + count * (p.ask.shard - 1) / p.ask.shards;
-        to = begin + count * p.ask.shard / p.ask.shards;
+    if (p.kind != Pictures::Kind::still && p.selection.frames) {
+        from = std::max(begin, p.selection.frames->first);
+        to = std::min(end, p.selection.frames->second);
+    } else if (p.kind != Pictures::Kind::still && p.selection.shards > 1) {
+        from = begin + count * (p.selection.shard - 1) / p.selection.shards;
+        to = begin + count * p.selection.shard / p.selection.shards;
     }
     if (p.kind == Pictures::Kind::video && (from > begin || to < end))
         p.part = fmt::format("{}:{} of {}:{}", from, to, begin, end);
@@ -95,7 +95,7 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
     p.moves = std::move(times.moves);
-    p.unshown = std::move(times.unshown);
+    p.unreached_events = std::move(times.unreached_events);
     p.poster = times.poster;
     std::vector<double>& poses = times.exposures.empty() ? times.frames : times.exposures;
     for (ComparedMotion& other : p.compared) {
@@ -117,64 +117,64 @@ const FigureOutput& output_of(const FigureFile& f, const Scene& scene) {
     return std::get<FigureOutput>(scene.outputs[f.output]);
 }
 
-bool looks_at_apexes(const Plan& plan, const Scene& scene) {
-    const auto figure_does = [&](const FigureFile& f) { return !f.settled && looks_at_apexes(output_of(f, scene)); };
-    return std::ranges::any_of(plan.pictures, [](const Pictures& p) { return looks_at_apexes(p); }) ||
+bool needs_apexes(const Plan& plan, const Scene& scene) {
+    const auto figure_does = [&](const FigureFile& f) { return !f.times_known && needs_apexes(output_of(f, scene)); };
+    return std::ranges::any_of(plan.pictures, [](const Pictures& p) { return needs_apexes(p); }) ||
            std::ranges::any_of(plan.figures, figure_does);
 }
 
 // What cannot be settled is refused, and leaves the list.
-template <class T, class Settle>
-void settle_each(std::vector<T>& all, const RefusePicture& refuse, const Settle& settle_one) {
+template <class T, class Resolve>
+void resolve_each(std::vector<T>& all, const RejectOutput& refuse, const Resolve& resolve) {
     for (T& each : all) {
-        if (each.settled) continue;
+        if (each.times_known) continue;
         try {
-            settle_one(each);
-            each.settled = true;
+            resolve(each);
+            each.times_known = true;
         } catch (const render::PictureError& error) {
             if (!refuse) throw;
             refuse(each.output, error.what());
         }
     }
-    std::erase_if(all, [](const T& each) { return !each.settled; });
+    std::erase_if(all, [](const T& each) { return !each.times_known; });
 }
 
 }  // namespace
 
-void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse) {
+void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find, const RejectOutput& refuse) {
     Bounds bounds;
     const auto add_bounds = [&](const Bounds& more) { bounds.insert(bounds.end(), more.begin(), more.end()); };
     for (const Pictures& p : plan.pictures)
-        if (!p.settled && p.compared.empty()) add_bounds(bounds_of(p));
+        if (!p.times_known && p.compared.empty()) add_bounds(bounds_of(p));
     for (const FigureFile& f : plan.figures)
-        if (const SeriesKeys& keys = output_of(f, scene).series; !f.settled && keys.compare.empty())
+        if (const SeriesKeys& keys = output_of(f, scene).series; !f.times_known && keys.compare.empty())
             add_bounds(bounds_of(keys));
-    if (plan.all_impacts) bounds.clear();
+    if (plan.all_events) bounds.clear();
     std::optional<sim::Result> found;
     const auto own = [&]() -> const sim::Result& {
         if (!found)
-            found = find_events(scene.problem, events_until(*plan.impacts_until, looks_at_apexes(plan, scene)), bounds,
-                                find);
+            found =
+                find_events(scene.problem, events_request(*plan.events_until, needs_apexes(plan, scene)), bounds, find);
         return *found;
     };
-    settle_each(plan.pictures, refuse, [&](Pictures& p) {
+    resolve_each(plan.pictures, refuse, [&](Pictures& p) {
         sim::Request none;
         if (!p.compared.empty()) return put_times(p, none, times_of_compared(p, find));
         end_at_event(p, own());
         put_times(p, plan.simulation->request, times_of(p, own()));
-        plan.simulation->look_until(p.end_time, p.file);
+        plan.simulation->simulate_until(p.end_time, p.file);
     });
-    settle_each(plan.figures, refuse, [&](FigureFile& f) {
+    resolve_each(plan.figures, refuse, [&](FigureFile& f) {
         const FigureOutput& how = output_of(f, scene);
         const bool of_scene = how.series.compare.empty();
         prepare_figure(f, scene,
                        of_scene ? with_event_times(how, own(), scene.end_time) : with_found_times(how, scene, find));
         for (const Study& study : f.studies)
-            if (study.of_scene) plan.simulation->look_until(end_of(study.request), f.file);
+            if (study.of_scene) plan.simulation->simulate_until(end_of(study.request), f.file);
     });
-    plan.impacts_until.reset();
+    plan.events_until.reset();
     if (plan.simulation) plan.simulation->until_events.clear();
-    note_ends(plan);
+    assign_ends(plan);
 }
 
 }  // namespace beamcam::scenes

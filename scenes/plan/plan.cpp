@@ -11,9 +11,11 @@
 
 namespace beamcam::scenes {
 
-Plan plan(const Scene& scene, const Ask& ask, const Known& known) { return Planner(scene, ask, known).make(); }
+Plan plan(const Scene& scene, const Selection& selection, const ExistingWork& existing) {
+    return Planner(scene, selection, existing).make();
+}
 
-void Simulation::look_until(double t, const std::string& file) {
+void Simulation::simulate_until(double t, const std::string& file) {
     if (!(t > request.end_time) && !until_because.empty()) return;
     request.end_time = std::max(t, request.end_time);
     until_because = file;
@@ -77,7 +79,7 @@ std::vector<sim::Request> requests_of(const Plan& plan) {
     return all;
 }
 
-void note_ends(Plan& plan) {
+void assign_ends(Plan& plan) {
     if (!plan.simulation) return;
     std::vector<double>& ends = plan.simulation->ends;
     ends.clear();
@@ -90,17 +92,17 @@ void note_ends(Plan& plan) {
     }
 }
 
-std::string no_room(const Size& size) {
+std::string why_panels_are_omitted(const Size& size) {
     return fmt::format(
         "{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them", size.width,
         size.height);
 }
 
-std::string no_room_to_write(const Size& size) {
+std::string why_text_is_omitted(const Size& size) {
     return fmt::format("{} × {} leaves no room to write them; a larger \"size\" would", size.width, size.height);
 }
 
-std::string unwritten(const Pictures& p, const Scene& scene) {
+std::string omitted_text(const Pictures& p, const Scene& scene) {
     const Picture& picture = p.picture;
     std::vector<const sim::Problem*> problems;
     for (const Compared& each : picture.compare) problems.push_back(&each.problem);
@@ -112,12 +114,12 @@ std::string unwritten(const Pictures& p, const Scene& scene) {
                                  "; "));
 }
 
-void note_unwritten(Plan& plan, const Scene& scene) {
+void add_omitted_text(Plan& plan, const Scene& scene) {
     std::vector<Skipped> notes;
     try {
         for (const Pictures& p : plan.pictures)
-            if (const std::string what = unwritten(p, scene); !what.empty())
-                notes.push_back({fmt::format("{} on {}", what, p.file), no_room_to_write(p.picture.size)});
+            if (const std::string what = omitted_text(p, scene); !what.empty())
+                notes.push_back({fmt::format("{} on {}", what, p.file), why_text_is_omitted(p.picture.size)});
     } catch (const render::FontError&) {
         return;  // told by whoever draws
     }

@@ -26,13 +26,13 @@
 namespace beamcam::scenes {
 
 // A part of the work, to share it between machines.
-struct Ask {
+struct Selection {
     std::optional<std::pair<long, long>> frames;  // numbers of the frames of films and sequences, half open
     int shard = 1, shards = 1;                    // 1 <= shard <= shards
 };
 
 // What is there already. Found by looking at files (survey.hpp), so that a plan stays pure.
-struct Known {
+struct ExistingWork {
     std::set<std::size_t> finished;                // outputs whose files were made from the same inputs
     std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the frames that are finished
     std::optional<double> kept_until;              // how far a kept trajectory of this motion goes [s]
@@ -60,7 +60,7 @@ struct Simulation {
     bool keep = false;         // for later runs
     std::optional<Cost> cost;
 
-    void look_until(double t, const std::string& file);
+    void simulate_until(double t, const std::string& file);
 };
 
 // Other physics than the scene's, that figures compare it with: what serves all that look at it.
@@ -88,10 +88,11 @@ struct Pictures {
     Instant at;               // of a still
     Encoding encoding;        // of video
     bool collisions = false;  // a strip of a film shows them one by one
-    bool settled = true;    // false: the instants of frames or of the charts' rows are not known before the impacts are
+    bool times_known =
+        true;               // false: the instants of frames or of the charts' rows are not known before the events are
     double end_time = 0;    // nothing is looked at beyond it; if it ends at an event, at most, until settled [s]
     long first_frame = 0;   // number of the first frame; the others follow
-    Ask ask;                // which of them are asked for
+    Selection selection;    // which of them are asked for
     std::set<long> there;   // numbers of those that are finished
     std::vector<int> draw;  // which are drawn, ascending; camera and scales are those of all
     std::string part;       // of a film: "30:60 of 0:90"; empty: the whole
@@ -105,8 +106,8 @@ struct Pictures {
     std::vector<double> speeds;  // of time at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<render::CameraMove> moves;
-    std::vector<std::string> unshown;  // events of a film that it does not reach: "impact 3"
-    std::string too_small;             // names of the wanted panels that do not fit: "phase, energy"
+    std::vector<std::string> unreached_events;  // events of a film that it does not reach: "impact 3"
+    std::string omitted_panels;                 // names of the wanted panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
     std::vector<ComparedMotion> compared;  // all that the picture shows, if it compares; else empty
     // Of the one simulation, unless the picture compares motions:
@@ -122,8 +123,8 @@ struct Pictures {
 struct FigureFile {
     std::size_t output = 0;
     std::string file, figure;
-    // False: it begins or ends at events; studies and maker are of the whole scene until they are known.
-    bool settled = true;
+    // False: it begins or ends at events; studies and maker are of the whole scene until these are known.
+    bool times_known = true;
     std::optional<Instant> ends_at = {};  // the event
     std::vector<Study> studies = {};      // what it looks at, as if it were alone
     FigureMaker make = {};                // from their results
@@ -151,7 +152,7 @@ struct DataFile {
     Node details = object_node();           // for the plan as JSON
     std::size_t numbers = 0;                // how many it holds; 0: so few that writing them takes no time
     std::optional<std::size_t> table = {};  // index into Request::tables; its rows are kept if the solver fails
-    bool tells_of_work = false;             // it is written after all others
+    bool reports_work = false;              // it is written after all others
     std::optional<Cost> cost = {};
 };
 
@@ -163,12 +164,11 @@ struct Plan {
     std::optional<Simulation> simulation;
     // Until when, at most, a first run has to find events, because pictures and figures that are not settled look at
     // them.
-    std::optional<double> impacts_until;
-    bool all_impacts =
-        false;  // some look at all until then; else the run may end once it has the events that they name
+    std::optional<double> events_until;
+    bool all_events = false;  // some look at all until then; else the run may end once it has the events that they name
     std::vector<Variant> variants;
-    std::string sweep;           // the first file that shows the points of the scene's sweep; empty: none
-    bool sweep_goes_on = false;  // and a film shows how motions go on from their ends, which no NetCDF file has
+    std::string sweep;              // the first file that shows the points of the scene's sweep; empty: none
+    bool sweep_end_states = false;  // and a film shows how motions go on from their ends, which no NetCDF file has
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;
@@ -176,30 +176,30 @@ struct Plan {
 
     bool needs_gl() const;                                      // a lit view
     bool needs_encoder() const;                                 // a video
-    std::optional<Cost> cost() const;                           // of all whose cost is known; amount: bytes
+    std::optional<Cost> cost() const;                           // of all stages with a known cost; amount: bytes
     std::size_t frames() const;                                 // drawn altogether
     std::vector<double> times(const Pictures& pictures) const;  // of its frames; empty before it is settled
 };
 
-Plan plan(const Scene& scene, const Ask& ask = {}, const Known& known = {});
+Plan plan(const Scene& scene, const Selection& selection = {}, const ExistingWork& existing = {});
 
 // What is asked of the scene's motion: first the run itself, then where pictures end before, then what figures look at,
 // in their order. None without a simulation.
 std::vector<sim::Request> requests_of(const Plan& plan);
 
 // Notes which of its pictures end before the run.
-void note_ends(Plan& plan);
+void assign_ends(Plan& plan);
 
-// Why a picture leaves out Pictures::too_small.
-std::string no_room(const Size& size);
+// Why a picture leaves out Pictures::omitted_panels.
+std::string why_panels_are_omitted(const Size& size);
 
 // The parameters, and the colour scales, for which the picture has no room: "R = 100 mm; colour scales"; empty: none.
 // Loads fonts. Throws render::FontError.
-std::string unwritten(const Pictures& p, const Scene& scene);
+std::string omitted_text(const Pictures& p, const Scene& scene);
 // Why.
-std::string no_room_to_write(const Size& size);
+std::string why_text_is_omitted(const Size& size);
 // Puts what pictures do not write among what the plan skips; nothing where fonts are missing.
-void note_unwritten(Plan& plan, const Scene& scene);
+void add_omitted_text(Plan& plan, const Scene& scene);
 
 // A film of one motion so slow, or so slow around impacts, that collisions are what it shows.
 bool is_slow_motion(const Pictures& p);
@@ -208,9 +208,9 @@ bool is_slow_motion(const Pictures& p);
 // apexes where the request has them; it is called once for the scene's own motion, if a picture needs that, and for
 // each compared one. What shows an instant that does not exist is handed to `refuse`, by its output, and leaves the
 // plan; without `refuse` that is thrown. Throws what `find` throws and render::PictureError.
-using FindImpacts = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
-using RefusePicture = std::function<void(std::size_t output, const std::string& why)>;
-void settle(Plan& plan, const Scene& scene, const FindImpacts& find, const RefusePicture& refuse = {});
+using FindEvents = std::function<sim::Result(const sim::Problem& problem, const sim::Request& request)>;
+using RejectOutput = std::function<void(std::size_t output, const std::string& why)>;
+void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find, const RejectOutput& refuse = {});
 
 // Words of the plan: "lit", "video".
 const char* view_name(const render::View& view);

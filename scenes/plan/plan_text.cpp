@@ -98,7 +98,7 @@ std::string simulation_words(const Simulation& simulation, const sim::Problem& p
 
 std::string span_words(const Pictures& p, const std::vector<double>& times) {
     const bool still = p.kind == Pictures::Kind::still;
-    if (!p.settled) {
+    if (!p.times_known) {
         if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture of {:g} s", p.at.t);
         if (still) return "one picture of " + name_of(p.at);
         if (p.span.real_time() && !p.span.from_event &&
@@ -136,7 +136,7 @@ std::string picture_words(const Pictures& p, const std::vector<double>& times) {
     if (p.makes_poster())
         words +=
             fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
-    else if (!p.settled && !p.poster_file.empty())
+    else if (!p.times_known && !p.poster_file.empty())
         words += fmt::format("; one of its frames as {} too", p.poster_file);
     if (const double memory = memory_of(p.picture); memory >= kMuchMemory)
         words += fmt::format("; takes {} of memory for each thread", size_words(memory));
@@ -148,10 +148,10 @@ std::string picture_words(const Pictures& p, const std::vector<double>& times) {
 std::string to_text(const Plan& plan, const Scene& scene) {
     std::string text = "to do\n";
     auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
-    if (plan.impacts_until)
+    if (plan.events_until)
         line("impacts",
              fmt::format("a first run until {:g} s{} finds them: outputs below begin, end, stand or slow down at them",
-                         *plan.impacts_until, plan.all_impacts ? "" : ", or until it has them,"));
+                         *plan.events_until, plan.all_events ? "" : ", or until it has them,"));
     if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared)
@@ -166,7 +166,7 @@ std::string to_text(const Plan& plan, const Scene& scene) {
         line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const DataFile& d : plan.data)
         line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
-    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.settled; });
+    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.times_known; });
     if (const auto cost = plan.cost())
         line("in all", fmt::format("{}{}, as past runs tell", some ? "besides pictures that look at impacts, " : "",
                                    file_cost(cost).substr(2)));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "scenes/motions/motions.hpp"
+#include "scenes/motions/motion_store.hpp"
 #include "scenes/plan/picture_times.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/observe/recorder_set.hpp"
@@ -25,7 +25,7 @@ std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& 
     return render::standard_panels(*shown, is_slow_motion(p));
 }
 
-std::string too_small(const Picture& picture) {
+std::string omitted_panels(const Picture& picture) {
     std::string out;
     if (!picture.layout) return out;
     for (const render::PanelSpec& panel :
@@ -63,17 +63,18 @@ bool is_shared(const Output& output) {
 
 }  // namespace
 
-Planner::Planner(const Scene& scene, const Ask& ask, const Known& known) : scene_(scene), ask_(ask), known_(known) {
+Planner::Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing)
+    : scene_(scene), selection_(selection), existing_(existing) {
     simulation_.request.turning_points = false;
 }
 
 Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
         const Output& output = scene_.outputs[i];
-        if (known_.finished.contains(i)) {
+        if (existing_.finished.contains(i)) {
             ++finished_;
             skip(file_of(output), "it is there already, made from the same inputs");
-        } else if (ask_.shard > 1 && !is_shared(output)) {
+        } else if (selection_.shard > 1 && !is_shared(output)) {
             skip(file_of(output), "the first shard makes it");
         } else {
             std::visit([&](const auto& wanted) { wanted.plan(*this, i); }, output);
@@ -81,9 +82,9 @@ Plan Planner::make() {
     }
     if (needed_) finish_simulation();
     for (Variant& variant : plan_.variants) {
-        const auto kept = known_.variants_kept.find(Studies::key(variant.problem));
-        settle_cache(variant.simulation,
-                     kept == known_.variants_kept.end() ? std::nullopt : std::optional(kept->second));
+        const auto kept = existing_.variants_kept.find(Studies::key(variant.problem));
+        resolve_cache_use(variant.simulation,
+                          kept == existing_.variants_kept.end() ? std::nullopt : std::optional(kept->second));
     }
     // In the order of the types.
     std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
@@ -95,27 +96,27 @@ void Planner::finish_simulation() {
     simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
     for (const sim::Request& of_figure : figures_ask_)
         simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
-    settle_cache(simulation_, known_.kept_until);
+    resolve_cache_use(simulation_, existing_.kept_until);
     plan_.simulation = std::move(simulation_);
-    note_ends(plan_);
+    assign_ends(plan_);
 }
 
 // `keep` says so far whether it is worth it.
-void Planner::settle_cache(Simulation& simulation, std::optional<double> kept_until) const {
+void Planner::resolve_cache_use(Simulation& simulation, std::optional<double> kept_until) const {
     simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time && simulation.until_events.empty();
-    simulation.keep = simulation.keep && known_.keeps && !simulation.from_cache;
+    simulation.keep = simulation.keep && existing_.keeps && !simulation.from_cache;
 }
 
 // ---- what outputs need -------------------------------------------------------------------------
 
-double Planner::run_end() const { return std::max(scene_.end_time, known_.until); }
+double Planner::run_end() const { return std::max(scene_.end_time, existing_.until); }
 
-void Planner::look_until(double t, const std::string& file) {
+void Planner::simulate_until(double t, const std::string& file) {
     needed_ = true;
-    simulation_.look_until(t, file);
+    simulation_.simulate_until(t, file);
 }
 
-void Planner::look_until(const Instant& event, const std::string& file) {
+void Planner::simulate_until(const Instant& event, const std::string& file) {
     needed_ = true;
     simulation_.until_events.push_back(fmt::format("{}, for {}", name_of(event), file));
 }
@@ -127,18 +128,20 @@ std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Chann
 
 void Planner::add(Pictures p, double ends) {
     p.end_time = ends;
-    p.ask = ask_;
-    if (const auto there = known_.frames.find(p.output); there != known_.frames.end()) p.there = there->second;
-    if (p.kind == Pictures::Kind::video && ask_.shards > 1) p.file = shard_file(p.file, ask_.shard, ask_.shards);
+    p.selection = selection_;
+    if (const auto there = existing_.frames.find(p.output); there != existing_.frames.end()) p.there = there->second;
+    if (p.kind == Pictures::Kind::video && selection_.shards > 1)
+        p.file = shard_file(p.file, selection_.shard, selection_.shards);
     const bool still = p.kind == Pictures::Kind::still;
     p.collisions = shows_collisions(p, scene_.problem);
     const bool moves_by_events = std::ranges::any_of(p.picture.view.keyframes, &Instant::is_event, &Keyframe::at);
-    p.settled = !p.collisions && !moves_by_events && (still ? !p.at.is_event() : !p.span.looks_at_impacts());
+    p.times_known = !p.collisions && !moves_by_events && (still ? !p.at.is_event() : !p.span.needs_events());
     p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
-    p.too_small = too_small(p.picture);
-    if (!p.too_small.empty()) skip("panels " + p.too_small + " of " + p.file, no_room(p.picture.size));
+    p.omitted_panels = omitted_panels(p.picture);
+    if (!p.omitted_panels.empty())
+        skip("panels " + p.omitted_panels + " of " + p.file, why_panels_are_omitted(p.picture.size));
     FilmTimes times;
-    if (p.settled) {
+    if (p.times_known) {
         times = times_of(p, {});
         choose_frames(p, times);
         note_left_frames(p, times.frames.size());
@@ -148,7 +151,7 @@ void Planner::add(Pictures p, double ends) {
         add_own_motion(p, ends);
     else
         add_compared(p);
-    if (p.settled)
+    if (p.times_known)
         put_times(p, simulation_.request, std::move(times));
     else
         find_events(ends, !p.ends_at_event());
@@ -157,8 +160,8 @@ void Planner::add(Pictures p, double ends) {
 
 void Planner::add_own_motion(Pictures& p, double ends) {
     sim::Request& request = simulation_.request;
-    p.ends_at_event() ? look_until(*p.span.to_event, p.file) : look_until(ends, p.file);
-    if (p.picture.horizon) ask_for_horizon();
+    p.ends_at_event() ? simulate_until(*p.span.to_event, p.file) : simulate_until(ends, p.file);
+    if (p.picture.horizon) require_horizon();
     p.poses = request.poses.size();
     request.poses.push_back({});
     p.survey = request.poses.size();
@@ -187,14 +190,15 @@ void Planner::add(FigureFile figure) {
 }
 
 void Planner::find_events(double until, bool all) {
-    plan_.impacts_until = std::max(plan_.impacts_until.value_or(0), until);
-    plan_.all_impacts = plan_.all_impacts || all;
+    plan_.events_until = std::max(plan_.events_until.value_or(0), until);
+    plan_.all_events = plan_.all_events || all;
 }
 
 // A figure's run joins others of its motion.
 void Planner::add_study(const Study& study, const FigureFile& figure) {
     if (study.of_scene) {
-        figure.ends_at ? look_until(*figure.ends_at, figure.file) : look_until(end_of(study.request), figure.file);
+        figure.ends_at ? simulate_until(*figure.ends_at, figure.file)
+                       : simulate_until(end_of(study.request), figure.file);
         figures_ask_.push_back(study.request);
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
@@ -207,7 +211,7 @@ void Planner::add_study(const Study& study, const FigureFile& figure) {
         same = plan_.variants.end() - 1;
     }
     Simulation& all = same->simulation;
-    all.look_until(end_of(study.request), figure.file);
+    all.simulate_until(end_of(study.request), figure.file);
     all.horizon = all.horizon || study.request.horizon;
     all.keep = all.keep || worth_keeping(study.problem, study.request);
 }
@@ -217,7 +221,7 @@ void Planner::add_study(const Study& study, const FigureFile& figure) {
 void Planner::note_left_frames(const Pictures& p, std::size_t count) {
     if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.there.size() < count))
         skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.there.size(), count, p.file),
-             p.ask.frames ? "outside the frames asked for" : "other shards draw them");
+             p.selection.frames ? "outside the frames asked for" : "other shards draw them");
     if (!p.there.empty())
         skip(fmt::format("{} frames of {}", p.there.size(), p.file),
              "they are there already, made from the same inputs");

@@ -44,7 +44,7 @@ class Reader {
         if (!parsed.is_json) throw SceneError(describe({all_.source}, std::move(parsed.messages)));
         messages_ = std::move(parsed.messages);
         read_root(parsed.root);
-        for (Message& message : findings_.take()) messages_.push_back(std::move(message));
+        for (Message& message : diagnostics_.take()) messages_.push_back(std::move(message));
         if (!messages_.empty()) {
             std::string report = describe({all_.source}, std::move(messages_));
             for (const Baseline& entry : all_.entries) report += entry.problem;
@@ -57,12 +57,12 @@ class Reader {
     fs::path folder() const { return path_ == "-" ? fs::path(".") : fs::path(path_).parent_path(); }
 
     void read_root(const Node& root) {
-        ObjectReader f(findings_, &root, "", "the baselines");
+        ObjectReader f(diagnostics_, &root, "", "the baselines");
         std::string schema, references = path_ == "-" ? "references" : fs::path(path_).stem().string();
         f.text("$schema", schema, "Where an editor finds the schema.");
         f.text("references", references, "Folder of the references.");
         all_.references = folder() / (references.empty() ? "." : references);
-        if (const Node* node = f.take("tolerance")) read_tolerances(findings_, *node, "tolerance", defaults_);
+        if (const Node* node = f.take("tolerance")) read_tolerances(diagnostics_, *node, "tolerance", defaults_);
         if (const Node* node = f.take("renderers")) read_renderers(*node);
         if (const Node* node =
                 f.take(sim::required("entries", "{\"fall\": {\"scene\": \"fall.json\", \"output\": {…}}}")))
@@ -71,7 +71,7 @@ class Reader {
     }
 
     void read_renderers(const Node& node) {
-        ObjectReader f(findings_, &node, "renderers");
+        ObjectReader f(diagnostics_, &node, "renderers");
         if (!f.node()) return;
         for (const Member& member : node.members) {
             RendererParts parts;
@@ -81,12 +81,12 @@ class Reader {
     }
 
     void read_entries(const Node& node) {
-        ObjectReader f(findings_, &node, "entries");
+        ObjectReader f(diagnostics_, &node, "entries");
         if (!f.node()) return;
         if (node.members.empty()) f.fail(node, "", "entries is empty; name at least one thing to guard");
         for (const Member& member : node.members) {
             if (!is_plain_name(member.key))
-                findings_.error(
+                diagnostics_.error(
                     member.key_place, "entries." + member.key,
                     fmt::format("{} names files: use letters, digits, '-', '_' and '.' only", in_quotes(member.key)));
             else
@@ -96,7 +96,7 @@ class Reader {
 
     void read_entry(const Member& member) {
         const std::string path = "entries." + member.key;
-        ObjectReader f(findings_, &member.value, path);
+        ObjectReader f(diagnostics_, &member.value, path);
         if (!f.node()) return;
         Baseline entry;
         entry.name = member.key;
@@ -108,10 +108,10 @@ class Reader {
         const Node* scene = drawn_here ? f.take(sim::required("scene", "\"fall.json\"")) : nullptr;
         const Node* output =
             drawn_here ? f.take(sim::required("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}")) : nullptr;
-        f.truth("physics", entry.physics, "Whether the motion is compared, and no picture.");
+        f.boolean("physics", entry.physics, "Whether the motion is compared, and no picture.");
         Tolerances own;
         if (const Node* tolerance = f.take("tolerance"))
-            read_tolerances(findings_, *tolerance, path + ".tolerance", own);
+            read_tolerances(diagnostics_, *tolerance, path + ".tolerance", own);
         if (const Node* accepted = f.take("accepted")) read_accepted(*accepted, path + ".accepted", entry.accepted);
         f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kNotNegative,
                  "Until when the motion is reproducible.");
@@ -143,18 +143,18 @@ class Reader {
             node.kind == Node::Kind::array && std::all_of(node.items.begin(), node.items.end(),
                                                           [](const Node& n) { return n.kind == Node::Kind::string; });
         if (!fine)
-            return findings_.error(
+            return diagnostics_.error(
                 node.place, path,
-                fmt::format("{} must be an array of texts such as \"cam.speed=5\", not {}", path, shown(node)));
+                fmt::format("{} must be an array of texts such as \"cam.speed=5\", not {}", path, as_written(node)));
         for (const Node& item : node.items) overrides.push_back(item.text);
     }
 
     void read_accepted(const Node& node, const std::string& path, std::vector<Accepted>& accepted) {
         if (node.kind != Node::Kind::array)
-            return findings_.error(node.place, path,
-                                   fmt::format("{} must be an array [ … ], not {}", path, shown(node)));
+            return diagnostics_.error(node.place, path,
+                                      fmt::format("{} must be an array [ … ], not {}", path, as_written(node)));
         for (std::size_t i = 0; i < node.items.size(); ++i) {
-            ObjectReader f(findings_, &node.items[i], fmt::format("{}.{}", path, i));
+            ObjectReader f(diagnostics_, &node.items[i], fmt::format("{}.{}", path, i));
             Accepted one;
             f.text("renderer", one.renderer, "What drew the accepted pictures.");
             const Node* digests = f.take(sim::required("sha256", "[\"0123…\"]"));
@@ -195,8 +195,9 @@ class Reader {
             reading = read_scene({all_.source.name, {}, true}, node, overrides, files_);
             reading.sources.front() = all_.source;  // the places are those of the whole file
         } else {
-            return refuse(entry, node,
-                          fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, shown(node)));
+            return refuse(
+                entry, node,
+                fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, as_written(node)));
         }
         if (!reading.scene) {
             refuse(entry, node, fmt::format("{}.scene: the scene cannot be read", path));
@@ -255,7 +256,7 @@ class Reader {
     std::string path_;
     Baselines all_;
     Tolerances defaults_;
-    Findings findings_;
+    Diagnostics diagnostics_;
     SceneFiles files_;
     std::vector<Message> messages_;
 };

@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "output/files/interrupt.hpp"
-#include "scenes/outputs/capture.hpp"
+#include "scenes/outputs/draw_callbacks.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {
@@ -49,7 +49,7 @@ void EntryGroup::run_alone(const RegressionOptions& options, RegressionResult& a
 void EntryGroup::prepare(Job& job) {
     const Scene& scene = job.test->entry().scene;
     job.plan = plan(scene);
-    settle(job.plan, scene, [](const sim::Problem& some, const sim::Request& events) {
+    resolve_event_times(job.plan, scene, [](const sim::Problem& some, const sim::Request& events) {
         return sim::simulate(some, events, [](double) { return !output::interrupted(); });
     });
     // A picture that compares other motions than the scene's own has no simulation of it, nor has a figure of
@@ -92,7 +92,7 @@ void EntryGroup::judge(Job& job, std::vector<sim::Result> results, const Regress
     test.require_reproducible(run, job.until);
     if (test.asks_for_motion())
         test.motion().judge(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
-    Capture capture{
+    DrawCallbacks capture{
         std::move(results),
         [&](const Pictures&, long frame, const render::Image& image) { test.pictures().judge(frame, image); },
         [&](const render::Image& image) { test.pictures().judge(0, image); },

@@ -16,7 +16,7 @@ bool is_id(const std::string& text) {
 }
 
 void read_pictures(ObjectReader& f, Tolerance& tolerance) {
-    f.whole("channel", tolerance.channel, 0, 255, "Of a pixel's channel, in levels.");
+    f.integer("channel", tolerance.channel, 0, 255, "Of a pixel's channel, in levels.");
     f.number("share", tolerance.share, dimension::kNone, sim::between(0, 1), "Of the pixels that may differ by more.");
     f.number("ssim", tolerance.ssim, dimension::kNone, sim::between(0, 1),
              "Pictures at least so similar are equivalent.");
@@ -44,20 +44,20 @@ const Tolerance& Tolerances::on_renderer(const std::string& renderer) const {
     return own == on.end() ? usual : own->second;
 }
 
-void read_tolerances(Findings& findings, const Node& node, const std::string& path, Tolerances& tolerances) {
-    ObjectReader f(findings, &node, path);
+void read_tolerances(Diagnostics& diagnostics, const Node& node, const std::string& path, Tolerances& tolerances) {
+    ObjectReader f(diagnostics, &node, path);
     read_pictures(f, tolerances.usual);
     f.number("motion", tolerances.usual.motion, dimension::kNone, sim::between(0, 1), "Of a channel's range.");
     f.number("impacts", tolerances.usual.impacts, dimension::kNone, sim::between(0, 1), "Of an impact's quantities.");
     if (const Node* renderers = f.take("renderers")) {
-        const ObjectReader all(findings, renderers, path + ".renderers");
+        const ObjectReader all(diagnostics, renderers, path + ".renderers");
         for (const Member& member : renderers->members) {
             const std::string own_path = all.path(member.key);
             if (!is_id(member.key))
-                findings.error(member.key_place, own_path,
-                               fmt::format("{} is no renderer: beamcam doctor prints the ids of this machine",
-                                           in_quotes(member.key)));
-            ObjectReader own(findings, &member.value, own_path);
+                diagnostics.error(member.key_place, own_path,
+                                  fmt::format("{} is no renderer: beamcam doctor prints the ids of this machine",
+                                              in_quotes(member.key)));
+            ObjectReader own(diagnostics, &member.value, own_path);
             read_pictures(own, tolerances.on[member.key]);
             own.finish();
         }

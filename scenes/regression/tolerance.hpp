@@ -32,7 +32,7 @@ struct Tolerances {
 };
 
 // The object `node`, which stands at `path`.
-void read_tolerances(Findings& findings, const Node& node, const std::string& path, Tolerances& tolerances);
+void read_tolerances(Diagnostics& diagnostics, const Node& node, const std::string& path, Tolerances& tolerances);
 
 // `key=value` of --tolerance. Throws UsageError.
 void apply_tolerance(Tolerance& tolerance, const std::string& text);

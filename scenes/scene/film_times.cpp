@@ -125,7 +125,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
             shown.push_back({&event, *t});
             if (event.freeze > 0) map.freeze(*t, event.freeze);
         } else if (event.at.is_event()) {  // the reader has told of those
-            out.unshown.push_back(name_of(event.at));
+            out.unreached_events.push_back(name_of(event.at));
         }
     }
     if (span.speed.around)
@@ -136,7 +136,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
             if (slow) continue;
             const Instant collision{.kind = Instant::Kind::collision, .number = static_cast<int>(number)};
             (void)reached(collision, span, to, motion);
-            out.unshown.push_back("the slow motion of " + name_of(collision));
+            out.unreached_events.push_back("the slow motion of " + name_of(collision));
         }
     map.freeze(to, span.hold);
     const double fps = span.fps.value(), count = std::round(map.duration() * fps);
@@ -233,7 +233,7 @@ FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result&
         if (const std::optional<double> t = reached(*span.poster, span, to, motion))
             out.poster = first_at(out.frames, *t);
         else
-            out.unshown.push_back(name_of(*span.poster) + ", its poster");
+            out.unreached_events.push_back(name_of(*span.poster) + ", its poster");
     }
     out.chart = rows(span.from, to, chart_rate(to - span.from));
     out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
@@ -279,7 +279,7 @@ void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result
     for (const Keyframe& key : view.keyframes) {
         const auto t = shortened ? find_instant(key.at, motion) : instant_of(key.at, motion);
         if (!t) {
-            times.unshown.push_back("the camera at " + name_of(key.at));
+            times.unreached_events.push_back("the camera at " + name_of(key.at));
             continue;
         }
         if (latest && *t <= *latest)

@@ -19,9 +19,9 @@ struct FilmTimes {
     std::vector<double> speeds;     // of each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<render::CameraMove> moves;
-    std::vector<std::string> unshown;  // events that the film does not reach or begins after: "impact 3"
-    std::optional<int> poster;         // index into frames
-    std::vector<double> chart, trace;  // rows [s], increasing
+    std::vector<std::string> unreached_events;  // events that the film does not reach or begins after: "impact 3"
+    std::optional<int> poster;                  // index into frames
+    std::vector<double> chart, trace;           // rows [s], increasing
     // Evenly over the time that is shown, whatever the frames: what scales are chosen by [s].
     std::vector<double> survey;
 };

@@ -70,7 +70,7 @@ std::vector<Instant> FrameSpan::instants() const {
     return all;
 }
 
-bool FrameSpan::looks_at_impacts() const { return speed.around || std::ranges::any_of(instants(), &Instant::is_event); }
+bool FrameSpan::needs_events() const { return speed.around || std::ranges::any_of(instants(), &Instant::is_event); }
 
 VideoOutput default_film(const Scene& scene) {
     VideoOutput film;

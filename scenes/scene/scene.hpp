@@ -156,7 +156,7 @@ struct FrameSpan {
 
     bool real_time() const { return speed.real_time() && events.empty() && !duration && hold == 0; }
     std::vector<Instant> instants() const;  // all that it names
-    bool looks_at_impacts() const;          // events have to be known before the frames' instants are
+    bool needs_events() const;              // events have to be known before the frames' instants are
 };
 
 using render::Lang;
@@ -333,7 +333,7 @@ struct SeriesKeys {
     std::vector<SeriesNote> notes = {};
     std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; absent: what suits the motion
 
-    bool looks_at_impacts() const { return from_event || to_event || (at && at->is_event()); }
+    bool needs_events() const { return from_event || to_event || (at && at->is_event()); }
 };
 inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
 struct FigureOutput {

@@ -41,13 +41,13 @@ class RangeCheck final : public Visitor {
                  const char*) override {
         (void)std::all_of(values.begin(), values.end(), [&](double x) { return judge(key, x, unit, range); });
     }
-    void whole(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
+    void integer(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
         if (value && (*value < least || *value > most))
             out_.refuse(path(key), fmt::format("must be {} to {}, is {}", least, most, *value));
     }
-    void truth(const Key&, bool&, const char*) override {}
+    void boolean(const Key&, bool&, const char*) override {}
     void text(const Key&, std::string&, const char*) override {}
-    void word(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
+    void keyword(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
     void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
         RangeCheck inside(out_, path(key) + ".");
         if (!present || *present) fields(inside);

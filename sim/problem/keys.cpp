@@ -77,7 +77,7 @@ static void visit(Visitor& v, Beam& beam) {
     v.choice("model", beam.model, "Beam model, from rigid to the exact elastica.");
     v.choice("basis", beam.basis,
              "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
-    v.whole("modes", beam.modes, 1, 40, "Number N of shape functions.");
+    v.integer("modes", beam.modes, 1, 40, "Number N of shape functions.");
     v.numbers("damping_ratio", beam.damping_ratio, dim::kNone, kNotNegative, {.or_one_number = true},
               "Modal damping ratio ζ: one number for all modes, or one for each; none when left out. Excludes "
               "kelvin_voigt.");
@@ -179,8 +179,8 @@ static void visit(Visitor& v, Solver& solver) {
     v.number("rtol", solver.rtol, dim::kNone, between(1e-13, 1e-2), "Relative tolerance.");
     // Below 1e-40 nothing moves by as much: a tolerance of zero by another name.
     v.number("atol", solver.atol, dim::kNone, between(1e-40, 1e10), "Absolute tolerance.");
-    v.whole("max_steps", solver.max_steps, 1, 2'000'000'000,
-            "Steps that a run may try before it stops with an error (exit code 4).");
+    v.integer("max_steps", solver.max_steps, 1, 2'000'000'000,
+              "Steps that a run may try before it stops with an error (exit code 4).");
 }
 
 void visit(Visitor& v, Problem& problem) {

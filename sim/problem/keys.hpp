@@ -112,11 +112,11 @@ class Visitor {
                         const char* meaning, const char* word = nullptr) = 0;
     virtual void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
                          const Length& length, const char* meaning) = 0;
-    virtual void whole(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) = 0;
-    virtual void truth(const Key& key, bool& value, const char* meaning) = 0;
+    virtual void integer(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) = 0;
+    virtual void boolean(const Key& key, bool& value, const char* meaning) = 0;
     virtual void text(const Key& key, std::string& value, const char* meaning) = 0;
-    virtual void word(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
-                      const char* meaning) = 0;
+    virtual void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
+                         const char* meaning) = 0;
     // An object; `present` where null may stand for it, and says whether it does not.
     virtual void object(const Key& key, const std::function<void(Visitor&)>& fields, const char* meaning,
                         bool* present = nullptr) = 0;
@@ -124,9 +124,9 @@ class Visitor {
     virtual void alternatives(const std::vector<Alternative>& all) = 0;
 
     // ---- of those above ----
-    void whole(const Key& key, int& value, int least, int most, const char* meaning) {
+    void integer(const Key& key, int& value, int least, int most, const char* meaning) {
         std::optional<int> some = value;
-        whole(key, some, least, most, meaning);
+        integer(key, some, least, most, meaning);
         value = some.value_or(value);
     }
     void numbers(const Key& key, Vec2& value, const Unit& unit, const char* meaning) {
@@ -142,7 +142,7 @@ class Visitor {
             if (each.value == value) chosen = words.size();
             words.emplace_back(each.name);
         }
-        word(key, words, chosen, meaning);
+        keyword(key, words, chosen, meaning);
         value = among[chosen].value;
     }
     template <class Enum>

@@ -13,7 +13,7 @@ class NumberWalk final : public Visitor {
   public:
     using Found = std::function<void(NumberKey, const std::function<bool(double)>& set)>;
     explicit NumberWalk(Found found) : found_(std::move(found)) {}
-    using Visitor::number, Visitor::numbers, Visitor::whole, Visitor::object;
+    using Visitor::number, Visitor::numbers, Visitor::integer, Visitor::object;
 
     void number(const Key& key, double& value, const Unit& unit, const Range&, const char*) override {
         found_({path_ + key.name, unit.resolved(), false, value}, [&value](double to) { return value = to, true; });
@@ -32,16 +32,16 @@ class NumberWalk final : public Visitor {
             found_({path_ + key.name, unit.resolved(), false, values.size() == 1 ? values.front() : std::nan("")},
                    [&values](double to) { return values.assign(1, to), true; });
     }
-    void whole(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
+    void integer(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
         found_({path_ + key.name, {}, true, value ? *value : std::nan("")}, [&value, least, most](double to) {
             if (std::floor(to) != to || to < least || to > most) return false;
             value = static_cast<int>(to);
             return true;
         });
     }
-    void truth(const Key&, bool&, const char*) override {}
+    void boolean(const Key&, bool&, const char*) override {}
     void text(const Key&, std::string&, const char*) override {}
-    void word(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
+    void keyword(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
     void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
         if (present && !*present) return;
         const std::string outside = path_;

@@ -64,9 +64,9 @@ TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
         EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json {}", wrong)).code, 2) << wrong;
 }
 
-Plan settled_plan(const Scene& scene, const RefusePicture& refuse = {}) {
+Plan resolved_plan(const Scene& scene, const RejectOutput& refuse = {}) {
     Plan made = plan(scene);
-    settle(
+    resolve_event_times(
         made, scene,
         [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); },
         refuse);
@@ -87,8 +87,8 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
         return sim::simulate(problem, request);
     };
     const sim::Result own = impacts_of(reading.scene->problem);
-    EXPECT_EQ(plan(*reading.scene).impacts_until, 1);
-    const Plan made = settled_plan(*reading.scene);
+    EXPECT_EQ(plan(*reading.scene).events_until, 1);
+    const Plan made = resolved_plan(*reading.scene);
     ASSERT_EQ(made.figures.size(), 4u);
     const auto times = [&](std::size_t figure) {
         return made.figures[figure].studies.at(0).request.tables.at(0).times;
@@ -117,7 +117,7 @@ TEST(Stretch, OfAnEventThatDoesNotOccurIsRefusedAlone) {
         {"type": "figure", "figure": "kymograph", "from": "touch", "file": "c.pdf"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
     std::vector<std::string> why;
-    const Plan made = settled_plan(*reading.scene, [&](std::size_t output, const std::string& text) {
+    const Plan made = resolved_plan(*reading.scene, [&](std::size_t output, const std::string& text) {
         why.push_back(std::to_string(output) + ": " + text);
     });
     ASSERT_EQ(made.figures.size(), 1u);
@@ -151,7 +151,7 @@ TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
         const Reading reading = testing::read(R"({"time": {"end": 2}, "outputs": [)" + outputs + "]}");
         EXPECT_TRUE(reading.scene) << reading.report();
         Plan made = plan(*reading.scene);
-        settle(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+        resolve_event_times(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
             sim::Result found = sim::simulate(problem, request);
             searched = found.end_time;
             return found;

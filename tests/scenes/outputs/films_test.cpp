@@ -128,7 +128,7 @@ TEST(Films, EventsAreInstantsWhereverATimeIs) {
     ASSERT_TRUE(reading.scene) << reading.report();
     Plan made = plan(*reading.scene);
     sim::Result motion;
-    settle(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
+    resolve_event_times(made, *reading.scene, [&](const sim::Problem& problem, const sim::Request& request) {
         return motion = sim::simulate(problem, request);
     });
     ASSERT_GE(motion.impacts.size(), 2u);
@@ -266,21 +266,21 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
     const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": {"around": "impacts"}}]})");
     ASSERT_TRUE(reading.scene);
     Plan p = plan(*reading.scene);
-    EXPECT_EQ(p.impacts_until, 1.5);
+    EXPECT_EQ(p.events_until, 1.5);
     EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds them"));
-    settle(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
+    resolve_event_times(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
         sim::Result result;
         result.impacts.resize(1);
         result.impacts[0].t_start = 0.3, result.impacts[0].t_end = 0.31;
         return result;
     });
-    EXPECT_FALSE(p.impacts_until);
+    EXPECT_FALSE(p.events_until);
     EXPECT_GT(p.frames(), 90u + 60u);  // real time, and 22 ms at a fiftieth
 }
 
 TEST(Films, RealTimeFilmsNeedNoFirstRun) {
     const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.25}]})");
-    EXPECT_FALSE(plan(*reading.scene).impacts_until);
+    EXPECT_FALSE(plan(*reading.scene).events_until);
     EXPECT_EQ(plan(*reading.scene).frames(), 360u);
 }
 
@@ -289,13 +289,13 @@ TEST(Films, ThoseOfCollisionsNeedAFirstRun) {
     for (const char* keys : {R"("speed": 0.1)", R"("layout": {"panel": "contact_force", "window": "collision"})"}) {
         const Reading reading = testing::read(std::string(R"({"outputs": [{"type": "video", )") + keys + "}]}");
         ASSERT_TRUE(reading.scene) << keys;
-        EXPECT_EQ(plan(*reading.scene).impacts_until, 1.5) << keys;
+        EXPECT_EQ(plan(*reading.scene).events_until, 1.5) << keys;
     }
     // Nor is a close-up of one motion shown where several are compared.
     const Reading both = testing::read(
         R"({"outputs": [{"type": "video", "speed": 0.1, "compare": [{"label": "a"}, {"label": "b", "set": {"cam.speed": 2}}]}]})");
     ASSERT_TRUE(both.scene);
-    EXPECT_FALSE(plan(*both.scene).impacts_until);
+    EXPECT_FALSE(plan(*both.scene).events_until);
 }
 
 // ---- posters -----------------------------------------------------------------------------------
@@ -425,8 +425,9 @@ TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
     const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "still", "at": "impact:1"},
         {"type": "video", "fps": 30}]})");
     Plan made = plan(*reading.scene);
-    settle(made, *reading.scene,
-           [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); });
+    resolve_event_times(made, *reading.scene, [](const sim::Problem& problem, const sim::Request& request) {
+        return sim::simulate(problem, request);
+    });
     const auto& poses = made.simulation->request.poses;
     EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
 }

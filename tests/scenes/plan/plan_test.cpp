@@ -155,7 +155,7 @@ TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
     const Scene scene = scene_of(
         R"({"title": "Fall", "outputs": [{"type": "still", "file": "a.png", "at": 0, "size": [320, 180]}, {"type": "still", "file": "b.png", "at": 0}]})");
     Plan p = plan(scene);
-    note_unwritten(p, scene);
+    add_omitted_text(p, scene);
     EXPECT_THAT(
         to_text(p, scene),
         HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10^8 N m^−1.5, c = 0.7; "
@@ -184,18 +184,18 @@ constexpr const char* kTwo = R"({"outputs": [
     {"type": "frames", "file": "f-##.png", "fps": 20, "to": 0.5, "size": [320, 180], "view": {"style": "flat"}},
     {"type": "trajectory", "file": "t.csv", "times": [0.4]}]})";
 
-std::string text_with(const Known& known, const Ask& ask = {}) {
+std::string text_with(const ExistingWork& existing, const Selection& selection = {}) {
     const Scene scene = scene_of(kTwo);
-    return to_text(plan(scene, ask, known), scene);
+    return to_text(plan(scene, selection, existing), scene);
 }
 
 TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
-    Known known;
-    known.finished = {1};
-    known.frames[0] = {0, 1, 2, 7};
-    known.keeps = true;
-    known.kept_until = 0.6;
-    EXPECT_EQ(text_with(known), R"(to do
+    ExistingWork existing;
+    existing.finished = {1};
+    existing.frames[0] = {0, 1, 2, 7};
+    existing.keeps = true;
+    existing.kept_until = 0.6;
+    EXPECT_EQ(text_with(existing), R"(to do
   simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, because of f-##.png; kept from an earlier run
   frames    f-##.png: 6 frames of 0.15 s to 0.45 s at 20 a second, 320 × 180, flat
 skipped
@@ -209,10 +209,10 @@ skipped
   extrema and turning points: no output is a summary
   further runs for the reproducible horizon: nothing asks for it
 )");
-    known.kept_until = 0.4;  // too short
-    EXPECT_THAT(text_with(known), HasSubstr("because of f-##.png; kept for later runs, unless it is short\n"));
-    known.finished = {0, 1};
-    EXPECT_EQ(text_with(known), R"(to do
+    existing.kept_until = 0.4;  // too short
+    EXPECT_THAT(text_with(existing), HasSubstr("because of f-##.png; kept for later runs, unless it is short\n"));
+    existing.finished = {0, 1};
+    EXPECT_EQ(text_with(existing), R"(to do
 skipped
   f-##.png: it is there already, made from the same inputs
   t.csv: it is there already, made from the same inputs
@@ -221,10 +221,10 @@ skipped
 }
 
 TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
-    Ask ask;
-    ask.shard = 2;
-    ask.shards = 3;
-    const std::string text = text_with({}, ask);
+    Selection selection;
+    selection.shard = 2;
+    selection.shards = 3;
+    const std::string text = text_with({}, selection);
     EXPECT_THAT(text, HasSubstr("f-##.png: 3 frames of 0.15 s to 0.25 s"));
     EXPECT_THAT(text, HasSubstr("  7 of 10 frames of f-##.png: other shards draw them\n"));
     EXPECT_THAT(text, HasSubstr("  t.csv: the first shard makes it\n"));
@@ -235,10 +235,10 @@ TEST(Plan, ShardsCoverEveryFrameOnce) {
     for (int shards : {1, 2, 3, 7, 24}) {
         std::vector<int> all;
         for (int shard = 1; shard <= shards; ++shard) {
-            Ask ask;
-            ask.shard = shard;
-            ask.shards = shards;
-            const Plan p = plan(scene, ask);
+            Selection selection;
+            selection.shard = shard;
+            selection.shards = shards;
+            const Plan p = plan(scene, selection);
             ASSERT_EQ(p.pictures.size(), 1u);
             all.insert(all.end(), p.pictures[0].draw.begin(), p.pictures[0].draw.end());
             // Scales and camera are those of the whole film.
@@ -247,18 +247,18 @@ TEST(Plan, ShardsCoverEveryFrameOnce) {
         EXPECT_EQ(all.size(), 24u);
         EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
     }
-    Ask ask;
-    ask.shard = 25;
-    ask.shards = 30;
-    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), ask).pictures.empty());
+    Selection selection;
+    selection.shard = 25;
+    selection.shards = 30;
+    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), selection).pictures.empty());
     EXPECT_EQ(shard_file("out/fall.mp4", 2, 3), "out/fall.2of3.mp4");
 }
 
 TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {
-    Known known;
-    known.keeps = true;
+    ExistingWork existing;
+    existing.keeps = true;
     const auto keeps = [&](const char* outputs) {
-        return plan(scene_of(std::string("{\"outputs\": ") + outputs + "}"), {}, known).simulation->keep;
+        return plan(scene_of(std::string("{\"outputs\": ") + outputs + "}"), {}, existing).simulation->keep;
     };
     EXPECT_FALSE(keeps(R"([{"type": "summary"}, {"type": "impacts"}])"));
     EXPECT_FALSE(keeps(R"([{"type": "still", "at": 0}])"));

@@ -125,7 +125,7 @@ TEST(FilmTimes, TheCameraArrivesAtTheFrameOfItsInstant) {
     view.keyframes = {{.at = {.kind = Instant::Kind::impact, .number = 3}}};
     EXPECT_THROW(add_moves(times, view, 30, {}, false), render::PictureError);
     add_moves(times, view, 30, {}, true);
-    EXPECT_EQ(times.unshown.back(), "the camera at impact 3");
+    EXPECT_EQ(times.unreached_events.back(), "the camera at impact 3");
 }
 
 // dτ = dt/s: the film's rate is the speed, by central differences of the instants.

@@ -12,7 +12,7 @@
 
 namespace beamcam::scenes {
 
-struct Capture {
+struct DrawCallbacks {
     // Of requests_of the plan: what was integrated once for several plans; taken by the run.
     std::vector<sim::Result> results;
     // Frame numbers count from 0 in each output; several threads call this at once, in any order.

@@ -1,4 +1,4 @@
-#include "scenes/motions/spooled.hpp"
+#include "scenes/motions/pose_spool.hpp"
 
 #include <algorithm>
 #include <array>
@@ -56,9 +56,9 @@ sim::Pose pose_of(std::span<const double> v) {
 
 }  // namespace
 
-std::uint64_t SpooledPoses::place(std::size_t frame) const { return sizeof(double) * frame * (kAlone + 3 * stations_); }
+std::uint64_t PoseSpool::place(std::size_t frame) const { return sizeof(double) * frame * (kAlone + 3 * stations_); }
 
-void SpooledPoses::put(std::size_t frame, const sim::Pose& pose) {
+void PoseSpool::put(std::size_t frame, const sim::Pose& pose) {
     if (frame >= frames_ || pose.centreline.size() != stations_ || pose.moment.size() != stations_)
         throw std::invalid_argument("a pose that there is no place for");
     const std::array<double, kAlone> alone = numbers_of(pose);
@@ -68,19 +68,19 @@ void SpooledPoses::put(std::size_t frame, const sim::Pose& pose) {
     spool_.write(place(frame), std::as_bytes(std::span(record)));
 }
 
-void SurveyedPoses::put(std::size_t row, const sim::Pose& pose) {
+void SampledPoses::put(std::size_t row, const sim::Pose& pose) {
     if (row == 0) count_ = fixed_;
     poses_.put(row, pose);
     count_ = std::max(count_, row + 1);
 }
 
-double SpooledPoses::time(std::size_t frame) const {
+double PoseSpool::time(std::size_t frame) const {
     double t = 0;
     spool_.read(place(frame), std::as_writable_bytes(std::span(&t, 1)));
     return t;
 }
 
-sim::Pose SpooledPoses::pose(std::size_t frame) const {
+sim::Pose PoseSpool::pose(std::size_t frame) const {
     std::vector<double> record(kAlone + 3 * stations_);
     spool_.read(place(frame), std::as_writable_bytes(std::span(record)));
     sim::Pose p = pose_of(record);

@@ -1,4 +1,4 @@
-#include "scenes/motions/motions.hpp"
+#include "scenes/motions/motion_store.hpp"
 
 #include <fmt/format.h>
 
@@ -9,7 +9,7 @@
 #include "output/files/standard_output.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
-#include "scenes/motions/spooled.hpp"
+#include "scenes/motions/pose_spool.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
 #include "sim/observe/trajectory.hpp"
@@ -38,9 +38,9 @@ double latest(std::span<const sim::Request> requests) {
 }
 
 // How far each of several runs is, as one number.
-class Sum {
+class ProgressSum {
   public:
-    Sum(std::size_t runs, Progress& progress) : reached_(runs, 0), progress_(progress) {}
+    ProgressSum(std::size_t runs, Progress& progress) : reached_(runs, 0), progress_(progress) {}
     sim::Progress of(std::size_t run) {
         return [this, run](double t) {
             const std::lock_guard lock(mutex_);
@@ -65,16 +65,16 @@ bool worth_keeping(const sim::Problem& problem, const sim::Request& request) {
     return dense && problem.solver.method != sim::Method::arkode_erk && end_of(request) > 0;
 }
 
-std::size_t Motions::want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label,
-                          bool may_fail) {
-    wishes_.push_back({motion_key(problem), problem, std::move(requests), label, may_fail, {}, {}});
-    return wishes_.size() - 1;
+std::size_t MotionStore::request(const sim::Problem& problem, std::vector<sim::Request> requests,
+                                 const std::string& label, bool may_fail) {
+    requests_.push_back({motion_key(problem), problem, std::move(requests), label, may_fail, {}, {}});
+    return requests_.size() - 1;
 }
 
-std::vector<Motions::Group> Motions::groups() {
+std::vector<MotionStore::Group> MotionStore::groups() {
     std::vector<Group> all;
-    for (; fulfilled_ < wishes_.size(); ++fulfilled_) {
-        Wish& wish = wishes_[fulfilled_];
+    for (; computed_ < requests_.size(); ++computed_) {
+        MotionRequest& wish = requests_[computed_];
         const auto same =
             std::find_if(all.begin(), all.end(), [&](const Group& group) { return group.front()->key == wish.key; });
         if (same == all.end())
@@ -85,20 +85,20 @@ std::vector<Motions::Group> Motions::groups() {
     return all;
 }
 
-void Motions::make() {
+void MotionStore::compute() {
     const std::vector<Group> all = groups();
     if (all.empty()) return;
     double total = 0;
     for (const Group& group : all) {
         double until = 0;
-        for (const Wish* wish : group) until = std::max(until, latest(wish->requests));
+        for (const MotionRequest* wish : group) until = std::max(until, latest(wish->requests));
         total += until;
     }
-    Sum sum(all.size(), progress_);
+    ProgressSum sum(all.size(), progress_);
     progress_.begin("simulate", total, "s");
     Gate gate;
     const auto worker = [&]() -> Worker {
-        return [&](long k) { make(all[static_cast<std::size_t>(k)], sum.of(static_cast<std::size_t>(k))); };
+        return [&](long k) { compute(all[static_cast<std::size_t>(k)], sum.of(static_cast<std::size_t>(k))); };
     };
     try {
         fan_out(static_cast<long>(all.size()), options_.threads, worker, gate);
@@ -107,21 +107,21 @@ void Motions::make() {
         throw;
     }
     progress_.end();
-    for (const Group& group : all) tell(group);
+    for (const Group& group : all) report(group);
 }
 
-void Motions::make(const Group& group, const sim::Progress& progress) {
+void MotionStore::compute(const Group& group, const sim::Progress& progress) {
     std::vector<sim::Request> requests;
     bool keep = false;
-    const Wish& first = *group.front();
-    for (const Wish* wish : group)
+    const MotionRequest& first = *group.front();
+    for (const MotionRequest* wish : group)
         for (const sim::Request& request : wish->requests) {
             requests.push_back(request);
             keep = keep || worth_keeping(first.problem, request);
         }
-    const auto hand_out = [&](std::vector<sim::Result> results, std::vector<sim::Result> Wish::*to) {
+    const auto hand_out = [&](std::vector<sim::Result> results, std::vector<sim::Result> MotionRequest::*to) {
         auto next = std::make_move_iterator(results.begin());
-        for (Wish* wish : group) {
+        for (MotionRequest* wish : group) {
             const auto end = next + static_cast<std::ptrdiff_t>(wish->requests.size());
             (wish->*to).assign(next, end);
             next = end;
@@ -129,28 +129,29 @@ void Motions::make(const Group& group, const sim::Progress& progress) {
     };
     // Hands out what there is of a motion that need not be whole.
     const auto leave_out = [&](std::string_view why, std::vector<sim::Result> reached) {
-        if (!std::ranges::all_of(group, &Wish::may_fail)) return false;
+        if (!std::ranges::all_of(group, &MotionRequest::may_fail)) return false;
         if (!reached.empty()) why = why.substr(0, why.find(';'));  // without advice, which is for a scene's own motion
         const bool nothing = reached.empty();
         if (nothing) reached.resize(requests.size());
         reached.front().warnings = {fmt::format("{}, {}, {} modes: {}", nothing ? "left out" : "cut short",
                                                 name(first.problem.beam.model), first.problem.beam.modes, why)};
-        hand_out(std::move(reached), &Wish::results);
+        hand_out(std::move(reached), &MotionRequest::results);
         return true;
     };
     try {
-        hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress), &Wish::results);
+        hand_out(run({first.key, first.problem, requests, latest(requests), keep, false}, progress),
+                 &MotionRequest::results);
     } catch (const sim::SolverError& error) {
         if (leave_out(error.what(), error.partials)) return;
-        if (!error.partials.empty()) hand_out(error.partials, &Wish::reached);
+        if (!error.partials.empty()) hand_out(error.partials, &MotionRequest::partial);
         throw;
     } catch (const std::invalid_argument& error) {  // an impossible problem, which the figure chose itself
         if (!leave_out(error.what(), {})) throw;
     }
 }
 
-void Motions::tell(const Group& group) const {
-    const Wish& first = *group.front();
+void MotionStore::report(const Group& group) const {
+    const MotionRequest& first = *group.front();
     const sim::Result& run = first.results.front();
     if (!options_.quiet)
         for (const std::string& warning : run.warnings)
@@ -163,14 +164,14 @@ void Motions::tell(const Group& group) const {
             run.impacts.size(), run.collisions.size(), run.energy_residual_max, run.energy_scale);
 }
 
-sim::Result Motions::find(const sim::Problem& problem, const sim::Request& request, double far) {
+sim::Result MotionStore::find_events(const sim::Problem& problem, const sim::Request& request, double far) {
     sim::Request further;
     further.end_time = far;
     further.turning_points = false;
     const sim::Request both[] = {request, further};
     const double until = latest(both);
     progress_.begin("impacts", until, "s");
-    Sum sum(1, progress_);
+    ProgressSum sum(1, progress_);
     try {
         auto results = run({motion_key(problem), problem, both, until, true, true}, sum.of(0));
         progress_.end();
@@ -183,7 +184,7 @@ sim::Result Motions::find(const sim::Problem& problem, const sim::Request& reque
 
 // ---- one motion ------------------------------------------------------------------------------------
 
-std::vector<sim::Result> Motions::run(const Job& job, const sim::Progress& progress) {
+std::vector<sim::Result> MotionStore::run(const Job& job, const sim::Progress& progress) {
     const auto start = Clock::now();
     auto results = read_back(job, progress);
     const bool was_kept = results.has_value();
@@ -194,7 +195,7 @@ std::vector<sim::Result> Motions::run(const Job& job, const sim::Progress& progr
     return std::move(*results);
 }
 
-void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
+void MotionStore::note(const Job& job, bool read_back, double seconds, long steps) {
     if (!history_) return;
     const bool horizon = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.horizon; });
     const std::lock_guard lock(mutex_);
@@ -202,7 +203,7 @@ void Motions::note(const Job& job, bool read_back, double seconds, long steps) {
                    static_cast<double>(steps));
 }
 
-std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const sim::Progress& progress) {
+std::optional<std::vector<sim::Result>> MotionStore::read_back(const Job& job, const sim::Progress& progress) {
     // Events that are searched for may lie in a shorter one.
     const bool search = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.enough.has_value(); });
     const auto replay = [&](const sim::Trajectory& trajectory) -> std::optional<std::vector<sim::Result>> {
@@ -219,7 +220,7 @@ std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const
             return std::nullopt;
         }
     };
-    if (const auto known = known_.find(job.key); known != known_.end())
+    if (const auto known = remembered_.find(job.key); known != remembered_.end())
         if (auto results = replay(sim::Trajectory(job.problem, known->second))) return results;
     if (!cache_) return std::nullopt;
     const auto numbers = cache_->load(job.key, search ? 0 : job.until);
@@ -235,10 +236,10 @@ std::optional<std::vector<sim::Result>> Motions::read_back(const Job& job, const
     }
 }
 
-std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress& progress) {
+std::vector<sim::Result> MotionStore::integrate(const Job& job, const sim::Progress& progress) {
     std::optional<Cache::Entry> entry;
     if (job.keep && cache_) entry.emplace(cache_->begin(job.key));
-    const auto remembered = std::make_shared<SpooledNumbers>();
+    const auto remembered = std::make_shared<NumberSpool>();
     bool remember = job.remember;
     sim::TrajectoryWriter writer([&](std::span<const double> numbers) {
         if (entry) entry->add(numbers);
@@ -249,7 +250,7 @@ std::vector<sim::Result> Motions::integrate(const Job& job, const sim::Progress&
     auto results = sim::simulate(job.problem, job.requests, progress, entry || remember ? &writer : nullptr, &effort);
     const std::lock_guard lock(mutex_);
     effort_.add(effort);
-    if (remember && writer.complete()) known_[job.key] = remembered;
+    if (remember && writer.complete()) remembered_[job.key] = remembered;
     if (!entry || !writer.complete() || writer.steps() < fewest_steps(job.problem)) return results;
     if (entry->commit(writer.reached(), writer.steps(), words_about(job.problem)))
         ++kept_;

@@ -11,15 +11,15 @@
 
 namespace beamcam::scenes {
 
-struct Survey {
-    Known known;
+struct UpToDate {
+    ExistingWork existing;
     std::vector<std::string> inputs;  // key of each output of the scene; empty for standard output
     std::string motion;               // key of the motion
 };
 
 // `directory` as in RunOptions. `cache`: null when there is none. `afresh`: nothing that is there counts.
-Survey survey(const Scene& scene, const Ask& ask, const std::string& directory, output::Manifest& manifest,
-              const Cache* cache, bool afresh);
+UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
+                          output::Manifest& manifest, const Cache* cache, bool afresh);
 
 // Where an output's file is; `directory` empty: as it is named.
 std::filesystem::path place_of(const std::string& directory, const std::string& file);

@@ -1,5 +1,5 @@
 // Poses and trajectories that are kept in files: the same bits, and the same pictures.
-#include "scenes/motions/spooled.hpp"
+#include "scenes/motions/pose_spool.hpp"
 
 #include <gtest/gtest.h>
 
@@ -39,7 +39,7 @@ void expect_same(const sim::Pose& a, const sim::Pose& b) {
 
 struct Both {
     sim::Result held;
-    std::shared_ptr<SpooledPoses> spooled;
+    std::shared_ptr<PoseSpool> spooled;
 };
 
 // The same poses, held by the result and handed on.
@@ -47,7 +47,7 @@ Both run(const sim::Problem& problem, int frames, double end) {
     const sim::PoseRequest held{.times = instants(frames, end), .stations = kStations};
     sim::PoseRequest handed_on = held;
     Both both;
-    both.spooled = std::make_shared<SpooledPoses>(held.times.size(), kStations);
+    both.spooled = std::make_shared<PoseSpool>(held.times.size(), kStations);
     handed_on.take = [&](std::size_t row, const sim::Pose& pose) { both.spooled->put(row, pose); };
     sim::Request request;
     request.end_time = end;
@@ -56,7 +56,7 @@ Both run(const sim::Problem& problem, int frames, double end) {
     return both;
 }
 
-TEST(SpooledPoses, AreThePosesToTheBit) {
+TEST(PoseSpool, AreThePosesToTheBit) {
     sim::Problem with_friction, without_cam;
     with_friction.contact.friction = sim::CoulombFriction{.coefficient = 0.2};
     without_cam.cam.reset();
@@ -71,8 +71,8 @@ TEST(SpooledPoses, AreThePosesToTheBit) {
     }
 }
 
-TEST(SpooledPoses, OtherStationsHaveNoPlace) {
-    SpooledPoses poses(2, 5);
+TEST(PoseSpool, OtherStationsHaveNoPlace) {
+    PoseSpool poses(2, 5);
     sim::Pose pose;
     pose.centreline.resize(4), pose.moment.resize(4);
     EXPECT_THROW(poses.put(0, pose), std::invalid_argument);
@@ -81,8 +81,8 @@ TEST(SpooledPoses, OtherStationsHaveNoPlace) {
     EXPECT_NO_THROW(poses.put(1, pose));
 }
 
-TEST(SpooledPoses, ASurveyBegunAnewForgetsItsContacts) {
-    SurveyedPoses poses(1, 2, 5);
+TEST(PoseSpool, ASurveyBegunAnewForgetsItsContacts) {
+    SampledPoses poses(1, 2, 5);
     sim::Pose pose;
     pose.centreline.resize(5), pose.moment.resize(5);
     for (std::size_t row : {0, 1, 2}) poses.put(row, pose);
@@ -92,7 +92,7 @@ TEST(SpooledPoses, ASurveyBegunAnewForgetsItsContacts) {
     EXPECT_EQ(poses.size(), 1U);
 }
 
-TEST(SpooledPoses, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
+TEST(PoseSpool, AFilmOfThemHasThePixelsOfOneOfHeldPoses) {
     const sim::Problem problem;
     const Both both = run(problem, 150, 0.6);
     render::FilmSetup setup;

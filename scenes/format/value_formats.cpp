@@ -1,4 +1,4 @@
-#include "scenes/format/forms.hpp"
+#include "scenes/format/value_formats.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -45,10 +45,11 @@ std::string problem_with_name(const std::string& name, const std::vector<const c
     return name.find('#') == std::string::npos ? "" : "'#' numbers the files of \"frames\"; choose another name";
 }
 
-Form file_form(std::string& file, const std::vector<const char*>& endings, bool numbered) {
+ValueFormat file_format(std::string& file, const std::vector<const char*>& endings, bool numbered) {
     const auto read = [&file, endings, numbered](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::string)
-            return r.fail(node, key, fmt::format("{} must be a file name in quotes, not {}", r.path(key), shown(node)));
+            return r.fail(node, key,
+                          fmt::format("{} must be a file name in quotes, not {}", r.path(key), as_written(node)));
         if (std::string problem = problem_with_name(node.text, endings, numbered); !problem.empty())
             return r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), problem));
         file = node.text;
@@ -61,10 +62,10 @@ Form file_form(std::string& file, const std::vector<const char*>& endings, bool 
 
 }  // namespace
 
-Form file_form(std::string& file, std::initializer_list<const char*> endings) {
-    return file_form(file, std::vector(endings), false);
+ValueFormat file_format(std::string& file, std::initializer_list<const char*> endings) {
+    return file_format(file, std::vector(endings), false);
 }
-Form numbered_file_form(std::string& file) { return file_form(file, {".png"}, true); }
+ValueFormat numbered_file_format(std::string& file) { return file_format(file, {".png"}, true); }
 
 // ---- size and frame rate -----------------------------------------------------------------------
 
@@ -77,7 +78,7 @@ std::optional<Size> parse_size(std::string_view text) {
     return fits ? std::optional(Size{*width, *height}) : std::nullopt;
 }
 
-Form size_form(Size& size) {
+ValueFormat size_format(Size& size) {
     const auto read = [&size](ObjectReader& r, const Node& node, const std::string& key) {
         if (const auto parsed = node.kind == Node::Kind::string ? parse_size(node.text) : std::nullopt) {
             size = *parsed;
@@ -86,10 +87,10 @@ Form size_form(Size& size) {
         if (node.kind != Node::Kind::array || node.items.size() != 2)
             return r.fail(node, key,
                           fmt::format("{} must be [width, height] or \"WIDTHxHEIGHT\" in pixels, {} to {} each, not {}",
-                                      r.path(key), kSmallestSide, kLargestSide, shown(node)));
+                                      r.path(key), kSmallestSide, kLargestSide, as_written(node)));
         Size given;
-        const bool fine = r.whole_value(node.items[0], key + ".0", kSmallestSide, kLargestSide, given.width) &
-                          r.whole_value(node.items[1], key + ".1", kSmallestSide, kLargestSide, given.height);
+        const bool fine = r.integer_value(node.items[0], key + ".0", kSmallestSide, kLargestSide, given.width) &
+                          r.integer_value(node.items[1], key + ".1", kSmallestSide, kLargestSide, given.height);
         if (fine) size = given;
     };
     return {
@@ -122,7 +123,7 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
     return FrameRate{rate.numerator / divisor, rate.denominator / divisor};
 }
 
-Form frame_rate_form(FrameRate& rate) {
+ValueFormat frame_rate_format(FrameRate& rate) {
     const auto read = [&rate](ObjectReader& r, const Node& node, const std::string& key) {
         const bool readable = node.kind == Node::Kind::number || node.kind == Node::Kind::string;
         if (const auto parsed = readable ? parse_frame_rate(node.text) : std::nullopt)
@@ -131,7 +132,7 @@ Form frame_rate_form(FrameRate& rate) {
             r.fail(node, key,
                    fmt::format("{} = {} is no frame rate; write {} … {} frames a second, or a fraction such as "
                                "\"30000/1001\"",
-                               r.path(key), shown(node), kSlowestFrameRate, kFastestFrameRate));
+                               r.path(key), as_written(node), kSlowestFrameRate, kFastestFrameRate));
     };
     const auto write = [&rate] {
         return rate.denominator == 1 ? integer_node(rate.numerator)
@@ -191,7 +192,7 @@ constexpr const char* kInstantSchema = R"({"$ref": "#/$defs/instant"})";
 
 }  // namespace
 
-Form instant_form(Instant& at) {
+ValueFormat instant_format(Instant& at) {
     const auto read = [&at](ObjectReader& r, const Node& node, const std::string& key) {
         std::optional<Instant> some = at;
         read_instant(r, node, key, some);
@@ -200,7 +201,7 @@ Form instant_form(Instant& at) {
     return {kInstantType, kInstantSchema, read, [&at] { return written(at); }};
 }
 
-Form instant_form(std::optional<Instant>& at) {
+ValueFormat instant_format(std::optional<Instant>& at) {
     return {kInstantType, kInstantSchema,
             [&at](ObjectReader& r, const Node& node, const std::string& key) { read_instant(r, node, key, at); },
             [&at] { return at ? std::optional(written(*at)) : std::nullopt; }};
@@ -215,7 +216,7 @@ void take_bound(const Instant& at, std::optional<double>& time, std::optional<In
         time = at.t;
 }
 
-Form bound_form(double& time, std::optional<Instant>& event) {
+ValueFormat bound_format(double& time, std::optional<Instant>& event) {
     const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
         std::optional<Instant> some;
         std::optional<double> given;
@@ -226,7 +227,7 @@ Form bound_form(double& time, std::optional<Instant>& event) {
     return {kInstantType, kInstantSchema, read, [&] { return event ? written(*event) : number_node(time); }};
 }
 
-Form bound_form(std::optional<double>& time, std::optional<Instant>& event) {
+ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event) {
     const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
         std::optional<Instant> some;
         read_instant(r, node, key, some);
@@ -239,7 +240,7 @@ Form bound_form(std::optional<double>& time, std::optional<Instant>& event) {
     return {kInstantType, kInstantSchema, read, write};
 }
 
-Form speed_form(Speed& speed) {
+ValueFormat speed_format(Speed& speed) {
     const auto read = [&speed](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind == Node::Kind::string && node.text == "impacts")
             speed.around = SlowMotion{}, speed.intervals.clear();
@@ -279,7 +280,7 @@ void read_anchor(ObjectReader& r, const Node& node, const std::string& key, std:
         names.emplace_back(name);
     }
     r.fail(node, key,
-           fmt::format("{} = {} is neither a place [x, y] nor a part of the mechanism{}", r.path(key), shown(node),
+           fmt::format("{} = {} is neither a place [x, y] nor a part of the mechanism{}", r.path(key), as_written(node),
                        suggestion_or_list(node.text, names)));
 }
 
@@ -295,7 +296,7 @@ constexpr const char* kAnchorSchema = R"({"$ref": "#/$defs/anchor"})";
 
 }  // namespace
 
-Form anchor_form(render::Anchor& anchor) {
+ValueFormat anchor_format(render::Anchor& anchor) {
     const auto read = [&anchor](ObjectReader& r, const Node& node, const std::string& key) {
         std::optional<render::Anchor> some = anchor;
         read_anchor(r, node, key, some);
@@ -304,7 +305,7 @@ Form anchor_form(render::Anchor& anchor) {
     return {kAnchorType, kAnchorSchema, read, [&anchor] { return written(std::optional(anchor)); }};
 }
 
-Form anchor_form(std::optional<render::Anchor>& anchor) {
+ValueFormat anchor_format(std::optional<render::Anchor>& anchor) {
     return {kAnchorType, kAnchorSchema,
             [&anchor](ObjectReader& r, const Node& node, const std::string& key) { read_anchor(r, node, key, anchor); },
             [&anchor] { return written(anchor); }};
@@ -320,12 +321,12 @@ static std::optional<std::uint32_t> color_of(std::string_view text) {
     return value;
 }
 
-Form color_form(std::optional<std::uint32_t>& color) {
+ValueFormat color_format(std::optional<std::uint32_t>& color) {
     const auto read = [&color](ObjectReader& r, const Node& node, const std::string& key) {
         color = node.kind == Node::Kind::string ? color_of(node.text) : std::nullopt;
         if (!color)
             r.fail(node, key,
-                   fmt::format("{} = {} is no colour; write one such as \"#0072b2\"", r.path(key), shown(node)));
+                   fmt::format("{} = {} is no colour; write one such as \"#0072b2\"", r.path(key), as_written(node)));
     };
     const auto write = [&color]() -> std::optional<Node> {
         if (!color) return std::nullopt;
@@ -342,13 +343,13 @@ bool take_background(std::string_view text, render::View& view) {
     return view.paper.has_value();
 }
 
-Form background_form(render::View& view) {
+ValueFormat background_format(render::View& view) {
     const auto read = [&view](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::string || !take_background(node.text, view))
             r.fail(node, key,
                    fmt::format("{} = {} is no background; write \"paper\", \"transparent\" or a colour such as "
                                "\"#f4f1ea\"",
-                               r.path(key), shown(node)));
+                               r.path(key), as_written(node)));
     };
     const auto write = [&view] {
         return text_node(view.paper ? fmt::format("#{:06x}", *view.paper) : view.transparent ? "transparent" : "paper");
@@ -371,14 +372,14 @@ static render::Shown sized(render::Shown show, double size) {
     return show;
 }
 
-Form show_form(render::Shown& show) {
+ValueFormat show_format(render::Shown& show) {
     const auto read = [&show](ObjectReader& r, const Node& node, const std::string& key) {
         const auto preset = node.kind == Node::Kind::string ? shown_preset(node.text) : std::nullopt;
         if (preset)
             show = sized(*preset, show.size);
         else
             r.fail(node, key,
-                   fmt::format("{} = {} is no preset{}", r.path(key), shown(node),
+                   fmt::format("{} = {} is no preset{}", r.path(key), as_written(node),
                                suggestion_or_list(node.text, {std::begin(kPresets), std::end(kPresets)})));
     };
     const auto write = [&show]() -> std::optional<Node> {
@@ -391,12 +392,12 @@ Form show_form(render::Shown& show) {
 
 // ---- channels ----------------------------------------------------------------------------------
 
-Form channels_form(std::vector<sim::Channel>& channels) {
+ValueFormat channels_format(std::vector<sim::Channel>& channels) {
     const auto read = [&channels](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::array || node.items.empty())
             return r.fail(node, key,
                           fmt::format("{} must be an array of names such as [\"theta\", \"contact_force\"], not {}",
-                                      r.path(key), shown(node)));
+                                      r.path(key), as_written(node)));
         const std::vector<sim::Channel> every = all_channels(r.context().scene.problem);
         std::vector<std::string> known;
         for (const sim::Channel& channel : every) known.push_back(name(channel));
@@ -404,11 +405,12 @@ Form channels_form(std::vector<sim::Channel>& channels) {
             const Node& item = node.items[i];
             const std::string at = fmt::format("{}.{}", key, i);
             const auto fail = [&](const std::string& problem) {
-                r.fail(item, at, fmt::format("{} = {}{}", r.path(at), shown(item), problem));
+                r.fail(item, at, fmt::format("{} = {}{}", r.path(at), as_written(item), problem));
             };
             const auto found = std::ranges::find(known, item.text);
             if (item.kind != Node::Kind::string)
-                r.fail(item, at, fmt::format("{} must be a channel's name in quotes, not {}", r.path(at), shown(item)));
+                r.fail(item, at,
+                       fmt::format("{} must be a channel's name in quotes, not {}", r.path(at), as_written(item)));
             else if (found == known.end())
                 fail(sim::channel_named(item.text) ? ": the beam has no such coordinate"
                                                    : " is not a channel" + suggestion_or_list(item.text, known));
@@ -444,26 +446,26 @@ std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channel
     return panels;
 }
 
-Form grouped_channels_form(std::vector<SeriesPanel>& panels) {
+ValueFormat grouped_channels_format(std::vector<SeriesPanel>& panels) {
     static std::vector<sim::Channel> none;
-    Form form = channels_form(none);
+    ValueFormat form = channels_format(none);
     form.read = [&panels](ObjectReader& r, const Node& node, const std::string& key) {
         std::vector<sim::Channel> channels;
-        channels_form(channels).read(r, node, key);
+        channels_format(channels).read(r, node, key);
         panels = panels_by_unit(channels, r.context().scene.problem);
     };
     form.write = [] { return std::nullopt; };  // the panels tell
     return form;
 }
 
-Form abscissa_form(std::string& against) {
+ValueFormat abscissa_format(std::string& against) {
     const auto read = [&against](ObjectReader& r, const Node& node, const std::string& key) {
         std::vector<std::string> known{"turns", "phase", "frequency"};
         for (const sim::Channel& channel : all_channels(r.context().scene.problem)) known.push_back(name(channel));
         if (node.kind != Node::Kind::string || std::ranges::find(known, node.text) == known.end())
             return r.fail(node, key,
                           fmt::format("{} = {} is neither \"turns\", \"phase\", \"frequency\" nor a channel{}",
-                                      r.path(key), shown(node), suggestion_or_list(node.text, known)));
+                                      r.path(key), as_written(node), suggestion_or_list(node.text, known)));
         against = node.text;
     };
     return {"channel, \"turns\", \"phase\" or \"frequency\"",

@@ -1,4 +1,4 @@
-// The values that scenes spell in a way of their own. Each is read, written and described by its Form.
+// The values that scenes spell in a way of their own. Each is read, written and described by its ValueFormat.
 #pragma once
 
 #include <initializer_list>
@@ -11,28 +11,28 @@
 
 namespace beamcam::scenes {
 
-Form file_form(std::string& file, std::initializer_list<const char*> endings);  // relative, of these endings
-Form numbered_file_form(std::string& file);                                     // .png with '#' for the number
-Form size_form(Size& size);
-Form frame_rate_form(FrameRate& rate);
-Form instant_form(Instant& at);
-Form instant_form(std::optional<Instant>& at);
+ValueFormat file_format(std::string& file, std::initializer_list<const char*> endings);  // relative, of these endings
+ValueFormat numbered_file_format(std::string& file);                                     // .png with '#' for the number
+ValueFormat size_format(Size& size);
+ValueFormat frame_rate_format(FrameRate& rate);
+ValueFormat instant_format(Instant& at);
+ValueFormat instant_format(std::optional<Instant>& at);
 // A film's first or last instant: a time, or an event.
-Form bound_form(double& time, std::optional<Instant>& event);
-Form bound_form(std::optional<double>& time, std::optional<Instant>& event);
+ValueFormat bound_format(double& time, std::optional<Instant>& event);
+ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event);
 void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event);
-Form speed_form(Speed& speed);
-Form anchor_form(render::Anchor& anchor);
-Form anchor_form(std::optional<render::Anchor>& anchor);
-Form background_form(render::View& view);
-Form color_form(std::optional<std::uint32_t>& color);
-Form show_form(render::Shown& show);
+ValueFormat speed_format(Speed& speed);
+ValueFormat anchor_format(render::Anchor& anchor);
+ValueFormat anchor_format(std::optional<render::Anchor>& anchor);
+ValueFormat background_format(render::View& view);
+ValueFormat color_format(std::optional<std::uint32_t>& color);
+ValueFormat show_format(render::Shown& show);
 bool take_background(std::string_view text, render::View& view);  // false: it is none
 std::optional<render::Shown> shown_preset(std::string_view name);
 inline constexpr const char* kPresets[] = {"all", "talk", "paper", "clean"};
-Form channels_form(std::vector<sim::Channel>& channels);
-Form grouped_channels_form(std::vector<SeriesPanel>& panels);  // a panel for each unit
-Form abscissa_form(std::string& against);                      // of a series: "t", "turns", "frequency", or a channel
+ValueFormat channels_format(std::vector<sim::Channel>& channels);
+ValueFormat grouped_channels_format(std::vector<SeriesPanel>& panels);  // a panel for each unit
+ValueFormat abscissa_format(std::string& against);  // of a series: "t", "turns", "frequency", or a channel
 
 // A panel for each unit, in the order in which they come.
 std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem);

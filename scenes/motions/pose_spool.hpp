@@ -13,7 +13,7 @@
 namespace beamcam::scenes {
 
 // A trajectory that grows at its end.
-class SpooledNumbers final : public sim::NumberSource {
+class NumberSpool final : public sim::NumberSource {
   public:
     void add(std::span<const double> numbers) {
         spool_.write(sizeof(double) * size_, std::as_bytes(numbers));
@@ -30,9 +30,9 @@ class SpooledNumbers final : public sim::NumberSource {
 };
 
 // So many poses of so many stations, to the bit.
-class SpooledPoses final : public render::PoseStore {
+class PoseSpool final : public render::PoseStore {
   public:
-    SpooledPoses(std::size_t frames, int stations) : frames_(frames), stations_(static_cast<std::size_t>(stations)) {}
+    PoseSpool(std::size_t frames, int stations) : frames_(frames), stations_(static_cast<std::size_t>(stations)) {}
 
     // Any frame at any time, again and again; by one thread. Throws std::invalid_argument for other stations.
     void put(std::size_t frame, const sim::Pose& pose);
@@ -48,9 +48,9 @@ class SpooledPoses final : public render::PoseStore {
 };
 
 // So many poses at fixed instants, and those in contact, as many as come up to a limit.
-class SurveyedPoses final : public render::PoseStore {
+class SampledPoses final : public render::PoseStore {
   public:
-    SurveyedPoses(std::size_t fixed, std::size_t contacts, int stations)
+    SampledPoses(std::size_t fixed, std::size_t contacts, int stations)
         : poses_(fixed + contacts, stations), fixed_(fixed), count_(fixed) {}
 
     // By sim::PoseRequest; row 0 begins anew.
@@ -60,7 +60,7 @@ class SurveyedPoses final : public render::PoseStore {
     sim::Pose pose(std::size_t k) const override { return poses_.pose(k); }
 
   private:
-    SpooledPoses poses_;
+    PoseSpool poses_;
     std::size_t fixed_, count_;
 };
 

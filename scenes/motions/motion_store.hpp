@@ -19,45 +19,45 @@
 
 namespace beamcam::scenes {
 
-class Motions {
+class MotionStore {
   public:
     struct Options {
         int threads = 1;
         bool quiet = false, verbose = false;
     };
     // `cache` and `history`: null when there are none; they and `progress` must outlive this.
-    Motions(const Cache* cache, History* history, Progress& progress, const Options& options)
+    MotionStore(const Cache* cache, History* history, Progress& progress, const Options& options)
         : cache_(cache), history_(history), progress_(progress), options_(options) {}
 
     // Somebody wants this of a motion; `label` stands before its warnings. Returns the wish's number. A motion that all
     // who want it can do without may fail: that is told, and its results are what it reached, or empty.
-    std::size_t want(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {},
-                     bool may_fail = false);
+    std::size_t request(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {},
+                        bool may_fail = false);
     // Fulfils all wishes. Throws what sim::simulate throws.
-    void make();
+    void compute();
     // One for each request; with the bits of the run that the request had been alone.
-    std::vector<sim::Result> take(std::size_t wish) { return std::move(wishes_[wish].results); }
+    std::vector<sim::Result> take_results(std::size_t request) { return std::move(requests_[request].results); }
     // What a failed integration reached; nothing where it was another motion that failed.
-    const std::vector<sim::Result>& reached(std::size_t wish) const { return wishes_[wish].reached; }
+    const std::vector<sim::Result>& partial_results(std::size_t request) const { return requests_[request].partial; }
 
     // At once, for whoever must know it before anything else can be asked. The motion is remembered as far as the
     // request needs, at least until `far` [s], so that wishes until then cost no second integration.
-    sim::Result find(const sim::Problem& problem, const sim::Request& request, double far);
+    sim::Result find_events(const sim::Problem& problem, const sim::Request& request, double far);
 
     const sim::Effort& effort() const { return effort_; }
     long from_cache() const { return from_cache_; }
     long kept() const { return kept_; }
 
   private:
-    struct Wish {
+    struct MotionRequest {
         std::string key;
         sim::Problem problem;
         std::vector<sim::Request> requests;
         std::string label;
         bool may_fail = false;
-        std::vector<sim::Result> results, reached;
+        std::vector<sim::Result> results, partial;
     };
-    using Group = std::vector<Wish*>;  // of one motion
+    using Group = std::vector<MotionRequest*>;  // of one motion
     struct Job {
         const std::string& key;
         const sim::Problem& problem;
@@ -68,8 +68,8 @@ class Motions {
     };
 
     std::vector<Group> groups();
-    void make(const Group& group, const sim::Progress& progress);
-    void tell(const Group& group) const;
+    void compute(const Group& group, const sim::Progress& progress);
+    void report(const Group& group) const;
     std::vector<sim::Result> run(const Job& job, const sim::Progress& progress);
     void note(const Job& job, bool read_back, double seconds, long steps);
     std::optional<std::vector<sim::Result>> read_back(const Job& job, const sim::Progress& progress);
@@ -79,10 +79,10 @@ class Motions {
     History* history_;
     Progress& progress_;
     Options options_;
-    std::deque<Wish> wishes_;
-    std::size_t fulfilled_ = 0;  // so many of the first
+    std::deque<MotionRequest> requests_;
+    std::size_t computed_ = 0;  // so many of the first
     // Trajectories of `find`, by motion.
-    std::map<std::string, std::shared_ptr<const sim::NumberSource>> known_;
+    std::map<std::string, std::shared_ptr<const sim::NumberSource>> remembered_;
     std::mutex mutex_;  // of the counts
     sim::Effort effort_;
     long from_cache_ = 0, kept_ = 0;

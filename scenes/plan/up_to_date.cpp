@@ -1,4 +1,4 @@
-#include "scenes/plan/survey.hpp"
+#include "scenes/plan/up_to_date.hpp"
 
 #include <algorithm>
 
@@ -11,20 +11,21 @@ namespace {
 
 namespace fs = std::filesystem;
 
-class Surveyor {
+class UpToDateCheck {
   public:
-    Surveyor(const Scene& scene, const Ask& ask, const std::string& directory, output::Manifest& manifest)
-        : scene_(scene), whole_(plan(scene, ask)), directory_(directory), manifest_(manifest) {
+    UpToDateCheck(const Scene& scene, const Selection& selection, const std::string& directory,
+                  output::Manifest& manifest)
+        : scene_(scene), whole_(plan(scene, selection)), directory_(directory), manifest_(manifest) {
         found_.inputs.resize(scene.outputs.size());
     }
 
-    Survey look(const Cache* cache, bool afresh) {
+    UpToDate look(const Cache* cache, bool afresh) {
         const double until = whole_.simulation ? whole_.simulation->request.end_time : 0;
         for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
             if (file_of(scene_.outputs[i]) != "-") found_.inputs[i] = inputs_key(scene_, i, until, part_of(i));
         found_.motion = motion_key(scene_.problem);
-        found_.known.until = until;
-        found_.known.keeps = cache && cache->limit() > 0;
+        found_.existing.until = until;
+        found_.existing.keeps = cache && cache->limit() > 0;
         if (cache) look_at_kept(*cache);
         if (!afresh) look_at_files();
         return std::move(found_);
@@ -32,10 +33,10 @@ class Surveyor {
 
   private:
     void look_at_kept(const Cache& cache) {
-        found_.known.kept_until = cache.reach(found_.motion);
+        found_.existing.kept_until = cache.reach(found_.motion);
         for (const Variant& variant : whole_.variants)
             if (const auto until = cache.reach(motion_key(variant.problem)))
-                found_.known.variants_kept[Studies::key(variant.problem)] = *until;
+                found_.existing.variants_kept[Studies::key(variant.problem)] = *until;
     }
 
     std::string part_of(std::size_t output) const {
@@ -62,34 +63,34 @@ class Surveyor {
 
     // A film whose poster is not there is not finished. Which part of it has the poster, only the impacts may tell.
     bool awaits_poster(const Pictures& p) {
-        const bool has = p.settled ? p.makes_poster() : p.ask.shards <= 1;
+        const bool has = p.times_known ? p.makes_poster() : p.selection.shards <= 1;
         return !p.poster_file.empty() && has && !is_there(p.poster_file, p.output);
     }
 
     void look_at(const std::string& file, std::size_t output) {
-        if (is_there(file, output)) found_.known.finished.insert(output);
+        if (is_there(file, output)) found_.existing.finished.insert(output);
     }
 
     void look_at_figure(const FigureFile& f) {
         const auto files = files_of(std::get<FigureOutput>(scene_.outputs[f.output]));
         if (std::ranges::all_of(files, [&](const std::string& file) { return is_there(file, f.output); }))
-            found_.known.finished.insert(f.output);
+            found_.existing.finished.insert(f.output);
     }
 
     void look_at_frames(const Pictures& p) {
         std::set<long> there;
-        if (!p.settled) {  // how many there are only the impacts tell
+        if (!p.times_known) {  // how many there are only the impacts tell
             there = frames_there(p);
-            if (!there.empty()) found_.known.frames[p.output] = std::move(there);
+            if (!there.empty()) found_.existing.frames[p.output] = std::move(there);
             return;
         }
         for (int k : p.draw)
             if (const long number = p.first_frame + k; is_there(numbered_file(p.file, number), p.output))
                 there.insert(number);
         if (there.size() == p.draw.size())
-            found_.known.finished.insert(p.output);
+            found_.existing.finished.insert(p.output);
         else if (!there.empty())
-            found_.known.frames[p.output] = std::move(there);
+            found_.existing.frames[p.output] = std::move(there);
     }
 
     // Of all numbers.
@@ -109,14 +110,14 @@ class Surveyor {
     const Plan whole_;
     const std::string& directory_;
     output::Manifest& manifest_;
-    Survey found_;
+    UpToDate found_;
 };
 
 }  // namespace
 
-Survey survey(const Scene& scene, const Ask& ask, const std::string& directory, output::Manifest& manifest,
-              const Cache* cache, bool afresh) {
-    return Surveyor(scene, ask, directory, manifest).look(cache, afresh);
+UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
+                          output::Manifest& manifest, const Cache* cache, bool afresh) {
+    return UpToDateCheck(scene, selection, directory, manifest).look(cache, afresh);
 }
 
 fs::path place_of(const std::string& directory, const std::string& file) {
