@@ -313,16 +313,16 @@ std::string accuracy_json(const sim::Accuracy& a) {
 
 std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
     Json plates = Json::array(), cases = Json::array();
-    for (const sim::Plate& plate : campaign.plates)
-        plates.push_back({{"title", plate.title},
-                          {"row_title", plate.row_title},
-                          {"column_title", plate.column_title},
-                          {"rows", plate.rows},
-                          {"columns", plate.columns}});
+    for (const sim::CaseGrid& grid : campaign.grids)
+        plates.push_back({{"title", grid.title},
+                          {"row_title", grid.row_title},
+                          {"column_title", grid.column_title},
+                          {"rows", grid.rows},
+                          {"columns", grid.columns}});
     for (std::size_t i = 0; i < results.size(); ++i) {
         const sim::StressCase& one = campaign.cases[i];
         const sim::StressResult& r = results[i];
-        cases.push_back({{"plate", one.plate},
+        cases.push_back({{"plate", one.grid},
                          {"row", one.row},
                          {"column", one.column},
                          {"variant", one.variant},
@@ -332,7 +332,7 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
                          {"steps", r.steps},
                          {"impacts", r.impacts},
                          {"reached", r.reached},
-                         {"words", r.words}});
+                         {"words", r.message}});
     }
     return text_of({{"plates", std::move(plates)}, {"cases", std::move(cases)}});
 }

@@ -28,7 +28,7 @@ struct Tally {
 };
 
 std::string place(const sim::Campaign& campaign, const sim::StressCase& one) {
-    const sim::Plate& plate = campaign.plates[one.plate];
+    const sim::CaseGrid& plate = campaign.grids[one.grid];
     return fmt::format("{}; {} {}; {} {}{}{}", plate.title, plate.row_title, plate.rows[one.row], plate.column_title,
                        plate.columns[one.column], one.variant.empty() ? "" : "; ", one.variant);
 }
@@ -52,22 +52,22 @@ std::string quoted(const std::string& text) {
 }  // namespace
 
 std::string stress_text(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    std::vector<Tally> tallies(campaign.plates.size());
+    std::vector<Tally> tallies(campaign.grids.size());
     Tally whole;
     std::map<std::string, long> causes;
     std::string failures;
     for (std::size_t i = 0; i < results.size(); ++i) {
         const sim::StressCase& one = campaign.cases[i];
-        tallies[one.plate].count(results[i]);
+        tallies[one.grid].count(results[i]);
         whole.count(results[i]);
         if (results[i].outcome == sim::Outcome::refused || results[i].outcome == sim::Outcome::stopped)
-            ++causes[fmt::format("{}: {}", name(results[i].outcome), cause(results[i].words))];
+            ++causes[fmt::format("{}: {}", name(results[i].outcome), cause(results[i].message))];
         if (results[i].outcome == sim::Outcome::failed)
-            failures += fmt::format("failed: {}: {}\n", place(campaign, one), results[i].words);
+            failures += fmt::format("failed: {}: {}\n", place(campaign, one), results[i].message);
     }
     std::string text = fmt::format("{:<30} {:>6} {:>7} {:>6} {:>8} {:>8} {:>7} {:>8} {:>10}\n", "", "cases", "closed",
                                    "open", "refused", "stopped", "failed", "worst*", "steps/s**");
-    for (std::size_t i = 0; i < tallies.size(); ++i) text += tallies[i].line(campaign.plates[i].title);
+    for (std::size_t i = 0; i < tallies.size(); ++i) text += tallies[i].line(campaign.grids[i].title);
     text += whole.line("all");
     text +=
         "*  ledger residual over rtol times energy scale, of the closed ones (closed: at most 10)\n"
@@ -84,11 +84,11 @@ std::string stress_csv(const sim::Campaign& campaign, const std::vector<sim::Str
     for (std::size_t i = 0; i < results.size(); ++i) {
         const sim::StressCase& one = campaign.cases[i];
         const sim::StressResult& r = results[i];
-        const sim::Plate& plate = campaign.plates[one.plate];
+        const sim::CaseGrid& plate = campaign.grids[one.grid];
         text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", quoted(plate.title), quoted(plate.rows[one.row]),
                             quoted(plate.columns[one.column]), quoted(one.variant), name(r.outcome),
                             std::isnan(r.closure) ? "" : fmt::format("{:.6g}", r.closure), r.steps_per_second, r.steps,
-                            r.impacts, r.reached, quoted(r.words));
+                            r.impacts, r.reached, quoted(r.message));
     }
     return text;
 }

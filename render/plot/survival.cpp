@@ -55,7 +55,7 @@ using OutcomesByCell = std::map<std::pair<std::size_t, std::size_t>, std::vector
 
 class Field {
   public:
-    Field(Canvas& canvas, const sim::Plate& plate, const OutcomesByCell& cells, const Box& box)
+    Field(Canvas& canvas, const sim::CaseGrid& plate, const OutcomesByCell& cells, const Box& box)
         : canvas_(canvas), plate_(plate), cells_(cells), box_(box) {
         for (const std::string& row : plate.rows) labels_ = std::max(labels_, canvas.measure(escape(row), small_).w);
         labels_ = std::min(labels_, 0.32 * box.w);
@@ -119,7 +119,7 @@ class Field {
     }
 
     Canvas& canvas_;
-    const sim::Plate& plate_;
+    const sim::CaseGrid& plate_;
     const OutcomesByCell& cells_;
     Box box_, inner_;
     double labels_ = 0;
@@ -147,12 +147,12 @@ void legend(Canvas& canvas, const std::vector<sim::StressResult>& results) {
 }  // namespace
 
 Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    std::vector<OutcomesByCell> cells(campaign.plates.size());
+    std::vector<OutcomesByCell> cells(campaign.grids.size());
     for (std::size_t i = 0; i < campaign.cases.size(); ++i) {
         const sim::StressCase& one = campaign.cases[i];
-        cells[one.plate][{one.row, one.column}].push_back(results[i].outcome);
+        cells[one.grid][{one.row, one.column}].push_back(results[i].outcome);
     }
-    const std::size_t lines = (campaign.plates.size() + kPlatesAcross - 1) / kPlatesAcross;
+    const std::size_t lines = (campaign.grids.size() + kPlatesAcross - 1) / kPlatesAcross;
     const double line = kTitleHeight + kFieldHeight + kFootHeight + kBetweenFields;
     Image image(kWidth, static_cast<int>(kHeadHeight + static_cast<double>(lines) * line + kPageMargin / 2));
     const Fonts fonts;
@@ -162,14 +162,14 @@ Image survival_map(const sim::Campaign& campaign, const std::vector<sim::StressR
                 {.size = 28, .color = rgb(0x1c2530), .weight = Weight::semibold});
     legend(canvas, results);
     const double width = (kWidth - 2 * kPageMargin - (kPlatesAcross - 1) * kBetweenFields * 1.4) / kPlatesAcross;
-    for (std::size_t i = 0; i < campaign.plates.size(); ++i) {
+    for (std::size_t i = 0; i < campaign.grids.size(); ++i) {
         // The last plate takes what is left of its line.
-        const bool last = i + 1 == campaign.plates.size();
+        const bool last = i + 1 == campaign.grids.size();
         const std::size_t column = i % kPlatesAcross, row = i / kPlatesAcross;
         const double x = kPageMargin + static_cast<double>(column) * (width + 1.4 * kBetweenFields);
         const Box box{x, kHeadHeight + static_cast<double>(row) * line + 10, last ? kWidth - kPageMargin - x : width,
                       kTitleHeight + kFieldHeight + kFootHeight};
-        Field(canvas, campaign.plates[i], cells[i], box).draw();
+        Field(canvas, campaign.grids[i], cells[i], box).draw();
     }
     return image;
 }

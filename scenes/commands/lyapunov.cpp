@@ -51,7 +51,7 @@ std::string report(const sim::Exponents& e) {
 
 int act(const LyapunovArguments& args) {
     const Scene scene = read_or_refuse(args.scene, args.common);
-    if (const auto refusal = sim::exponents_refusal(scene.problem)) throw UsageError(*refusal);
+    if (const auto refusal = sim::tangent_refusal(scene.problem)) throw UsageError(*refusal);
     sim::ExponentsRequest request;
     request.count = args.count;
     request.blocks = args.blocks;

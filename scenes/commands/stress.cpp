@@ -1,4 +1,4 @@
-// The stress campaign: every case ends or is refused in words, or the command says so with exit code 1.
+// The stress campaign: every case must finish or be rejected with a clear message, else the exit code is 1.
 #include "sim/studies/stress.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ struct StressArguments {
     std::vector<std::string> files;
 };
 
-std::vector<sim::StressResult> survive_all(const sim::Campaign& campaign, const Common& common) {
+std::vector<sim::StressResult> run_all_cases(const sim::Campaign& campaign, const Common& common) {
     const auto count = static_cast<long>(campaign.cases.size());
     std::vector<sim::StressResult> results(campaign.cases.size());
     std::atomic<long> done = 0;
@@ -35,7 +35,7 @@ std::vector<sim::StressResult> survive_all(const sim::Campaign& campaign, const 
             return [&](long i) {
                 if (output::interrupted()) throw sim::Interrupted();
                 const auto k = static_cast<std::size_t>(i);
-                results[k] = sim::survive(campaign.cases[k]);
+                results[k] = sim::run_case(campaign.cases[k]);
                 const long now = ++done;
                 if (now % 100 == 0 || now == count) say(common, fmt::format("{} of {} cases", now, count));
             };
@@ -62,13 +62,13 @@ int act(const StressArguments& args) {
         manifest.require_replaceable(file);
     }
     const sim::Campaign campaign = sim::stress_campaign(args.full);
-    const std::vector<sim::StressResult> results = survive_all(campaign, args.common);
+    const std::vector<sim::StressResult> results = run_all_cases(campaign, args.common);
     print_text(output::stress_text(campaign, results));
     for (const std::string& file : args.files) write(manifest.target(file), campaign, results);
     manifest.save();
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
-    if (failed) throw std::logic_error("the stress campaign found cases that neither end nor are refused in words");
+    if (failed) throw std::logic_error("the stress campaign found cases that neither finish nor are rejected");
     return 0;
 }
 
@@ -76,8 +76,9 @@ int act(const StressArguments& args) {
 
 void add_stress(Grammar& grammar) {
     auto args = std::make_shared<StressArguments>();
-    Command& app = grammar.command(
-        "stress", "Numerical stability: thousands of extreme problems, each of which must end or be refused in words");
+    Command& app = grammar.command("stress",
+                                   "Numerical stability: thousands of extreme problems, each of which must finish or "
+                                   "be rejected with a clear message");
     app.flag("--quick", args->quick, "One case in eleven and the short single cases (default)");
     app.flag("--full", args->full, "Every case; minutes to an hour");
     app.option("-o,--output", &args->files, "FILE",

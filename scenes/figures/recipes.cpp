@@ -43,7 +43,7 @@ std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene) 
     recipe.prepare(scene, {}, studies);
     for (const Study& study : studies.take()) {
         if (study.may_fail) continue;
-        for (const sim::Finding& finding : sim::validate(study.problem))
+        for (const sim::Issue& finding : sim::validate(study.problem))
             if (finding.fatal)
                 return fmt::format("it computes a variant of the scene too, in which {}: {}", finding.path,
                                    finding.message);

@@ -6,7 +6,7 @@
 #include "scenes/figures/disc_symbols.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/figures/sketch.hpp"
-#include "sim/problem/derived.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "scenes/figures/recipes.hpp"
-#include "sim/problem/derived.hpp"
+#include "sim/problem/problem.hpp"
 #include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {

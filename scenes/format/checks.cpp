@@ -49,7 +49,7 @@ Place place_in_scene(const Node& root, std::string_view path, bool& exact) {
 
 void check_physics(ObjectReader& r, const sim::Problem& problem) {
     const bool partial = r.diagnostics().any();
-    for (const sim::Finding& finding : sim::validate(problem)) {
+    for (const sim::Issue& finding : sim::validate(problem)) {
         bool exact = false;
         const Place place = place_in_scene(*r.node(), finding.path, exact);
         // With unread values replaced by defaults, only what the user wrote himself can be judged.

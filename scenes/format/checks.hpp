@@ -25,7 +25,6 @@ void take_written_units(ObjectReader& r, render::Units& units);
 void check_camera(ObjectReader& r, const View& view);  // `r`: of the camera
 void check_view(ObjectReader& r, const View& view);    // `r`: of the view
 void check_picture(ObjectReader& r, Picture& picture);
-bool is_of_contact(sim::ChannelKind kind);  // without a cam it has no values
 void check_layout(ObjectReader& r, const Picture& picture);
 void check_speed(ObjectReader& r, const Speed& speed);  // `r`: of the speed
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);

@@ -52,7 +52,7 @@ void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
         return;
     }
     if (r.diagnostics().failed(r.path("set"))) return;
-    for (const sim::Finding& finding : sim::validate(problem))
+    for (const sim::Issue& finding : sim::validate(problem))
         if (finding.fatal) r.fail(*r.node(), "", fmt::format("{}: {}: {}", r.path(""), finding.path, finding.message));
 }
 

@@ -237,14 +237,6 @@ ValueFormat layout_format(std::optional<LayoutNode>& layout) {
 
 // ---- what the panels ask of the motions -----------------------------------------------------------
 
-bool is_of_contact(sim::ChannelKind kind) {
-    using enum sim::ChannelKind;
-    constexpr sim::ChannelKind kOfContact[] = {contact_force, friction_force,  gap,          contact_x,     contact_s,
-                                               cam_angle,     energy_contact,  loss_contact, loss_friction, work_cam,
-                                               separation,    separation_paper};
-    return std::ranges::find(kOfContact, kind) != std::end(kOfContact);
-}
-
 namespace {
 
 // What the panel shows of a contact that the picture's motions do not have; empty: nothing.
@@ -257,7 +249,7 @@ std::string without_cam(const sim::Problem& own, const Picture& picture, const P
     if (type_of(panel.kind).needs_cam)
         return has_cam(static_cast<std::size_t>(panel.member)) ? "" : type_of(panel.kind).name;
     for (const sim::Channel& channel : panel.channels)
-        if (is_of_contact(channel.kind) && !any) return name(channel);
+        if (sim::needs_cam(channel.kind) && !any) return name(channel);
     return {};
 }
 

@@ -116,7 +116,7 @@ class MeasurementReader {
 
     void check_channels() {
         for (const auto& [channel, from] : m_.columns)
-            if (is_of_contact(channel.kind) && !r_.context().scene.problem.cam)
+            if (sim::needs_cam(channel.kind) && !r_.context().scene.problem.cam)
                 fail(r_.has(name(channel)) ? name(channel) : "file",
                      fmt::format("{} is of the contact, and the scene has no cam", name(channel)));
     }

@@ -28,8 +28,8 @@ std::vector<std::size_t> kept_columns(const sim::Sampling& sampling) {
 
 // A state to go on from, and back.
 std::vector<double> numbers_of(const sim::InitialState& s) {
-    std::vector<double> out{double(s.phase.touching), double(s.phase.held), s.phase.approach, double(int(s.phase.grip)),
-                            s.phase.gap_offset};
+    std::vector<double> out{double(s.phase.touching), double(s.phase.held), s.phase.approach,
+                            double(int(s.phase.friction)), s.phase.gap_offset};
     out.insert(out.end(), s.y.begin(), s.y.end());
     return out;
 }
@@ -106,7 +106,7 @@ std::optional<sim::InitialState> end_of(const output::StoredPoint& point) {
     const std::vector<double>& numbers = point.state;  // as numbers_of
     if (numbers.size() < 6) return std::nullopt;
     sim::InitialState s;
-    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2], static_cast<sim::Grip>(static_cast<int>(numbers[3])),
+    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2], static_cast<sim::FrictionState>(static_cast<int>(numbers[3])),
                numbers[4]};
     s.y.assign(numbers.begin() + 5, numbers.end());
     return s;

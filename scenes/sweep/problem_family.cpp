@@ -12,7 +12,7 @@ sim::Problem ProblemFamily::at(double value) const {
     sim::Problem problem = problem_;
     if (!sim::set_number(problem, key_, value))
         throw SceneError(fmt::format("{} = {:.10g} is outside its range or no whole number", key_, value));
-    for (const sim::Finding& finding : sim::validate(problem))
+    for (const sim::Issue& finding : sim::validate(problem))
         if (finding.fatal)
             throw SceneError(fmt::format("at {} = {:.10g}: {}: {}", key_, value, finding.path, finding.message));
     return problem;

@@ -76,7 +76,7 @@ void SweepGrid::judge() const {
     const std::uint64_t stride = std::max<std::uint64_t>(1, cells_ / kMostJudged);
     for (std::uint64_t cell = 0; cell < cells_; cell += stride) {
         const std::uint64_t point = cell * seeds_.size();
-        for (const sim::Finding& finding : validate(problem(point))) {
+        for (const sim::Issue& finding : validate(problem(point))) {
             if (!finding.fatal || finding.path.starts_with("initial")) continue;
             std::string where;
             for (std::size_t a = 0; a < axes_.size(); ++a) {

@@ -3,10 +3,11 @@
 
 namespace beamcam::sim {
 
-inline constexpr int kShapePlaces = 101;           // of a natural mode: a polyline of 20 waves is smooth
-inline constexpr double kUncoupledDamping = 1e-9;  // of the largest damping: coupling by rounding
-inline constexpr double kLostInertia = 1e-9;       // of the straight beam's inertia: less is none
-// Of the length, or rad: centrifugal forces by differences, whose error of the fifth order is rounding.
+inline constexpr int kShapePlaces = 101;  // points of a natural mode: a polyline of 20 waves looks smooth
+inline constexpr double kUncoupledDamping =
+    1e-9;                                     // of the largest entry of C_d: smaller off-diagonal ones are rounding
+inline constexpr double kLostInertia = 1e-9;  // of the straight beam's inertia: anything less counts as not positive
+// Of the length, or rad: step of the finite differences of centrifugal forces. Their error is of fourth order, 1e-12.
 inline constexpr double kDeflectionDifference = 1e-3;
 
 }  // namespace beamcam::sim

@@ -93,7 +93,7 @@ HubMotion DriveLaw::motion(double t) const {
                     a * law.theta[i] + b * law.theta[i + 1] + ((a * a * a - a) * ma + (b * b * b - b) * mb) * h * h / 6;
                 m.rate = (law.theta[i + 1] - law.theta[i]) / h + ((1 - 3 * a * a) * ma + (3 * b * b - 1) * mb) * h / 6;
                 m.acceleration = a * ma + b * mb;
-                m.angle += m.rate * (t - at);  // on at the speed of the end, where the natural spline is straight
+                m.angle += m.rate * (t - at);  // outside the table: constant speed, as the natural spline has there
                 return m;
             },
             [](const auto&) { return HubMotion{}; }},

@@ -1,4 +1,4 @@
-// What turns the hub: nothing, a torque law, or a prescribed angle θ(t). MODEL.md §6.
+// The drive of the hub: none, a torque τ(t), or a prescribed angle θ(t). MODEL.md §6.
 #pragma once
 
 #include <vector>
@@ -11,15 +11,14 @@ struct HubMotion {
     double angle = 0, rate = 0, acceleration = 0;  // [rad], [rad/s], [rad/s²]
 };
 
-// Evaluates the drive of a problem. Holds the spline of an angle table.
 class DriveLaw {
   public:
     DriveLaw(const Drive& drive, double start_angle);
     bool prescribed() const { return prescribed_; }
     bool has_torque() const { return has_torque_; }
     double torque(double t) const;     // [N m]; 0 unless a torque law
-    HubMotion motion(double t) const;  // only if prescribed; θ(0) is the initial angle, or the table's
-    // Instants > 0 where the law is not smooth: steps end there.
+    HubMotion motion(double t) const;  // only if prescribed; θ(0) is the initial angle, or that of the table
+    // Instants > 0 at which the law is not smooth. Integration steps end there.
     const std::vector<double>& kinks() const { return kinks_; }
 
   private:

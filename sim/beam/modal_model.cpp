@@ -17,9 +17,8 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
     m.M = m.D = m.G = m.P0 = m.P1 = m.P2 = Eigen::MatrixXd::Zero(n, n);
     if (n == 0) return m;
 
-    // Products of two shapes oscillate with 2β_n: three nodes a mode and a margin reach rounding.
+    // Products of two shapes oscillate with 2β_n; three nodes per mode and a margin integrate them to rounding.
     const Quadrature rule = gauss_legendre(3 * n + 24, length);
-    // Shapes at the nodes, one column each; the integrals are products with them.
     const Eigen::Index nodes = rule.x.size();
     Eigen::MatrixXd y(n, nodes), y1(n, nodes), y2(n, nodes);
     for (Eigen::Index k = 0; k < nodes; ++k)
@@ -52,20 +51,24 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
 
 struct ModalModel::Tables {
     ModalMatrices m;
-    Eigen::MatrixXd B;  // what multiplies θ̇² and qq in the inertia: M − D, or M
+    Eigen::MatrixXd B;  // (S14): M − D, or M without foreshortening
     Shapes shapes;
     std::vector<double> beta4;
     Eigen::MatrixXd difference;  // 1/(β_i⁴ − β_j⁴), zero on the diagonal
-    Eigen::MatrixXd root;        // what the antiderivative of φ_i′φ_j′ is at x = 0
+    Eigen::MatrixXd root;        // the antiderivative of φ_i′φ_j′ at x = 0
     bool foreshortening = true;
 };
 
 namespace {
 
+double diagonal_entry(double x, double b4, double y, double y1, double y2, double y3) {
+    return 0.25 * (x * (y1 * y1 - 2 * y2 * y + y3 * y3 / b4) + 3 * y1 * y - y2 * y3 / b4);
+}
+
 // Σ_j A_ij(x) q_j with A_ij the antiderivative of φ_i′φ_j′, from φ⁗ = β⁴φ and by parts:          (S5a)
 //   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
 //   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
-// Sums over j run through all i at once: so compilers vectorize them, and each adds up as it would by itself.
+// The inner loops run over i, so that compilers vectorize them without a change of the order of summation.
 template <class Tables>
 void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2,
                     const double* y3, const double* q, double* out) {
@@ -83,9 +86,8 @@ void antiderivative(const Tables& tables, double x, const double* y, const doubl
     }
     for (std::size_t i = 0; i < n; ++i) {
         const double b4 = tables.beta4[i];
-        const double own = 0.25 * (x * (y1[i] * y1[i] - 2 * y2[i] * y[i] + y3[i] * y3[i] / b4) + 3 * y1[i] * y[i] -
-                                   y2[i] * y3[i] / b4);
-        out[i] = own * q[i] + (b4 * y[i] * s1[i] - y3[i] * s2[i] + y2[i] * s3[i] - y1[i] * s0[i]);
+        out[i] = diagonal_entry(x, b4, y[i], y1[i], y2[i], y3[i]) * q[i] +
+                 (b4 * y[i] * s1[i] - y3[i] * s2[i] + y2[i] * s3[i] - y1[i] * s0[i]);
     }
 }
 
@@ -140,12 +142,9 @@ void ModalModel::shortening_matrix(double x, double* h) const {
             const double b4 = tables_->beta4[i];
             const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
             const double value =
-                i == j
-                    ? 0.25 *
-                          (x * (here.y1[i] * here.y1[i] - 2 * here.y2[i] * here.y[i] + here.y3[i] * here.y3[i] / b4) +
-                           3 * here.y1[i] * here.y[i] - here.y2[i] * here.y3[i] / b4)
-                    : tables_->difference(r, c) * (b4 * here.y[i] * here.y1[j] - here.y3[i] * here.y2[j] +
-                                                   here.y2[i] * here.y3[j] - b4j * here.y1[i] * here.y[j]);
+                i == j ? diagonal_entry(x, b4, here.y[i], here.y1[i], here.y2[i], here.y3[i])
+                       : tables_->difference(r, c) * (b4 * here.y[i] * here.y1[j] - here.y3[i] * here.y2[j] +
+                                                      here.y2[i] * here.y3[j] - b4j * here.y1[i] * here.y[j]);
             h[j * n + i] = value - tables_->root(r, c);
         }
     }
@@ -154,10 +153,10 @@ void ModalModel::shortening_matrix(double x, double* h) const {
 void ModalModel::state_changed() {
     sin_ = std::sin(xi_[0]);
     cos_ = std::cos(xi_[0]);
-    turn_ = turn_rate_ = 0;
+    alpha_ = alpha_dot_ = 0;
     for (int i = 1; i < size_; ++i) {
-        turn_ += hub_row_[i] * xi_[i];
-        turn_rate_ += hub_row_[i] * rate_[i];
+        alpha_ += hub_row_[i] * xi_[i];
+        alpha_dot_ += hub_row_[i] * rate_[i];
     }
     local_.shortened = root_.shortened = tip_.shortened = false;
 }
@@ -175,7 +174,7 @@ const ModalModel::Local& ModalModel::at(double x) const {
 
 void ModalModel::shorten(Local& here) const {
     here.shortened = true;
-    if (here.x == 0) return;  // by nothing
+    if (here.x == 0) return;  // no shortening at the root
     antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, xi_ + 1, here.shortening);
     for (int j = 0; j < modes_; ++j)
         for (int i = 0; i < modes_; ++i) here.shortening[i] -= tables_->root(i, j) * xi_[1 + j];
@@ -188,7 +187,7 @@ bool ModalModel::assemble(double* f) {
     const ModalMatrices& m = tables_->m;
     const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
     Eigen::Map<Eigen::VectorXd> fq(f + 1, modes_);
-    const double spin = rate_[0];
+    const double Theta_dot = rate_[0];
     if (modes_ == 0) {
         inertia_ = m.J;
         f[0] = -gravity_ * m.S * cos_;
@@ -201,7 +200,7 @@ bool ModalModel::assemble(double* f) {
     if (kind_ == ModelKind::first_order) {
         gq_.noalias() = m.G * q;
         gravity_torque -= 0.5 * cos_ * q.dot(gq_);
-        fq += spin * spin * bq_ + gravity_ * sin_ * gq_;
+        fq += Theta_dot * Theta_dot * bq_ + gravity_ * sin_ * gq_;
     } else if (kind_ == ModelKind::paper) {
         // The stiffening weight a(l − x) + ½(l² − x²) with l = L cos θ, in the v-equation only.
         const double l = length_ * cos_;
@@ -209,11 +208,11 @@ bool ModalModel::assemble(double* f) {
         gq_.noalias() -= (radius_ * l + 0.5 * l * l) * (m.P0 * q);
         gq_.noalias() += radius_ * (m.P1 * q);
         gq_.noalias() += 0.5 * (m.P2 * q);
-        fq += spin * spin * gq_;
+        fq += Theta_dot * Theta_dot * gq_;
     } else {
-        fq += spin * spin * bq_;
+        fq += Theta_dot * Theta_dot * bq_;
     }
-    f[0] = -2 * spin * bq_.dot(dq) - gravity_ * gravity_torque;
+    f[0] = -2 * Theta_dot * bq_.dot(dq) - gravity_ * gravity_torque;
     add_damping(f);
     const double schur = coupled_ ? inertia_ - m.U.squaredNorm() / mass_ : inertia_;
     return schur > kLostInertia * m.J;
@@ -259,20 +258,20 @@ void ModalModel::point(double x, BeamPoint& p) const {
             qHq += xi_[1 + i] * here.shortening[i];
             rHq += rate_[1 + i] * here.shortening[i];
         }
-        u = -0.5 * qHq - 0.5 * radius_ * turn_ * turn_;  // (S5), (S13)
-        du = -rHq - radius_ * turn_ * turn_rate_;
+        u = -0.5 * qHq - 0.5 * radius_ * alpha_ * alpha_;  // (S5), (S13)
+        du = -rHq - radius_ * alpha_ * alpha_dot_;
         u1 = -0.5 * v1 * v1;
         u2 = -v1 * v2;
         du1 = -v1 * dv1;
     }
     const Vec2 along{cos_, sin_}, across{-sin_, cos_};
-    const double spin = rate_[0];
+    const double Theta_dot = rate_[0];
     const double rx = radius_ + x + u, ry = v;
     p.r = rx * along + ry * across;
     p.r1 = (1 + u1) * along + v1 * across;
     p.r2 = u2 * along + v2 * across;
-    p.v = (du - ry * spin) * along + (dv + rx * spin) * across;  // (S7)
-    p.v1 = (du1 - v1 * spin) * along + (dv1 + (1 + u1) * spin) * across;
+    p.v = (du - ry * Theta_dot) * along + (dv + rx * Theta_dot) * across;  // (S7)
+    p.v1 = (du1 - v1 * Theta_dot) * along + (dv1 + (1 + u1) * Theta_dot) * across;
 }
 
 void ModalModel::jacobian(double x, double* jx, double* jy, double* jchi) const {
@@ -284,14 +283,14 @@ void ModalModel::jacobian(double x, double* jx, double* jy, double* jchi) const 
         v1 += here.y1[i] * xi_[1 + i];
         if (shortening) u -= 0.5 * here.shortening[i] * xi_[1 + i];
     }
-    if (shortening) u -= 0.5 * radius_ * turn_ * turn_;
+    if (shortening) u -= 0.5 * radius_ * alpha_ * alpha_;
     const double rx = radius_ + x + u, t1 = shortening ? 1 - 0.5 * v1 * v1 : 1;
     const double speed2 = t1 * t1 + v1 * v1;
     jx[0] = -rx * sin_ - v * cos_;
     jy[0] = rx * cos_ - v * sin_;
     jchi[0] = 1;
     for (int i = 0; i < modes_; ++i) {
-        const double ui = shortening ? -here.shortening[i] - radius_ * turn_ * hub_row_[1 + i] : 0;
+        const double ui = shortening ? -here.shortening[i] - radius_ * alpha_ * hub_row_[1 + i] : 0;
         const double ui1 = shortening ? -v1 * here.y1[i] : 0;
         jx[1 + i] = ui * cos_ - here.y[i] * sin_;
         jy[1 + i] = ui * sin_ + here.y[i] * cos_;
@@ -304,9 +303,9 @@ Vec2 ModalModel::convective(double x) const {
     BeamPoint p;
     point(x, p);
     const Local& here = at(x);
-    const double spin = rate_[0];
+    const double Theta_dot = rate_[0];
     const Vec2 along{cos_, sin_};
-    const Vec2 relative = p.v - spin * perp(p.r);
+    const Vec2 relative = p.v - Theta_dot * perp(p.r);
     double bend = 0;
     if (tables_->foreshortening) {
         double h_rate[kMaxModes] = {};
@@ -314,9 +313,9 @@ Vec2 ModalModel::convective(double x) const {
         for (int j = 0; j < modes_; ++j)
             for (int i = 0; i < modes_; ++i) h_rate[i] -= tables_->root(i, j) * rate_[1 + j];
         for (int i = 0; i < modes_; ++i) bend -= rate_[1 + i] * h_rate[i];
-        bend -= radius_ * turn_rate_ * turn_rate_;
+        bend -= radius_ * alpha_dot_ * alpha_dot_;
     }
-    return -spin * spin * p.r + 2 * spin * perp(relative) + bend * along;
+    return -Theta_dot * Theta_dot * p.r + 2 * Theta_dot * perp(relative) + bend * along;
 }
 
 double ModalModel::bending_moment(double x) const {
@@ -330,11 +329,12 @@ double ModalModel::bending_moment(double x) const {
 Energies ModalModel::energies() const {
     const ModalMatrices& m = tables_->m;
     Energies e;
-    const double spin = rate_[0];
-    if (modes_ == 0) return {0.5 * m.J * spin * spin, gravity_ * m.S * sin_, 0};
+    const double Theta_dot = rate_[0];
+    if (modes_ == 0) return {0.5 * m.J * Theta_dot * Theta_dot, gravity_ * m.S * sin_, 0};
     const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
     bq_.noalias() = tables_->B * q;
-    e.kinetic = 0.5 * (m.J + q.dot(bq_)) * spin * spin + spin * m.U.dot(dq) + 0.5 * mass_ * dq.squaredNorm();
+    e.kinetic =
+        0.5 * (m.J + q.dot(bq_)) * Theta_dot * Theta_dot + Theta_dot * m.U.dot(dq) + 0.5 * mass_ * dq.squaredNorm();
     e.elastic = 0.5 * m.K.dot(q.cwiseAbs2());
     e.gravity = m.S * sin_ + m.W.dot(q) * cos_;
     if (kind_ == ModelKind::first_order) {

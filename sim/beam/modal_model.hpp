@@ -1,6 +1,6 @@
-// Models that are quadratic in modal coordinates: rigid, zeroth-order, first-order and the paper's
-// eq. (4). Constant matrices, computed once by quadrature; the inertia is one row and column beside
-// a multiple of the identity, so a right-hand side factorizes nothing. MODEL.md §4.
+// Models that are quadratic in modal coordinates: rigid, zeroth-order, first-order and the paper's eq. (4). Their
+// matrices are constant and computed once by quadrature. The inertia is a multiple of the identity, bordered by one row
+// and column, so the right-hand side needs no factorization. MODEL.md §4.
 #pragma once
 
 #include <Eigen/Core>
@@ -19,7 +19,7 @@ struct ModalMatrices {
     Eigen::VectorXd U, W;        // ρA∫(a+x)φ [kg m], ρA∫φ [kg]
     Eigen::VectorXd K;           // EI∫φ″², diagonal [N/m]
     Eigen::MatrixXd M, D, G;     // ρA∫φφᵀ, stiffening, gravity [kg], [kg], [kg/m]
-    Eigen::MatrixXd P0, P1, P2;  // ρA∫x^k φ′φ′ᵀ: the paper's stiffening with its own length
+    Eigen::MatrixXd P0, P1, P2;  // ρA∫x^k φ′φ′ᵀ, only for the model `paper` (S15)
     Eigen::VectorXd slope;       // φ′(0)
 };
 ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis basis);
@@ -40,7 +40,7 @@ class ModalModel final : public Model {
     void linearize(double* mass, double* stiffness, double* centrifugal) const override;
     double frequency(int i) const override;
 
-    // For integrators that exploit the form of the equations.
+    // ---- for integrators that use the form of the equations ----
     ModelKind kind() const { return kind_; }
     bool coupled() const { return coupled_; }  // U ≠ 0
     bool foreshortening() const;
@@ -52,12 +52,12 @@ class ModalModel final : public Model {
 
   private:
     struct Tables;
-    // Shapes at one x, and ∂u/∂q there: what `point` and `jacobian` share.
+    // The shapes at one x and H(x)q, cached because `point` and `jacobian` both need them.
     struct Local {
         double x = -1;
         double y[kMaxModes], y1[kMaxModes], y2[kMaxModes], y3[kMaxModes];
-        bool shortened = false;             // `shortening` belongs to the set state
-        double shortening[kMaxModes] = {};  // H(x) q, H = ∫₀ˣφ′φ′ᵀ
+        bool shortened = false;             // `shortening` is that of the present state
+        double shortening[kMaxModes] = {};  // H(x) q (S5a)
     };
     void state_changed() override;
     const Local& at(double x) const;
@@ -68,9 +68,9 @@ class ModalModel final : public Model {
     bool coupled_;  // U ≠ 0
     double sin_ = 0, cos_ = 1;
     double inertia_ = 1;                // J + qᵀ(M − D)q
-    double turn_ = 0, turn_rate_ = 0;   // α, α̇ of the hub inside the frame
+    double alpha_ = 0, alpha_dot_ = 0;  // of the hub relative to the frame (S13)
     mutable Eigen::VectorXd bq_, gq_;   // scratch
-    mutable Local local_, root_, tip_;  // where it was asked for last, and the ends
+    mutable Local local_, root_, tip_;  // at the last x, and at the two ends
 };
 
 }  // namespace beamcam::sim

@@ -82,7 +82,7 @@ void Model::build_damping(const Problem& problem) {
     if (by_time) {
         damping = *beam.kelvin_voigt * stiffness.bottomRightCorner(n, n);  // (S21)
     } else {
-        // Modes of the free hub (Θ condensed out: it carries no stiffness) or of the held one (S20).
+        // Modes with a free hub (Θ has no stiffness and is condensed out) or with a prescribed one (S20).
         Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n);
         if (!is_prescribed(problem.hub.drive))
             inertia -= mass.bottomLeftCorner(n, 1) * mass.topRightCorner(1, n) / mass(0, 0);

@@ -1,11 +1,11 @@
-// The equations of motion of hub and beam, one class a rung of the model ladder: inertia, bias
-// forces, energies, and the kinematics of a point of the centre line. No cam, no contact, no time.
+// The equations of motion of hub and beam: inertia, bias forces, energies, and the kinematics of a point of the centre
+// line. One class for each kind of beam model. No cam, no contact, no time.
 //
-// Coordinates ξ = (Θ, q_1…q_N): Θ turns the frame, q are the scene's own (metres; radians for
-// `exact`). The hub angle is θ = Θ + Σ h_i q_i, h = y_i′(0) in hub-beam shapes, else 0. MODEL.md §3.
+// Coordinates ξ = (Θ, q_1…q_N): Θ is the angle of the frame, q_i are the coordinates of the scene (metres; radians for
+// `exact`). The hub angle is θ = Θ + Σ h_i q_i, with h_i = y_i′(0) in hub-beam shapes, else 0. MODEL.md §3.
 //
-// A model is a calculator with a memory of one state: `set` it, then ask. Nothing allocates after
-// construction. Not for use by two threads at once; `clone` for another observer.
+// `set` stores a state, which all other functions refer to. They allocate nothing. One model serves one thread; use
+// `clone` for others.
 #pragma once
 
 #include <memory>
@@ -42,53 +42,53 @@ class Model {
     double mass() const { return mass_; }
     double length() const { return length_; }
 
-    // The state that everything below refers to; both arrays of `size` numbers, kept by copy.
+    // Copies the state ξ, ξ̇: two arrays of `size` numbers.
     void set(const double* xi, const double* rate);
 
-    const double* coordinates() const { return xi_; }  // as set
+    const double* coordinates() const { return xi_; }  // ξ
 
-    // f ← generalized forces of gravity, elasticity, damping and velocity (everything but contact
-    // and torque), and the inertia for the solves below. False: the inertia is not positive.
+    // f ← generalized forces of gravity, elasticity, damping and velocity, without contact and torque. Also computes
+    // the inertia for the solves below; false if it is not positive definite.
     virtual bool assemble(double* f) = 0;
     // f ← M⁻¹ f with the inertia of the last `assemble`.
     virtual void solve(double* f) const = 0;
-    // The hub held at the acceleration `hub` (frame = hub: cantilever coordinates): f ← (hub, q̈),
-    // and the torque that does it is returned [N m].
+    // With the prescribed angular acceleration `hub` of the hub (cantilever coordinates only): f ← (hub, q̈). Returns
+    // the necessary torque [N m].
     virtual double solve_held(double* f, double hub) const = 0;
 
     // Kinematics at arc position x in [0, L].
     virtual void point(double x, BeamPoint& p) const = 0;
-    // ∂r/∂ξ as rows of X and Y, and ∂χ/∂ξ of the angle χ of the tangent; arrays of `size`.
+    // ∂X/∂ξ, ∂Y/∂ξ and ∂χ/∂ξ, χ the angle of the tangent; arrays of `size`.
     virtual void jacobian(double x, double* jx, double* jy, double* jchi) const = 0;
-    // Acceleration of the point at ξ̈ = 0: (dJ/dt) ξ̇ [m/s²].
+    // Acceleration of the point for ξ̈ = 0 [m/s²].
     virtual Vec2 convective(double x) const = 0;
     virtual double bending_moment(double x) const = 0;  // EI κ [N m]
     virtual Energies energies() const = 0;
     double damping_power() const;  // q̇ᵀ C_d q̇ [W]
     bool damped() const { return damped_; }
-    // Diagonal of C_d [kg/s], N numbers; null when undamped or when C_d is full.
+    // Diagonal of C_d [kg/s], N numbers; null if undamped or if C_d is not diagonal.
     const double* diagonal_damping() const { return damped_ && damping_diagonal_ ? damping_->data() : nullptr; }
 
-    // C_d, N² numbers column by column; empty when undamped.
+    // C_d, N² numbers, column-major; empty if undamped.
     std::vector<double> damping_matrix() const;
 
-    double hub_angle() const;                           // θ of the set state
+    double hub_angle() const;                           // θ
     double hub_rate() const;                            // θ̇
     const double* hub_row() const { return hub_row_; }  // ∂θ/∂ξ
 
-    // Linearized about the straight beam at rest, without gravity: dense, column-major, size²:
-    // inertia and stiffness of (Θ, q), and the centrifugal stiffness per Ω² of the turning beam.
+    // Linearization about the straight beam at rest, without gravity: inertia and stiffness of ξ, and the centrifugal
+    // stiffness per Ω² of a beam that rotates at Ω. Dense, column-major, size².
     virtual void linearize(double* mass, double* stiffness, double* centrifugal) const = 0;
-    // Angular frequency scale of coordinate i (0-based, of q) for step bounds: √(K_ii/M_ii).
+    // Angular frequency that belongs to q_i, i from 0 [rad/s]. Bounds of step sizes are derived from it.
     virtual double frequency(int i) const = 0;
 
   protected:
     explicit Model(const Problem& problem);
     Model(const Model&) = default;
     virtual void state_changed() = 0;
-    // −C_d q̇ added to f[1…N].
+    // Adds −C_d q̇ to f[1…N].
     void add_damping(double* f) const;
-    // C_d from the problem's ratios or Kelvin–Voigt time; needs `linearize` (S20, S21).
+    // Computes C_d from damping ratios or the Kelvin–Voigt time, by `linearize` (S20), (S21).
     void build_damping(const Problem& problem);
 
     int size_ = 1, modes_ = 0;
@@ -99,7 +99,6 @@ class Model {
     std::shared_ptr<const std::vector<double>> damping_;  // N (diagonal) or N² numbers
 };
 
-// The rung of the ladder that the problem names.
 std::unique_ptr<Model> make_model(const Problem& problem);
 
 }  // namespace beamcam::sim

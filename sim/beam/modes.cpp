@@ -14,7 +14,7 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     problem.gravity = 0;
     problem.beam.damping_ratio.clear();
     problem.beam.kelvin_voigt.reset();
-    // A held hub asks for clamped shapes; `auto` means just that.
+    // For a hub with prescribed motion the basis `auto` is the clamped one.
     const bool held = speed.has_value() || is_prescribed(problem.hub.drive);
     if (held && problem.beam.basis == Basis::automatic) problem.beam.basis = Basis::cantilever;
     const std::unique_ptr<Model> model = make_model(problem);
@@ -24,8 +24,8 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     model->linearize(mass.data(), stiffness.data(), centrifugal.data());
     if (speed) stiffness += *speed * *speed * centrifugal;
 
-    // Coordinates (Θ, q) → q: the free hub carries Θ along with no stiffness of its own; the held one
-    // has θ = Θ + h·q = 0. Both are Θ = −c·q (S42).
+    // Reduction (Θ, q) → q. With a free hub, Θ has no stiffness and follows from its row; with a clamped one,
+    // θ = Θ + h·q = 0. Both have the form Θ = −c·q (S42).
     Eigen::RowVectorXd follow(n);
     for (Eigen::Index i = 0; i < n; ++i) follow[i] = held ? -model->hub_row()[1 + i] : -mass(0, 1 + i) / mass(0, 0);
     Eigen::MatrixXd reduce(size, n);
@@ -36,7 +36,7 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     k = 0.5 * (k + k.transpose()).eval();
     const Eigenmodes natural = eigenmodes(k, m);
 
-    // Small displacements of the points are linear in the coordinates: read off the Jacobian at rest.
+    // Small displacements are linear in the coordinates: y = (∂Y/∂ξ) ξ at rest.
     const double zero[kMaxSize] = {};
     model->set(zero, zero);
     std::vector<Mode> modes(static_cast<std::size_t>(n));

@@ -1,5 +1,5 @@
-// Natural frequencies and shapes of hub and beam, at rest with a free hub or turning at a held speed:
-// Ritz in the problem's own basis, count and model, without gravity and damping. MODEL.md §13.
+// Natural frequencies and mode shapes of hub and beam, at rest with a free hub or rotating at a prescribed speed, by
+// the Ritz method in the problem's own shapes. Without gravity and damping. MODEL.md §13.
 #pragma once
 
 #include <optional>
@@ -11,13 +11,13 @@
 namespace beamcam::sim {
 
 struct Mode {
-    double omega = 0;         // [rad/s]; NaN where the stiffness is lost (diverging mode)
+    double omega = 0;         // [rad/s]; NaN for a mode with negative stiffness (divergence)
     std::vector<Vec2> shape;  // (x, y): 101 points from the root, mass-normalized [m], [kg^−1/2]
 };
 
-// Each has the sign of the scene's own coordinate that it is mostly made of. Rigid rotation is left out. `speed`
-// absent: at rest, the hub free with its inertia (held when the drive prescribes its angle). Present: the beam turns at
-// that speed [rad/s] in the plane of rotation, clamped to a hub held at it. Empty for a rigid beam.
+// Without the rigid rotation. The sign of a mode is that of its largest coordinate. No `speed`: at rest, with a free
+// hub (clamped if the drive prescribes its angle). With `speed` [rad/s]: in-plane vibration of a beam that is clamped
+// to a hub rotating at this speed. Empty for a rigid beam.
 std::vector<Mode> natural_modes(const Problem& problem, std::optional<double> speed = std::nullopt);
 
 }  // namespace beamcam::sim

@@ -17,8 +17,7 @@ namespace {
 
 using Small = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxSize, kMaxSize>;
 
-// What both share: columns c = ∂r/∂ξ and the acceleration at ξ̈ = 0, node by node, each times √(ρAw), and their
-// projection.
+// The projection of columns c = ∂r/∂ξ and of the acceleration at ξ̈ = 0. At each node both are multiplied by √(ρAw).
 //   M = ρA Σ w cᵀc + I_h hᵀh,   f = −ρA Σ w cᵀ(r̈|ξ̈=0 + g) − Kq − C_d q̇           (S16)
 class QuadratureModel : public Model {
   public:
@@ -27,7 +26,7 @@ class QuadratureModel : public Model {
         inertia_.triangularView<Eigen::Lower>() = columns_.transpose() * columns_;
         Eigen::Map<Eigen::VectorXd> force(f, size_);
         force.noalias() = columns_.transpose() * bias_;
-        force = -force;  // apart: Eigen 5 makes a copy of a negated product
+        force = -force;  // as a separate statement, because Eigen 5 copies a negated product
         for (int j = 0; j < size_; ++j)
             for (int i = j; i < size_; ++i) inertia_(i, j) += hub_inertia_ * hub_row_[i] * hub_row_[j];
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_);
@@ -54,8 +53,8 @@ class QuadratureModel : public Model {
     }
 
     void linearize(double* mass, double* stiffness, double* centrifugal) const override {
-        // Taken from the model itself at the straight beam; the centrifugal part by a central difference, of
-        // fourth order, of the bias force alone, which is quadratic in the speed and odd in q near q = 0.
+        // The centrifugal part is a central difference of fourth order of the bias force, which is quadratic in the
+        // speed and odd in q near q = 0.
         const std::unique_ptr<Model> copy = clone();
         auto& model = static_cast<QuadratureModel&>(*copy);
         model.damped_ = false;
@@ -72,7 +71,7 @@ class QuadratureModel : public Model {
         rate[0] = 1;
         const double step = kDeflectionDifference * (angular_ ? 1.0 : length_);
         for (int j = 1; j < size_; ++j) {
-            const auto odd = [&](double q, double* out) {  // of the forces, whatever the inertia of the bent beam
+            const auto odd = [&](double q, double* out) {  // odd part of the force, even if the inertia is not positive
                 double back[kMaxSize];
                 xi[j] = q;
                 model.set(xi, rate);
@@ -126,8 +125,8 @@ class QuadratureModel : public Model {
         const double zero[kMaxSize] = {};
         set(zero, zero);
         if (!assemble(f)) throw InertiaLost();
-        // Of the straight beam with its hub held: polynomials are far from modes, their own ratios K_ii/M_ii tell
-        // little.
+        // Natural frequencies of the straight clamped beam. For polynomials the ratios K_ii/M_ii would be far from
+        // them.
         const Eigen::MatrixXd inertia = inertia_.selfadjointView<Eigen::Lower>();
         const Eigenmodes modes = eigenmodes(bending_, inertia.bottomRightCorner(modes_, modes_));
         frequencies_.resize(static_cast<std::size_t>(modes_));
@@ -136,12 +135,12 @@ class QuadratureModel : public Model {
         build_damping(problem);
     }
 
-    // columns_ ← ∂r/∂ξ; bias_ ← r̈|ξ̈=0 plus gravity, at the nodes in one frame, times √(ρAw): first all of x, then of y.
+    // columns_ ← ∂r/∂ξ and bias_ ← r̈|ξ̈=0 plus gravity at the nodes, times √(ρAw): all x components, then all y.
     virtual void columns() = 0;
     // y_ ← height; vx_, vy_ ← velocity, at the nodes.
     virtual void node_kinematics() const = 0;
 
-    // weights_ ← of ∫₀ˣ over nodal values.
+    // weights_ ← quadrature weights of ∫₀ˣ.
     void weigh(double x) const {
         if (x == weighed_) return;
         weighed_ = x;
@@ -157,7 +156,7 @@ class QuadratureModel : public Model {
     Eigen::MatrixXd columns_;
     Eigen::VectorXd bias_;
     mutable Eigen::VectorXd y_, vx_, vy_, scratch_, weights_;
-    mutable double weighed_ = -1;  // where weights_ end
+    mutable double weighed_ = -1;  // x of weights_
     Small inertia_;
     Eigen::LDLT<Small> factor_;
     std::vector<double> frequencies_;  // [rad/s], ascending
@@ -206,15 +205,15 @@ class SecondOrderModel final : public QuadratureModel {
             dv1 += y1[i] * rate_[1 + i];
         }
         weigh(x);
-        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * turn_ * turn_;
-        const double du = -weights_.dot(v1_.cwiseProduct(dv1_)) - radius_ * turn_ * turn_rate_;
-        const double u1 = -0.5 * v1 * v1, rx = radius_ + x + u, spin = rate_[0];
+        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * alpha_ * alpha_;
+        const double du = -weights_.dot(v1_.cwiseProduct(dv1_)) - radius_ * alpha_ * alpha_dot_;
+        const double u1 = -0.5 * v1 * v1, rx = radius_ + x + u, Theta_dot = rate_[0];
         const Vec2 along{cos_, sin_}, across{-sin_, cos_};
         p.r = rx * along + v * across;
         p.r1 = (1 + u1) * along + v1 * across;
         p.r2 = -v1 * v2 * along + v2 * across;
-        p.v = (du - v * spin) * along + (dv + rx * spin) * across;
-        p.v1 = (-v1 * dv1 - v1 * spin) * along + (dv1 + (1 + u1) * spin) * across;
+        p.v = (du - v * Theta_dot) * along + (dv + rx * Theta_dot) * across;
+        p.v1 = (-v1 * dv1 - v1 * Theta_dot) * along + (dv1 + (1 + u1) * Theta_dot) * across;
     }
 
     void jacobian(double x, double* jx, double* jy, double* jchi) const override {
@@ -226,13 +225,13 @@ class SecondOrderModel final : public QuadratureModel {
             v1 += y1[i] * xi_[1 + i];
         }
         weigh(x);
-        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * turn_ * turn_;
+        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * alpha_ * alpha_;
         const double rx = radius_ + x + u, t1 = 1 - 0.5 * v1 * v1, speed2 = t1 * t1 + v1 * v1;
         jx[0] = -rx * sin_ - v * cos_;
         jy[0] = rx * cos_ - v * sin_;
         jchi[0] = 1;
         for (int i = 0; i < modes_; ++i) {
-            double ui = -radius_ * turn_ * hub_row_[1 + i];
+            double ui = -radius_ * alpha_ * hub_row_[1 + i];
             for (Eigen::Index k = 0; k < v1_.size(); ++k) ui -= weights_[k] * v1_[k] * phi1_(k, i);
             jx[1 + i] = ui * cos_ - y[i] * sin_;
             jy[1 + i] = ui * sin_ + y[i] * cos_;
@@ -243,9 +242,9 @@ class SecondOrderModel final : public QuadratureModel {
     Vec2 convective(double x) const override {
         BeamPoint p;
         point(x, p);
-        const double spin = rate_[0], bend = -weights_.dot(dv1_.cwiseAbs2()) - radius_ * turn_rate_ * turn_rate_;
-        const Vec2 relative = p.v - spin * perp(p.r);
-        return -spin * spin * p.r + 2 * spin * perp(relative) + bend * Vec2{cos_, sin_};  // (S17)
+        const double Theta_dot = rate_[0], bend = -weights_.dot(dv1_.cwiseAbs2()) - radius_ * alpha_dot_ * alpha_dot_;
+        const Vec2 relative = p.v - Theta_dot * perp(p.r);
+        return -Theta_dot * Theta_dot * p.r + 2 * Theta_dot * perp(relative) + bend * Vec2{cos_, sin_};  // (S17)
     }
 
     double bending_moment(double x) const override {
@@ -266,10 +265,10 @@ class SecondOrderModel final : public QuadratureModel {
         dv_.noalias() = phi_ * dq;
         dv1_.noalias() = phi1_ * dq;
         shortening_known_ = false;
-        turn_ = turn_rate_ = 0;
+        alpha_ = alpha_dot_ = 0;
         for (int i = 1; i < size_; ++i) {
-            turn_ += hub_row_[i] * xi_[i];
-            turn_rate_ += hub_row_[i] * rate_[i];
+            alpha_ += hub_row_[i] * xi_[i];
+            alpha_dot_ += hub_row_[i] * rate_[i];
         }
     }
 
@@ -280,13 +279,13 @@ class SecondOrderModel final : public QuadratureModel {
         shortened_.reshaped().noalias() = shortening_ * q;
         u_.noalias() = 0.5 * (shortened_ * q);
         du_.noalias() = shortened_ * dq;
-        u_.array() -= 0.5 * radius_ * turn_ * turn_;
-        du_.array() -= radius_ * turn_ * turn_rate_;
+        u_.array() -= 0.5 * radius_ * alpha_ * alpha_;
+        du_.array() -= radius_ * alpha_ * alpha_dot_;
     }
 
     void columns() override {
         shorten();
-        const double spin = rate_[0];
+        const double Theta_dot = rate_[0];
         const Eigen::Index nodes = rule_.x.size();
         auto x = columns_.topRows(nodes);
         scratch_ = rule_.x + u_;
@@ -294,14 +293,14 @@ class SecondOrderModel final : public QuadratureModel {
         x.col(0) = -root_weight_.cwiseProduct(v_);
         columns_.col(0).tail(nodes) = root_weight_.cwiseProduct(scratch_);
         for (int i = 0; i < modes_; ++i)
-            x.col(1 + i) = root_weight_.array() * (shortened_.col(i).array() - radius_ * turn_ * hub_row_[1 + i]);
+            x.col(1 + i) = root_weight_.array() * (shortened_.col(i).array() - radius_ * alpha_ * hub_row_[1 + i]);
         // r̈ at ξ̈ = 0, in the frame: −Θ̇²r + 2Θ̇ k×(u̇, v̇) + (ü, 0), ü = −∫v̇′² − aα̇²      (S17)
         auto bias_x = bias_.head(nodes), bias_y = bias_.tail(nodes);
-        bias_x = -spin * spin * scratch_ - 2 * spin * dv_;
+        bias_x = -Theta_dot * Theta_dot * scratch_ - 2 * Theta_dot * dv_;
         scratch_ = dv1_.cwiseAbs2();
         bias_x.noalias() -= primitive_ * scratch_;
-        bias_x.array() += gravity_ * sin_ - radius_ * turn_rate_ * turn_rate_;
-        bias_y = -spin * spin * v_ + 2 * spin * du_;
+        bias_x.array() += gravity_ * sin_ - radius_ * alpha_dot_ * alpha_dot_;
+        bias_y = -Theta_dot * Theta_dot * v_ + 2 * Theta_dot * du_;
         bias_y.array() += gravity_ * cos_;
         bias_x.array() *= root_weight_.array();
         bias_y.array() *= root_weight_.array();
@@ -309,12 +308,12 @@ class SecondOrderModel final : public QuadratureModel {
 
     void node_kinematics() const override {
         shorten();
-        const double spin = rate_[0];
+        const double Theta_dot = rate_[0];
         for (Eigen::Index k = 0; k < rule_.x.size(); ++k) {
             const double rx = radius_ + rule_.x[k] + u_[k];
             y_[k] = rx * sin_ + v_[k] * cos_;
-            vx_[k] = du_[k] - v_[k] * spin;
-            vy_[k] = dv_[k] + rx * spin;
+            vx_[k] = du_[k] - v_[k] * Theta_dot;
+            vy_[k] = dv_[k] + rx * Theta_dot;
         }
     }
 
@@ -325,11 +324,11 @@ class SecondOrderModel final : public QuadratureModel {
     mutable bool shortening_known_ = false;  // of the set state
     Eigen::VectorXd v_, v1_, dv_, dv1_;
     mutable Eigen::VectorXd u_, du_;
-    double sin_ = 0, cos_ = 1, turn_ = 0, turn_rate_ = 0;
+    double sin_ = 0, cos_ = 1, alpha_ = 0, alpha_dot_ = 0;
 };
 
-// Section angle ψ(x) = θ + Σ q_j η_j(x), η_j = P_j(2x/L − 1) − P_j(−1): the space of shifted Legendre
-// polynomials, with the hub angle itself as first coordinate. r = a e(θ) + ∫₀ˣ e(ψ)           (S18)
+// Section angle ψ(x) = θ + Σ q_j η_j(x) with shifted Legendre polynomials η_j = P_j(2x/L − 1) − P_j(−1), so that the
+// hub angle is the first coordinate. r = a e(θ) + ∫₀ˣ e(ψ)                                    (S18)
 class ExactModel final : public QuadratureModel {
   public:
     explicit ExactModel(const Problem& problem) : QuadratureModel(problem, exact_nodes(problem)) {
@@ -345,7 +344,7 @@ class ExactModel final : public QuadratureModel {
                 for (int j = 0; j < modes_; ++j) bending_(i, j) += stiffness_ * rule_.w[k] * slope[i] * slope[j];
             }
         }
-        for (Eigen::VectorXd* v : {&cos_, &sin_, &spin_}) v->resize(nodes);
+        for (Eigen::VectorXd* v : {&cos_, &sin_, &psi_dot_}) v->resize(nodes);
         turned_.resize(nodes, 2 * (size_ + 1));
         integrated_.resize(nodes, 2 * (size_ + 1));
         weighted_primitive_ = root_weight_.asDiagonal() * primitive_;
@@ -368,7 +367,7 @@ class ExactModel final : public QuadratureModel {
         p.r1 = e;
         p.r2 = curvature * perp(e);
         p.v = radius_ * rate_[0] * perp(root) +
-              Vec2{-weights_.dot(sin_.cwiseProduct(spin_)), weights_.dot(cos_.cwiseProduct(spin_))};
+              Vec2{-weights_.dot(sin_.cwiseProduct(psi_dot_)), weights_.dot(cos_.cwiseProduct(psi_dot_))};
         p.v1 = psi_rate * perp(e);
     }
 
@@ -394,8 +393,8 @@ class ExactModel final : public QuadratureModel {
 
     Vec2 convective(double x) const override {
         weigh(x);
-        const Vec2 inner{weights_.dot(cos_.cwiseProduct(spin_.cwiseAbs2())),
-                         weights_.dot(sin_.cwiseProduct(spin_.cwiseAbs2()))};
+        const Vec2 inner{weights_.dot(cos_.cwiseProduct(psi_dot_.cwiseAbs2())),
+                         weights_.dot(sin_.cwiseProduct(psi_dot_.cwiseAbs2()))};
         return -radius_ * rate_[0] * rate_[0] * unit(xi_[0]) - inner;  // (S19)
     }
 
@@ -426,8 +425,8 @@ class ExactModel final : public QuadratureModel {
     void state_changed() override {
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
         scratch_.noalias() = eta_ * q;
-        spin_.noalias() = eta_ * dq;
-        spin_.array() += rate_[0];
+        psi_dot_.noalias() = eta_ * dq;
+        psi_dot_.array() += rate_[0];
         for (Eigen::Index k = 0; k < scratch_.size(); ++k) {
             cos_[k] = std::cos(xi_[0] + scratch_[k]);
             sin_[k] = std::sin(xi_[0] + scratch_[k]);
@@ -438,7 +437,7 @@ class ExactModel final : public QuadratureModel {
         const Vec2 root = unit(xi_[0]);
         const Eigen::Index nodes = rule_.x.size(), half = size_ + 1;
         // r̈ at ξ̈ = 0: −aθ̇² e(θ) − ∫ψ̇² e(ψ)                                               (S19)
-        scratch_ = spin_.cwiseAbs2();
+        scratch_ = psi_dot_.cwiseAbs2();
         turned_.col(0) = -sin_;
         turned_.col(half) = cos_;
         turned_.col(half - 1) = -scratch_.cwiseProduct(cos_);
@@ -461,22 +460,22 @@ class ExactModel final : public QuadratureModel {
         const Vec2 root = unit(xi_[0]);
         y_.noalias() = primitive_ * sin_;
         y_.array() += radius_ * root.y;
-        scratch_ = spin_.cwiseProduct(sin_);
+        scratch_ = psi_dot_.cwiseProduct(sin_);
         vx_.noalias() = -(primitive_ * scratch_);
         vx_.array() -= radius_ * rate_[0] * root.y;
-        scratch_ = spin_.cwiseProduct(cos_);
+        scratch_ = psi_dot_.cwiseProduct(cos_);
         vy_.noalias() = primitive_ * scratch_;
         vy_.array() += radius_ * rate_[0] * root.x;
     }
 
     Eigen::MatrixXd eta_;
     Eigen::MatrixXd weighted_primitive_, turned_, integrated_;  // columns and bias of x, then of y
-    Eigen::VectorXd cos_, sin_, spin_;
+    Eigen::VectorXd cos_, sin_, psi_dot_;
 };
 
 }  // namespace
 
-// Products of four shapes oscillate with 4β_N; sines and cosines of the section's angle are smoother.
+// Products of four shapes oscillate with 4β_N; sine and cosine of the section angle are smoother.
 int second_order_nodes(const Problem& problem) { return 3 * problem.beam.modes + 20; }
 int exact_nodes(const Problem& problem) { return 2 * problem.beam.modes + 24; }
 

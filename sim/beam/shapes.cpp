@@ -12,7 +12,8 @@ namespace {
 
 using std::numbers::pi;
 
-// βL of the i-th clamped–free mode, i = 1, 2, …: cos b + 1/cosh b = 0 (S1).
+// βL of the i-th clamped–free mode, i = 1, 2, …: cos b + 1/cosh b = 0 (S1). The root is near (i − ½)π, far from the
+// ends of this interval.
 double clamped_eigenvalue(int i) {
     const auto f = [](double b) { return std::cos(b) + 1 / std::cosh(b); };
     return find_root(f, (i - 1) * pi + (i == 1 ? 1.0 : 0.2), i * pi - 0.2);
@@ -20,7 +21,7 @@ double clamped_eigenvalue(int i) {
 
 // Rows: moment and shear at the tip, displacement and moment at the root, of the four terms
 // (cos, sin, e^{−βx}, e^{−β(L−x)}) in units of the length; b = βL, kappa = a/L, h = I_h/(ρA L³) (S2).
-// Rows are scaled by positive factors, which keeps the sign of the determinant continuous in b.
+// Rows are scaled by positive factors, which do not change the sign of the determinant.
 Eigen::Matrix4d hub_beam_conditions(double b, double kappa, double h) {
     const double c = std::cos(b), s = std::sin(b), decay = std::exp(-b);
     const double lever = kappa * b, turn = h * b * b * b;
@@ -51,8 +52,8 @@ Shapes Shapes::cantilever(int count, double length) {
     for (int i = 1; i <= count; ++i) {
         const double b = clamped_eigenvalue(i);
         const double c = std::cos(b), s = std::sin(b), decay = std::exp(-b);
-        // φ = cosh − cos − σ(sinh − sin), σ = (cosh b + cos b)/(sinh b + sin b), the growing part gathered
-        // into e^{−β(L−x)}: no difference of large numbers.
+        // φ = cosh − cos − σ(sinh − sin), σ = (cosh b + cos b)/(sinh b + sin b). The growing exponentials are combined
+        // into e^{−β(L−x)}, so that no difference of large numbers occurs.
         const double denominator = 1 + 2 * s * decay - decay * decay;
         const double sigma = (1 + 2 * c * decay + decay * decay) / denominator;
         const double one_minus_sigma_times_exp_b = 2 * (s - c - decay) / denominator;
@@ -67,8 +68,8 @@ Shapes Shapes::hub_beam(int count, double length, double radius, double inertia)
     shapes.length_ = length;
     const double kappa = radius / length, h = inertia / (length * length * length);
     const auto f = [&](double b) { return hub_beam_conditions(b, kappa, h).determinant(); };
-    // Clamping the hub is one constraint, so by interlacing exactly one free mode lies between
-    // neighbouring clamped ones. A heavy hub pushes it onto the lower end, up to rounding.
+    // Clamping the hub adds one constraint, so by interlacing exactly one mode with a free hub lies between
+    // neighbouring clamped ones. With a heavy hub it coincides with the lower one, up to rounding.
     double low = clamped_eigenvalue(1);
     for (int i = 1; i <= count; ++i) {
         const double high = clamped_eigenvalue(i + 1);
@@ -77,7 +78,7 @@ Shapes Shapes::hub_beam(int count, double length, double radius, double inertia)
                          : std::fabs(f_low) <= std::fabs(f_high)     ? low
                                                                      : high;
         const Eigen::Matrix4d conditions = hub_beam_conditions(b, kappa, h);
-        // A heavy hub makes the root row of moments the ill-scaled one; the other three fix the shape.
+        // With a heavy hub the row of moments at the root is ill-conditioned; the other three determine the shape.
         const Eigen::Matrix<double, 3, 4> rows = conditions.topRows<3>();
         Eigen::Vector4d v = rows.fullPivLu().kernel().col(0);
         const double decay = std::exp(-b);
@@ -87,7 +88,7 @@ Shapes Shapes::hub_beam(int count, double length, double radius, double inertia)
         shapes.coefficients_.push_back(c);
         low = high;
     }
-    // Mass normalization by quadrature: enough nodes for the square of the highest shape.
+    // Mass normalization, with enough nodes for the square of the highest shape.
     const Quadrature rule = gauss_legendre(2 * count + 24, length);
     Eigen::ArrayXd y(count), y1(count), sum = Eigen::ArrayXd::Zero(count);
     for (Eigen::Index k = 0; k < rule.x.size(); ++k) {

@@ -1,5 +1,5 @@
-// The dissipation laws of compliant contact, one row each: its name and the factor D of F = K δⁿ (1 + D δ̇/δ̇₋) for a
-// pre-set restitution c. MODEL.md §8.
+// The dissipation laws of compliant contact, one table row each: the name, and the factor D of F = K δⁿ (1 + D δ̇/δ̇₋)
+// as a function of the pre-set restitution c. MODEL.md (S31).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,15 +7,16 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/base/numerics.hpp"
+#include "sim/contact/constants.hpp"
 #include "sim/problem/keys.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-// {D(1+e) − ln[(1+D)/(1−eD)]}/D²: zero where a contact with the factor D has the restitution e   (S31)
+// {D(1+e) − ln[(1+D)/(1−eD)]}/D², whose zero relates the factor D and the effective restitution e    (S31)
 double restitution_residual(double d, double e) {
-    if (d > 0.02) return (d * (1 + e) - std::log1p(d) + std::log1p(-e * d)) / (d * d);
-    // Its series Σ_{k≥2} Dᵏ⁻²[(−1)ᵏ − eᵏ]/k where the difference would cancel; eight terms reach rounding.
+    if (d > kSeriesFactor) return (d * (1 + e) - std::log1p(d) + std::log1p(-e * d)) / (d * d);
+    // Σ_{k≥2} Dᵏ⁻²[(−1)ᵏ − eᵏ]/k; ten terms reach rounding.
     double sum = 0.5 * (1 - e) * (1 + e), power = 1, ek = e * e;
     for (int k = 3; k <= 11; ++k) {
         power *= d;
@@ -25,11 +26,11 @@ double restitution_residual(double d, double e) {
     return sum;
 }
 
-// The law whose effective restitution is c. The residual is (1 − c²)/2 > 0 at D = 0 and −∞ at D = 1/c.
+// The law whose effective restitution equals c. The residual is (1 − c²)/2 > 0 at D = 0 and −∞ at D = 1/c.
 double zhang_sharf_factor(double c) {
     if (c >= 1) return 0;
     const auto f = [c](double d) { return restitution_residual(d, c); };
-    const double top = (1 - 1e-15) / c;
+    const double top = (1 - kPoleMargin) / c;
     return f(top) < 0 ? find_root(f, 0.0, top) : top;
 }
 
@@ -69,8 +70,8 @@ double damping_factor(DampingLaw law, double c) {
 double effective_restitution(double d) {
     if (d <= 0) return 1;
     const auto f = [d](double e) { return restitution_residual(d, e); };
-    const double top = std::fmin(1.0, (1 - 1e-15) / d);
-    // Positive at e = 0; towards e = 1/D the logarithm tends to −∞; negative at e = 1 when D < 1.
+    const double top = std::fmin(1.0, (1 - kPoleMargin) / d);
+    // The residual is positive at e = 0, negative at e = 1 if D < 1, and tends to −∞ as e → 1/D.
     return f(top) < 0 ? find_root(f, 0.0, top) : top;
 }
 

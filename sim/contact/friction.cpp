@@ -2,16 +2,9 @@
 
 #include <algorithm>
 
-#include "sim/problem/derived.hpp"
+#include "sim/contact/constants.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-// A bristle that relaxes faster than this share of the time to the deepest point of an impact at 1 m/s has
-// relaxed, as far as an impact can tell: following it would cost a thousand steps a contact and more.
-constexpr double kShortestLag = 1e-3;
-
-}  // namespace
 
 FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, double mass) {
     FrictionLaw law;
@@ -23,29 +16,29 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
         law.kinetic = stick_slip->coefficient;
         law.limit = std::max(law.kinetic, stick_slip->static_coefficient.value_or(law.kinetic));
         if (!law.bristle) return law;
-        // Mindlin's ratio of tangential to normal stiffness, 2(1−ν)/(2−ν), times the normal stiffness
-        // n K δⁿ⁻¹ at the penetration that the beam's mass reaches at 1 m/s (S37).
+        // Mindlin's ratio of tangential to normal stiffness, 2(1−ν)/(2−ν), times the normal stiffness n K δⁿ⁻¹ at the
+        // penetration that the beam's mass reaches at 1 m/s (S37).
         const double n = normal.exponent, nu = problem.beam.poisson_ratio;
         const double depth = impact_depth(n, normal.stiffness, mass, 1);
         law.stiffness =
             stick_slip->stiffness.value_or(2 * (1 - nu) / (2 - nu) * n * normal.stiffness * std::pow(depth, n - 1));
         law.damping = stick_slip->damping.value_or(0);
-        law.lags = law.damping / law.stiffness > kShortestLag * depth;  // depth: of 1 m/s, [s m/s]
+        law.lags = law.damping / law.stiffness > kShortestLag * depth;  // at 1 m/s the depth is a time in seconds
     }
     return law;
 }
 
-double FrictionLaw::force(Grip grip, double normal, double slip, double z) const {
+double FrictionLaw::force(FrictionState state, double normal, double slip, double z) const {
     if (none()) return 0;
     if (!bristle) return coulomb(normal, slip);
-    if (grip == Grip::stick) return -(stiffness * z + damping * slip);  // (S35)
-    return grip == Grip::slide_plus ? -kinetic * normal : kinetic * normal;
+    if (state == FrictionState::stick) return -(stiffness * z + damping * slip);  // (S35)
+    return state == FrictionState::slide_plus ? -kinetic * normal : kinetic * normal;
 }
 
-// Sliding, spring and dashpot together carry the kinetic friction: k z + c ż = ±μN (S36).
-double FrictionLaw::bristle_rate(Grip grip, double normal, double slip, double z) const {
-    if (grip == Grip::stick) return slip;
-    return lags ? stiffness / damping * (sliding_bristle(grip, normal) - z) : 0;
+// While sliding, the spring and the dashpot together carry the kinetic friction: k z + c ż = ±μN (S36).
+double FrictionLaw::bristle_rate(FrictionState state, double normal, double slip, double z) const {
+    if (state == FrictionState::stick) return slip;
+    return lags ? stiffness / damping * (sliding_bristle(state, normal) - z) : 0;
 }
 
 }  // namespace beamcam::sim

@@ -1,49 +1,53 @@
-// Numerical constants of the equations of motion, each with its reason: the foot of the contact, bounds of the gap,
-// equilibria at the start, the causes of a failure.
+// Numerical constants of the equations of motion, each with its reason: foot of the contact, rounding of the gap,
+// equilibria at the start, validation, causes of failures.
 #pragma once
 
 namespace beamcam::sim {
 
 // ---- the foot of the contact ----
-inline constexpr int kMostFootSteps =
-    60;  // of Newton's method with bisection: bisection alone needs 47 for kFootChange
-inline constexpr double kFootChange = 1e-14;     // of the length: rounding of the arc position
-inline constexpr double kLastFootChange = 1e-9;  // of the length: after such a Newton step what is left is rounding
-// Places of a search along the beam, and 2 or 4 a coordinate: more for more curved shapes.
-inline constexpr int kPlacesOfModes = 9, kPlacesOfExact = 13;
-inline constexpr double kSingleFoot = 0.5;     // of |v″| times the distance of the disc: 1 would be a second foot
-inline constexpr double kLeastShapeBound = 3;  // of all shapes of a beam that does not reach beyond its hinge
+inline constexpr int kMaxFootSteps = 60;      // Newton's method with bisection; bisection alone needs 47 to kFootChange
+inline constexpr double kFootChange = 1e-14;  // of the length: rounding error of the arc position
+inline constexpr double kLastFootChange = 1e-9;  // of the length: a Newton step this short leaves only rounding errors
+// Intervals of a search along the beam, besides 2 or 4 for each coordinate: more for more curved shapes.
+inline constexpr int kIntervalsOfModes = 9, kIntervalsOfExact = 13;
+inline constexpr double kSingleFoot = 0.5;     // limit of |v″| × distance of the disc; at 1 a second foot can appear
+inline constexpr double kLeastShapeBound = 3;  // bounds all shapes of a beam that does not reach beyond its hinge
 
 // ---- the rounding of the gap ----
-// The gap is known to a tenth of this share of the beam's length: what opens or falls no further is rounding.
+// Of the length: ten times the rounding error of the gap. Smaller openings and penetrations are rounding.
 inline constexpr double kGapRounding = 1e-14;
-// It decays at a rate slower than the lowest vibration, faster than a rigid beam's swing.
+// Baumgarte rate: kDecayOfVibration of the lowest bending frequency or, of a rigid beam, kDecayOfSwing of √(g/L). So it
+// is slower than vibration and faster than the swing.
 inline constexpr double kDecayOfVibration = 0.1, kDecayOfSwing = 10;
-inline constexpr double kLeastGravity = 1e-3;  // [m/s²] so that the rate does not vanish with it
+inline constexpr double kLeastGravity = 1e-3;  // [m/s²] keeps that rate above zero
 
 // ---- equilibria ----
-inline constexpr int kMostNewtonSteps = 60, kMostDampings = 20;  // halvings of one step of Newton's method
-inline constexpr double kNewtonDifference = 1e-7;                // of an unknown's size: differences of its residuals
-inline constexpr double kNewtonConverged = 1e-13;                // of an unknown's size
-inline constexpr double kBalanced = 1e-9;         // of the natural forces: what is left of a residual in equilibrium
-inline constexpr double kEquilibriumGap = 1e-10;  // of the length: what Newton's method leaves of a gap
-inline constexpr double kSeparatedPull = 1e-6;    // of the stiffness, by which Newton's method pulls a lifted beam back
-// [rad] of the cam: rounding and the error of the differences balance, of the fourth and of the second order.
+inline constexpr int kMaxNewtonSteps = 60, kMaxHalvings = 20;  // iterations; halvings of one step
+inline constexpr double kNewtonDifference = 1e-7;  // of an unknown's magnitude: step of the finite differences
+inline constexpr double kNewtonConverged = 1e-13;  // of an unknown's magnitude: a converged step
+inline constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
+inline constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam
+inline constexpr double kBalanced = 1e-9;          // of the natural forces: largest residual in equilibrium
+// [rad] of the cam: steps of finite differences of fourth and second order, at which truncation and rounding errors
+// are equal.
 inline constexpr double kFollowingDifference = 5e-3, kLeavingDifference = 1e-5;
 
-// ---- what a scene may ask for ----
-// No number of a mechanism is larger, in SI; squares and products of a few such numbers stay far from overflow.
+// ---- validation ----
+// The largest number in a scene, in SI units: products of a few such numbers do not overflow.
 inline constexpr double kLargestNumber = 1e30;
-inline constexpr double kLeastFiniteRestitution = 0.01;  // for laws whose damping has no limit at 0
-inline constexpr double kStartGap = 1e-12;               // of the length, 1 m at least: a start that deep is a touch
+inline constexpr double kLeastFiniteRestitution = 0.01;  // for dissipation laws with D → ∞ as c → 0
+inline constexpr double kStartGap =
+    1e-12;  // of the length, at least of 1 m: smaller overlaps at the start are rounding
 
 // ---- the causes of a failure ----
-// Beyond these a modal model's small deflections are the likelier cause than anything that they lead to.
-inline constexpr double kLargestSlope = 0.5;   // [rad], between the ends of the beam
-inline constexpr double kLargestSag = 0.2;     // of the length, of the clamped beam under its weight
-inline constexpr double kFastSpin = 0.5;       // of the first bending frequency: turning matters to the stiffness
-inline constexpr double kRunawaySpin = 1e3;    // of that frequency: only a vanished inertia lets a hub turn so fast
-inline constexpr double kSlowApproach = 1e-5;  // [m/s]: a hundredth of the usual floor
-inline constexpr double kSharpTouch = 0.1;     // of the time to the deepest point: what a step in a touch may span
+// Beyond these limits the assumption of small deflections is the most probable cause.
+inline constexpr double kLargestSlope = 0.5;     // [rad] between the ends of the beam
+inline constexpr double kLargestSag = 0.2;       // of the length: static deflection of the clamped beam
+inline constexpr double kFastRotation = 0.5;     // of the first bending frequency: rotation affects the stiffness
+inline constexpr double kRunawayRotation = 1e3;  // of that frequency: possible only if the inertia vanished
+inline constexpr double kSlowApproach = 1e-5;    // [m/s]: a hundredth of the usual floor
+inline constexpr double kNarrowSlip = 1e-4;      // [m/s]: slip speeds below this need short steps
+inline constexpr double kSharpTouch = 0.1;       // of the time to maximum penetration: typical step in contact
+inline constexpr double kUsableDepth = 0.25;     // of the cam's radius: largest penetration with a meaningful force
 
 }  // namespace beamcam::sim

@@ -12,11 +12,12 @@ ContactGeometry::ContactGeometry(const Problem& problem, const Model& model)
       hub_radius_(problem.hub.radius),
       length_(model.length()),
       offset_(contact_offset(problem)),
-      samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kPlacesOfExact
-                                                      : 2 * model.size() + kPlacesOfModes),
+      samples_(problem.beam.model == ModelKind::exact ? 4 * model.size() + kIntervalsOfExact
+                                                      : 2 * model.size() + kIntervalsOfModes),
       x_last_(0.5 * length_) {}
 
-// The only foot of a nearly straight beam, or the nearest of a few points.
+// A starting point for Newton's method: the foot on the straight beam if there is only one foot, else the nearest of a
+// few points.
 void ContactGeometry::search_whole_beam(const Model& model, Vec2 disc, bool straight) {
     if (straight) {
         x_last_ = std::clamp(dot(disc, unit(model.coordinates()[0])) - hub_radius_, 0.0, length_);
@@ -39,7 +40,7 @@ void ContactGeometry::search_whole_beam(const Model& model, Vec2 disc, bool stra
 Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
     double x = x_last_, low = 0, high = length_;
     c.at_end = false;
-    for (int iteration = 0; iteration < kMostFootSteps; ++iteration) {
+    for (int iteration = 0; iteration < kMaxFootSteps; ++iteration) {
         model.point(x, at_);
         const Vec2 d = at_.r - disc;
         const double slope = dot(at_.r1, d);
@@ -82,7 +83,7 @@ ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound
     c.side = c.at_end ? 0 : std::copysign(1, cross(at_.r1, d));
     c.gap = distance - cam_.radius - offset_ + shift;   // (S25)
     c.gap_rate = dot(c.normal, at_.v - pose.velocity);  // (S26)
-    // χ̇ of the tangent; the touching face lies d below the centre line (S27).
+    // χ̇, the angular velocity of the section; the contact face is at a distance d from the centre line (S27).
     const double chi_dot = cross(at_.r1, at_.v1) / dot(at_.r1, at_.r1);
     c.slip = dot(c.tangent, at_.v - pose.velocity) + offset_ * chi_dot - cam_.speed * cam_.radius;
     return c;

@@ -5,88 +5,81 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "sim/dynamics/constants.hpp"
-#include "sim/problem/derived.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-// What the beam looks like, and how its contact point answers, at the last good instant.
-struct Look {
+// The beam and its contact at the last good instant.
+struct BeamState {
     double slope = 0, deflection = 0;  // of the tip against the root's tangent [rad], [m]
-    double spin = 0;                   // |θ̇| [rad/s]
-    double approach = 0;               // of the touch [m/s]
-    double mass = 0;                   // that the contact point feels [kg]
+    double theta_dot = 0;              // |θ̇| [rad/s]
+    double approach = 0;               // approach speed of the touch [m/s]
+    double mass = 0;                   // effective mass at the contact point [kg]
 };
 
-Look look(double t, System& system, const double* y) {
-    Look out;
-    system.place(t, y);
+BeamState beam_state(double t, System& system, const double* y) {
+    BeamState out;
+    system.set_state(t, y);
     BeamPoint root, tip;
     system.model().point(0, root);
     system.model().point(system.model().length(), tip);
     out.slope = std::fabs(std::atan2(cross(root.r1, tip.r1), dot(root.r1, tip.r1)));
     out.deflection = std::fabs(cross(root.r1, tip.r - root.r)) / norm(root.r1);
-    out.spin = std::fabs(system.model().hub_rate());
+    out.theta_dot = std::fabs(system.model().hub_rate());
     out.approach = system.phase().approach;
     if (!system.has_cam()) return out;
     try {
         const ContactState c = system.contact(t, y, true);
-        const double answer = system.compliance(t, y, c).nn;
-        if (answer > 0) out.mass = 1 / answer;
+        const double per_newton = system.compliance(t, y, c).nn;
+        if (per_newton > 0) out.mass = 1 / per_newton;
     } catch (const InertiaLost&) {
-        // Then no mass is what the contact point feels; the failure has other words for that.
+        // The effective mass stays zero; inertia_message describes this failure.
     }
     return out;
 }
 
-const char* modes_word(const Problem& p) { return p.beam.modes == 1 ? "mode" : "modes"; }
+const char* modes_noun(const Problem& p) { return p.beam.modes == 1 ? "mode" : "modes"; }
 
-std::string shapes(const Problem& p) {
+std::string model_and_modes(const Problem& p) {
     return fmt::format("{} model with {} {} {}", name(p.beam.model), p.beam.modes, name(resolved_basis(p)),
-                       modes_word(p));
+                       modes_noun(p));
 }
 
-// ρA g L⁴/(8EI): the sag of the clamped beam's tip.
+// ρA g L⁴/(8EI), the static tip deflection of the clamped beam.
 double sag(const Problem& p) {
     return p.beam.line_density() * std::fabs(p.gravity) * std::pow(p.beam.length, 4) / (8 * p.beam.bending_stiffness());
 }
 
-// A modal model whose deflections have left the range where it holds.
-bool bent(const Problem& p, const Look& beam) {
+// True if the deflections are too large for a modal model.
+bool large_deflection(const Problem& p, const BeamState& beam) {
     return p.beam.model != ModelKind::rigid && p.beam.model != ModelKind::exact && beam.slope > kLargestSlope;
 }
 
-// The first bending frequency of the clamped beam [rad/s].
-double bending_frequency(const Problem& p) {
-    return 3.5160152685 / (p.beam.length * p.beam.length) *
-           std::sqrt(p.beam.bending_stiffness() / p.beam.line_density());
-}
-
-// Whether the model's own equations let the deflection of a turning beam grow without end.
-std::string tell_lost_stiffness(const Problem& p, const Look& beam) {
-    const double bending = bending_frequency(p);
-    if (!(beam.spin > kFastSpin * bending)) return "";
+// For a model in which fast rotation destabilizes the beam; else empty.
+std::string divergence_message(const Problem& p, const BeamState& beam) {
+    const double bending = first_clamped_frequency(p.beam);
+    if (!(beam.theta_dot > kFastRotation * bending)) return "";
     const char* lacks = nullptr;
     if (p.beam.model == ModelKind::zeroth_order)
-        lacks = "the zeroth-order model has no centrifugal stiffening, so that turning only takes stiffness away";
+        lacks = "the zeroth-order model has no centrifugal stiffening, so that rotation only reduces the stiffness";
     if (p.beam.model == ModelKind::paper)
         lacks =
-            "the paper's equation (4) has L cos θ for L in its centrifugal stiffening, so that turning takes stiffness "
-            "away unless the beam is nearly level";
+            "the paper's equation (4) has L cos θ for L in its centrifugal stiffening, so that rotation reduces the "
+            "stiffness unless the beam is nearly level";
     if (!lacks) return "";
     return fmt::format(
-        "the deflection grows without end: {}, at |θ̇| = {:.3g} rad/s more than bending has (first bending frequency "
-        "{:.3g} rad/s); use \"model\": \"first-order\", which is the consistent equation, a stiffer beam, or a slower "
-        "turn",
-        lacks, beam.spin, bending);
+        "the deflection grows without bound: {}, at |θ̇| = {:.3g} rad/s by more than the bending stiffness (first "
+        "bending frequency {:.3g} rad/s); use \"model\": \"first-order\", which is the consistent equation, a stiffer "
+        "beam, or a slower rotation",
+        lacks, beam.theta_dot, bending);
 }
 
-std::string tell_bent(const Problem& p, const Look& beam) {
-    if (std::string lost = tell_lost_stiffness(p, beam); !lost.empty()) return lost;
+std::string deflection_message(const Problem& p, const BeamState& beam) {
+    if (std::string divergence = divergence_message(p, beam); !divergence.empty()) return divergence;
     std::string by;
     if (sag(p) > kLargestSag * p.beam.length)
         by = fmt::format(" (clamped, it would sag by {:.2g} m under gravity {:g} m/s^2)", sag(p), p.gravity);
@@ -94,10 +87,10 @@ std::string tell_bent(const Problem& p, const Look& beam) {
         "the beam has bent through {:.2g} rad, its tip by {:.2g} m of {:g} m{}; the {} holds for small deflections and "
         "breaks down here: use \"model\": \"exact\", a stiffer or lighter beam, or gentler loads (gravity, speeds, "
         "drive)",
-        beam.slope, beam.deflection, p.beam.length, by, shapes(p));
+        beam.slope, beam.deflection, p.beam.length, by, model_and_modes(p));
 }
 
-std::string tell_inertia(const Problem& p) {
+std::string inertia_message(const Problem& p) {
     const char* basis =
         resolved_basis(p) == Basis::cantilever && !is_prescribed(p.hub.drive) && p.beam.model != ModelKind::paper
             ? "\"basis\": \"hub-beam\", "
@@ -105,60 +98,58 @@ std::string tell_inertia(const Problem& p) {
     return fmt::format(
         "the {} lost its positive inertia: the hub ({:g} kg m^2) is too light for these shapes; use {}fewer modes, a "
         "larger hub.inertia, or \"model\": \"second-order\"",
-        shapes(p), p.hub.inertia, basis);
+        model_and_modes(p), p.hub.inertia, basis);
 }
 
-std::string tell_passed(const Problem& p, const Look& beam) {
+std::string passed_cam_message(const Problem& p, const BeamState& beam) {
     const double n = p.contact.exponent, k = contact_stiffness(p), radius = p.cam->radius;
     const double depth = impact_depth(n, k, beam.mass, beam.approach);
     const std::string law = fmt::format("{:g} N/m^{:g}", k, n);
     if (depth < 0.5 * radius)
         return fmt::format(
             "the beam was pressed through the centre of the cam (radius {:g} m), which no impact does at contact "
-            "stiffness {}: {} leaves no other way; change hub.drive, gravity or the cam's path, or raise "
-            "contact.stiffness",
-            radius, law, is_prescribed(p.hub.drive) ? "the prescribed angle" : "what presses the beam on");
-    // A quarter of the radius deep: the force law and its geometry still mean something.
-    const double stiffness = 0.5 * (n + 1) * beam.mass * beam.approach * beam.approach / std::pow(0.25 * radius, n + 1);
+            "stiffness {}: the cause is {}; change hub.drive, gravity or the cam's path, or raise contact.stiffness",
+            radius, law, is_prescribed(p.hub.drive) ? "the prescribed angle" : "the load on the beam");
+    const double stiffness =
+        0.5 * (n + 1) * beam.mass * beam.approach * beam.approach / std::pow(kUsableDepth * radius, n + 1);
     return fmt::format(
         "the beam was pressed through the centre of the cam: the touch at {:.3g} m/s is {:.2g} m deep at contact "
-        "stiffness {}, the cam's radius {:g} m; it takes contact.stiffness of {:.1g} or more, a cam.radius of {:.1g} m "
-        "or more, or "
-        "\"contact\": {{\"model\": \"restitution\"}}, which has no depth",
-        beam.approach, depth, law, radius, stiffness, 4 * depth);
+        "stiffness {}, the cam's radius {:g} m; use contact.stiffness of {:.1g} or more, a cam.radius of {:.1g} m "
+        "or more, or \"contact\": {{\"model\": \"restitution\"}}, which has no penetration",
+        beam.approach, depth, law, radius, stiffness, depth / kUsableDepth);
 }
 
-std::string tell_stuck(const Problem& p) {
-    std::string what = "touch and release follow each other without time passing: ";
+std::string stuck_message(const Problem& p) {
+    std::string what = "touch and release follow each other without progress in time: ";
     if (p.contact.model == ContactModel::restitution)
         return what + "use a smaller contact.restitution, or \"contact\": {\"model\": \"compliant\"}";
     if (std::holds_alternative<StickSlipFriction>(p.contact.friction))
         return what +
-               "the bristle can neither hold nor slide; use a softer contact.friction.stiffness or "
+               "the bristle can neither stick nor slide; use a softer contact.friction.stiffness or "
                "\"friction\": {\"type\": \"coulomb\"}";
     return what + fmt::format("use a smaller solver.rtol (is {:g}), or \"method\": \"rk8\"", p.solver.rtol);
 }
 
-// What keeps the steps short, and what would lengthen them.
-std::string what_limits(const Problem& p, System& system, const Look& beam, bool spent) {
+// What limits the step size, and the remedies.
+std::string step_size_limits(const Problem& p, System& system, const BeamState& beam, bool spent) {
     std::vector<std::string> needs;
     const double fastest = system.highest_frequency();
     if (fastest > 0)
         needs.push_back(fmt::format("{} {} up to {:.3g} rad/s need steps near {:.1g} s (fewer: longer ones)",
-                                    p.beam.modes, modes_word(p), fastest, 1 / fastest));
+                                    p.beam.modes, modes_noun(p), fastest, 1 / fastest));
     if (p.cam && p.contact.model == ContactModel::compliant && beam.mass > 0) {
-        // The depth at 1 m/s is the time to it in seconds.
+        // The depth at 1 m/s is also the time to it in seconds.
         const double n = p.contact.exponent, k = contact_stiffness(p);
-        const std::string with = fastest > 0 ? fmt::format(" with {} {}", p.beam.modes, modes_word(p)) : "";
+        const std::string with = fastest > 0 ? fmt::format(" with {} {}", p.beam.modes, modes_noun(p)) : "";
         needs.push_back(fmt::format(
             "contact stiffness {:g} N/m^{:g}{} needs steps near {:.1g} s in a touch (softer, or \"contact\": "
             "{{\"model\": \"restitution\"}}: longer ones)",
             k, n, with, kSharpTouch * impact_depth(n, k, beam.mass, 1)));
     }
     if (const auto* coulomb = std::get_if<CoulombFriction>(&p.contact.friction);
-        coulomb && p.contact.model == ContactModel::compliant && coulomb->slip_speed < 1e-4)
+        coulomb && p.contact.model == ContactModel::compliant && coulomb->slip_speed < kNarrowSlip)
         needs.push_back(
-            fmt::format("friction turns over within {:g} m/s of slip (larger contact.friction.slip_speed: "
+            fmt::format("friction reverses within {:g} m/s of slip (larger contact.friction.slip_speed: "
                         "longer steps)",
                         coulomb->slip_speed));
     if (p.contact.model == ContactModel::compliant && beam.approach > 0 && beam.approach < kSlowApproach &&
@@ -167,60 +158,59 @@ std::string what_limits(const Problem& p, System& system, const Look& beam, bool
             fmt::format("the dissipation of this touch is divided by its approach speed of {:.2g} m/s (larger "
                         "contact.approach_floor.value: longer steps)",
                         beam.approach));
-    // The model's own decay, 2ζω or ηω².
     double ratio = 0.5 * p.beam.kelvin_voigt.value_or(0) * fastest;
     for (const double z : p.beam.damping_ratio) ratio = std::max(ratio, z);
     if (fastest > 0 && ratio > 1 && p.solver.method != Method::cvode_bdf)
         needs.push_back(
             fmt::format("damping {:.2g} times the critical one needs steps near {:.1g} s (\"method\": "
-                        "\"cvode-bdf\" steps over it)",
+                        "\"cvode-bdf\" does not)",
                         ratio, 1 / (2 * ratio * fastest)));
     needs.push_back(fmt::format("rtol is {:g} (larger: longer steps)", p.solver.rtol));
     if (spent) needs.push_back("or raise solver.max_steps");
     return fmt::format("{}", fmt::join(needs, "; "));
 }
 
-std::string cause(const Failure& failure, System& system, const Look& beam) {
+std::string cause(const Failure& failure, System& system, const BeamState& beam) {
     const Problem& p = system.problem();
     switch (failure.why) {
         case Stop::steps_spent:
             return fmt::format("the budget of {} steps (solver.max_steps) is spent, the last one {:.2g} s long; {}",
-                               p.solver.max_steps, failure.last_step, what_limits(p, system, beam, true));
+                               p.solver.max_steps, failure.last_step, step_size_limits(p, system, beam, true));
         case Stop::too_slow:
-            if (bent(p, beam)) return tell_bent(p, beam);
+            if (large_deflection(p, beam)) return deflection_message(p, beam);
             return fmt::format(
-                "at the pace of late, steps of {:.2g} s, the run would take {:.2g} steps, far more than its budget of "
-                "{} "
+                "at the current step size of {:.2g} s the run needs {:.2g} steps, far more than its budget of {} "
                 "(solver.max_steps); {}",
-                failure.last_step, failure.whole, p.solver.max_steps, what_limits(p, system, beam, false));
+                failure.last_step, failure.projected_steps, p.solver.max_steps,
+                step_size_limits(p, system, beam, false));
         case Stop::passed_cam:
-            return tell_passed(p, beam);
+            return passed_cam_message(p, beam);
         case Stop::inertia_lost:
-            return bent(p, beam) ? tell_bent(p, beam) : tell_inertia(p);
+            return large_deflection(p, beam) ? deflection_message(p, beam) : inertia_message(p);
         case Stop::stuck:
-            return bent(p, beam) ? tell_bent(p, beam) : tell_stuck(p);
+            return large_deflection(p, beam) ? deflection_message(p, beam) : stuck_message(p);
         case Stop::method:
             break;
     }
     const bool coupled = resolved_basis(p) == Basis::cantilever && !is_prescribed(p.hub.drive);
-    if (coupled && beam.spin > kRunawaySpin * bending_frequency(p)) return tell_inertia(p);
-    if (bent(p, beam)) return tell_bent(p, beam);
-    if (std::string lost = tell_lost_stiffness(p, beam); !lost.empty()) return lost;
+    if (coupled && beam.theta_dot > kRunawayRotation * first_clamped_frequency(p.beam)) return inertia_message(p);
+    if (large_deflection(p, beam)) return deflection_message(p, beam);
+    if (std::string divergence = divergence_message(p, beam); !divergence.empty()) return divergence;
     const char* unbounded =
         p.beam.model == ModelKind::paper
             ? " (the paper's equation (4) has no energy that would bound its motion: use \"model\": "
               "\"first-order\", which has)"
             : "";
-    return fmt::format("{}{}; {}", failure.words, unbounded, what_limits(p, system, beam, false));
+    return fmt::format("{}{}; {}", failure.message, unbounded, step_size_limits(p, system, beam, false));
 }
 
 }  // namespace
 
 std::string explain(const Failure& failure, System& system, const double* y) {
-    std::string text = cause(failure, system, look(failure.t, system, y));
-    // What the integrator itself said stays visible behind a cause in other terms.
-    const bool own_words = failure.why == Stop::method || failure.why == Stop::inertia_lost;
-    if (own_words && !text.starts_with(failure.words)) text += fmt::format(" ({})", failure.words);
+    std::string text = cause(failure, system, beam_state(failure.t, system, y));
+    // The message of the integrator follows, unless the cause begins with it.
+    const bool by_integrator = failure.why == Stop::method || failure.why == Stop::inertia_lost;
+    if (by_integrator && !text.starts_with(failure.message)) text += fmt::format(" ({})", failure.message);
     return fmt::format("at t = {:.9g} s: {}", failure.t, text);
 }
 

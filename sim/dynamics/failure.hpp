@@ -1,4 +1,4 @@
-// Why a run could not go on, in the terms of who wrote the scene: the cause with its numbers, and what to change.
+// The message of a run that could not be completed: cause, numbers and remedy, in terms of the scene.
 #pragma once
 
 #include <string>
@@ -9,14 +9,14 @@ namespace beamcam::sim {
 
 enum class Stop {
     steps_spent,   // solver.max_steps
-    too_slow,      // at the pace of the last steps, far more than solver.max_steps would be needed
+    too_slow,      // at the present step size the run needs far more than solver.max_steps
     inertia_lost,  // the model's inertia is no longer positive
-    passed_cam,    // the beam was pressed over the middle of the disc
-    stuck,         // events without time passing
-    method         // the integrator's own reason: `words`
+    passed_cam,    // the beam was pressed over the centre of the disc
+    stuck,         // events follow each other without progress in time
+    method         // the integrator failed: `message`
 };
 
-// Ends a run for a reason of its own, not the integrator's.
+// Thrown by a run, not by the integrator.
 struct RunStopped : StepFailure {
     RunStopped(Stop reason, const char* what) : StepFailure(what), why(reason) {}
     Stop why;
@@ -24,13 +24,13 @@ struct RunStopped : StepFailure {
 
 struct Failure {
     Stop why = Stop::method;
-    std::string words;     // of the integrator
-    double t = 0;          // the last good instant [s]
-    double last_step = 0;  // the last accepted step before it [s]
-    double whole = 0;      // steps that the whole run would take at this pace, for `too_slow`
+    std::string message;         // of the exception
+    double t = 0;                // last good instant [s]
+    double last_step = 0;        // last accepted step before it [s]
+    double projected_steps = 0;  // steps of the whole run at the present step size, for `too_slow`
 };
 
-// `system` is in the phase of the last good instant, `y` the state there.
+// `system` must be in the phase of the last good instant; `y` is the state there.
 std::string explain(const Failure& failure, System& system, const double* y);
 
 }  // namespace beamcam::sim

@@ -23,7 +23,7 @@ GapBound::GapBound(const Problem& problem, const Model& model)
     }
 }
 
-// `exact`: the curvature is Σ q_j P_j′(z)·2/L, and |P_j′| <= j(j + 1)/2.
+// Of `exact` the curvature is Σ q_j P_j′(z)·2/L, and |P_j′| <= j(j + 1)/2.
 bool GapBound::nearly_straight(const double* q) const {
     double curvature = 0;
     if (exact_)
@@ -34,47 +34,48 @@ bool GapBound::nearly_straight(const double* q) const {
     return curvature * far < kSingleFoot;
 }
 
-// Distance of B from the straight beam at the frame's angle, less what bending, turning and the cam can add.
+// Distance of B from the straight beam at the frame's angle, less the largest contributions of bending, rotation and
+// the cam's motion.
 double GapBound::lower_bound(const DriveLaw& drive, double t, double h, const double* xi, const double* spread) const {
     BEAMCAM_ASSERT(h >= 0);
-    double angle = xi[0], turn = spread[0];
+    double angle = xi[0], rotation = spread[0];
     if (drive.prescribed()) {
         angle = drive.motion(t).angle;
-        turn = 0;
+        rotation = 0;
         for (const double side : {-h, h}) {
-            // Within a step all laws turn at a rate that is quadratic in time, or monotone.
+            // Within a step the rate of every drive law is monotone or quadratic in time.
             const HubMotion now = drive.motion(t), then = drive.motion(t + side);
-            turn = std::max({turn, std::fabs(h * now.rate), std::fabs(h * then.rate),
-                             std::fabs(h * (now.rate + 0.5 * side * now.acceleration))});
+            rotation = std::max({rotation, std::fabs(h * now.rate), std::fabs(h * then.rate),
+                                 std::fabs(h * (now.rate + 0.5 * side * now.acceleration))});
         }
     }
     const Vec2 along = unit(angle), disc = disc_centre(cam_, t);
     const double foot = std::clamp(dot(disc, along), radius_, radius_ + length_);
     return norm(disc - foot * along) - cam_.radius - offset_ - deflection(xi, spread) -
-           turn * (std::fabs(radius_) + length_) - h * std::fabs(cam_.speed) * cam_.eccentricity;
+           rotation * (std::fabs(radius_) + length_) - h * std::fabs(cam_.speed) * cam_.eccentricity;
 }
 
-// How far a point of the beam is from where it would be if the beam were straight. Shortening: |u| <= ½∫v′² and ½|a|α²,
-// with α the slope at the root. `exact`: a section turned by ψ − θ moves the points beyond it by at most L|ψ − θ|, and
-// |ψ − θ| <= 2Σ|q|.
+// Upper bound of the distance between a point of the beam and the same point of a straight beam. Foreshortening adds at
+// most ½∫v′² + ½|a|α², with α the slope at the root. Of `exact`, a section angle ψ − θ moves the points beyond it by at
+// most L|ψ − θ|, and |ψ − θ| <= 2Σ|q|.
 double GapBound::deflection(const double* xi, const double* spread) const {
-    double bent = 0, slope = 0;
+    double bending = 0, slope = 0;
     for (int i = 0; i < modes_; ++i) {
         const double q = std::fabs(xi[i + 1]) + spread[i + 1];
         if (exact_) {
-            bent += 2 * length_ * q;
+            bending += 2 * length_ * q;
         } else {
             const auto k = static_cast<std::size_t>(i);
-            bent += shape_bounds_[k] * q;
+            bending += shape_bounds_[k] * q;
             slope += shape_bounds_[k] * wave_numbers_[k] * q;
         }
     }
-    return bent + 0.5 * (length_ + std::fabs(radius_)) * slope * slope;
+    return bending + 0.5 * (length_ + std::fabs(radius_)) * slope * slope;
 }
 
 double GapBound::travel(const double* change) const {
-    const double nothing[kMaxSize] = {};
-    return std::fabs(change[0]) * (std::fabs(radius_) + length_) + deflection(nothing, change);
+    const double straight[kMaxSize] = {};
+    return std::fabs(change[0]) * (std::fabs(radius_) + length_) + deflection(straight, change);
 }
 
 }  // namespace beamcam::sim

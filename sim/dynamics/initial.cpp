@@ -11,8 +11,8 @@
 namespace beamcam::sim {
 namespace {
 
-// Newton's method with a differenced Jacobian on a handful of unknowns. scale[i] is the natural size of x[i], size[i]
-// that of residual i: unknowns and residuals of different units are compared by these shares alone.
+// Newton's method with a Jacobian by finite differences. scale[i] and size[i] are the natural magnitudes of unknown i
+// and of residual i, which make quantities of different units comparable.
 template <class F>
 bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size) {
     const Eigen::Index n = x.size();
@@ -23,7 +23,7 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
         r = r.cwiseQuotient(size).eval();
     };
     residual(x, f);
-    for (int iteration = 0; iteration < kMostNewtonSteps; ++iteration) {
+    for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
             const double kept = x[j];
             x[j] = kept + kNewtonDifference * scale[j];
@@ -36,12 +36,12 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
         }
         const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
         if (!dx.allFinite()) return false;
-        double factor = 1;  // damped: the residual may not grow
+        double factor = 1;  // damping: halved until the residual does not grow
         const double before = f.norm();
         for (int half = 0;; ++half, factor *= 0.5) {
             const Eigen::VectorXd tried = x + factor * dx;
             residual(tried, g);
-            if (g.norm() <= before || half > kMostDampings) {
+            if (g.norm() <= before || half > kMaxHalvings) {
                 x = tried;
                 f = g;
                 break;
@@ -52,7 +52,7 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
     return f.norm() < kBalanced;
 }
 
-// Static forces of the model at ξ, without contact. They do not depend on the inertia that `assemble` judges.
+// Static forces of the model at ξ, without contact. They are valid even if `assemble` finds the inertia not positive.
 void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {
     const double rest[kMaxSize] = {};
     model.set(xi.data(), rest);
@@ -66,21 +66,25 @@ Eigen::VectorXd scales(const Problem& problem, int n) {
     return scale;
 }
 
-// The natural sizes of the generalized forces: what carries the weight, or the torque where it is more, or bends a beam
-// that has neither.
-Eigen::VectorXd force_sizes(const System& system, int n) {
+// Natural magnitude of forces: weight, torque if that is more, or bending stiffness without either.
+double force_size(const System& system) {
     const Problem& problem = system.problem();
     const double length = problem.beam.length, mass = problem.beam.line_density() * length;
     const double torque = system.drive().has_torque() ? std::fabs(system.drive().torque(0)) : 0;
-    double force = std::max(mass * std::fabs(problem.gravity), torque / length);
-    if (!(force > 0)) force = problem.beam.bending_stiffness() / (length * length);
+    const double force = std::max(mass * std::fabs(problem.gravity), torque / length);
+    return force > 0 ? force : problem.beam.bending_stiffness() / (length * length);
+}
+
+Eigen::VectorXd force_sizes(const System& system, int n) {
+    const Problem& problem = system.problem();
+    const double length = problem.beam.length, force = force_size(system);
     Eigen::VectorXd size =
         Eigen::VectorXd::Constant(n, problem.beam.model == ModelKind::exact ? force * length : force);
     size[0] = force * length;
     return size;
 }
 
-// The same of the accelerations that such forces give to hub and beam.
+// Natural magnitudes of the accelerations: those of hub and beam under such forces.
 Eigen::VectorXd acceleration_sizes(const System& system, int n) {
     const Problem& problem = system.problem();
     const double length = problem.beam.length, mass = problem.beam.line_density() * length;
@@ -90,8 +94,8 @@ Eigen::VectorXd acceleration_sizes(const System& system, int n) {
     return size;
 }
 
-// Equilibrium with the hub held at the angle: f(ξ) + τ h = 0, θ(ξ) = angle.
-bool hold(System& system, double angle, Eigen::VectorXd& xi) {
+// Equilibrium with the hub clamped at the angle: f(ξ) + τ h = 0, θ(ξ) = angle. False if there is none.
+bool clamped_equilibrium(System& system, double angle, Eigen::VectorXd& xi) {
     const Problem& problem = system.problem();
     Model& model = system.model();
     const int n = model.size();
@@ -114,26 +118,26 @@ bool hold(System& system, double angle, Eigen::VectorXd& xi) {
     return found;
 }
 
-// A motion along which the beam lies on the cam, seen at one instant.
-struct Ride {
+// One instant of a motion in which the beam follows the cam.
+struct FollowingState {
     Eigen::VectorXd xi, rate, acceleration;
 };
 
-// Finds `ride.xi`: the beam on the cam at time t, in equilibrium with gravity, torque, friction and the inertia of
-// the ride, f + τh + (J_n + r J_t)ᵀN = M ξ̈ with N = Kδⁿ, or with whatever N keeps the gap at zero (model
-// `restitution`). False when there is none, or when N would have to pull.                               (S40)
-bool rest(System& system, double t, Ride& ride) {
+// Solves for `s.xi`, the beam on the cam at time t in equilibrium with gravity, torque, friction and the inertia of the
+// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, with N = Kδⁿ or, in impulsive contact, the N that keeps the gap at
+// zero. False if there is no solution, or none with N >= 0.                                                   (S40)
+bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     const int n = system.coordinates();
     const Problem& problem = system.problem();
     const bool rigid_contact = problem.contact.model == ContactModel::restitution;
-    const bool moves = !ride.acceleration.isZero(0) || !ride.rate.isZero(0);
+    const bool moves = !s.acceleration.isZero(0) || !s.rate.isZero(0);
     Model& model = system.model();
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
-    std::copy_n(ride.rate.data(), n, y.begin() + n);
+    std::copy_n(s.rate.data(), n, y.begin() + n);
     const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
     const double weight = std::max(std::fabs(problem.gravity) * model.mass(), 1e-300);
     Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), size(x.size()), force(n);
-    x.head(n) = ride.xi;
+    x.head(n) = s.xi;
     scale.head(n) = scales(problem, n);
     size.head(n) = moves ? acceleration_sizes(system, n) : force_sizes(system, n);
     if (rigid_contact) {
@@ -144,82 +148,82 @@ bool rest(System& system, double t, Ride& ride) {
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
         const ContactState c = system.contact(t, y.data(), true);
-        // Compliant: linear for a separated beam, so that Newton finds its way back.
-        const double push = rigid_contact ? at[n]
-                            : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
-                                          : -c.gap * stiffness * kSeparatedPull;
-        const bool inert = system.generalized_force(t, c, push, force.data());
-        if (moves && inert) model.solve(force.data());
-        if (moves && !inert) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // a step too far
-        r.head(n) = force - ride.acceleration;
+        // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
+        const double normal = rigid_contact ? at[n]
+                              : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
+                                            : -c.gap * stiffness * kSeparatedPull;
+        const bool solvable = system.generalized_force(t, c, normal, force.data());
+        if (moves && solvable) model.solve(force.data());
+        if (moves && !solvable) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // rejects the iterate
+        r.head(n) = force - s.acceleration;
         if (rigid_contact) r[n] = c.gap;
     };
     const bool found = newton(residual, x, scale, size);
-    ride.xi = x.head(n);
+    s.xi = x.head(n);
     if (!found || rigid_contact) return found && x[n] >= 0;
     std::copy_n(x.data(), n, y.begin());
     return system.contact(t, y.data(), true).gap <= kEquilibriumGap * problem.beam.length;
 }
 
-// The beam lying on the cam at its start, moving with the cam if it turns. The equilibria at neighbouring angles
-// of the cam give the rates, the rates give the inertia, and the inertia corrects the equilibria: twice, after
-// which what is left is of the sixth order in the ratio of the cam's speed to the frequencies of beam and contact.
-// (S40)
-class Riding {
+// The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates
+// give the inertia forces, and these correct the equilibria. After two corrections the error is of sixth order in the
+// ratio of the cam's speed to the frequencies of beam and contact.                                            (S40)
+class CamFollowing {
   public:
-    Riding(System& system, const Eigen::VectorXd& guess)
+    CamFollowing(System& system, const Eigen::VectorXd& guess)
         : system_(system), step_(kFollowingDifference / std::fabs(system.problem().cam->speed)) {
         const Eigen::VectorXd still = Eigen::VectorXd::Zero(guess.size());
-        rides_.assign(kPoints, {guess, still, still});
+        states_.assign(kPoints, {guess, still, still});
     }
     bool find() {
-        if (!level(4)) return false;
-        motion(2);
-        if (!level(2)) return false;
-        motion(0);
-        return level(0);
+        if (!solve_equilibria(4)) return false;
+        differentiate(2);
+        if (!solve_equilibria(2)) return false;
+        differentiate(0);
+        return solve_equilibria(0);
     }
-    Ride start() const { return rides_[kMiddle]; }
+    FollowingState start() const { return states_[kMiddle]; }
 
   private:
     static constexpr int kPoints = 9, kMiddle = 4;
 
     // Equilibria at the instants −reach…reach.
-    bool level(int reach) {
+    bool solve_equilibria(int reach) {
         for (int k = -reach; k <= reach; ++k)
-            if (!rest(system_, k * step_, rides_[static_cast<std::size_t>(kMiddle + k)])) return false;
+            if (!equilibrium_on_cam(system_, k * step_, states_[static_cast<std::size_t>(kMiddle + k)])) return false;
         return true;
     }
-    // Rates and accelerations there, by differences of the fourth order.
-    void motion(int reach) {
-        std::vector<Ride> moved = rides_;
+    // Rates and accelerations at these instants, by differences of fourth order.
+    void differentiate(int reach) {
+        std::vector<FollowingState> moving = states_;
         for (int k = -reach; k <= reach; ++k) {
             const auto at = [&](int i) -> const Eigen::VectorXd& {
-                return rides_[static_cast<std::size_t>(kMiddle + k + i)].xi;
+                return states_[static_cast<std::size_t>(kMiddle + k + i)].xi;
             };
-            Ride& ride = moved[static_cast<std::size_t>(kMiddle + k)];
-            ride.rate = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step_);
-            ride.acceleration = (16 * (at(1) + at(-1)) - (at(2) + at(-2)) - 30 * at(0)) / (12 * step_ * step_);
+            FollowingState& s = moving[static_cast<std::size_t>(kMiddle + k)];
+            s.rate = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step_);
+            s.acceleration = (16 * (at(1) + at(-1)) - (at(2) + at(-2)) - 30 * at(0)) / (12 * step_ * step_);
         }
-        rides_ = std::move(moved);
+        states_ = std::move(moving);
     }
 
     System& system_;
     double step_;
-    std::vector<Ride> rides_;
+    std::vector<FollowingState> states_;
 };
 
-// A cam that falls away faster than the beam can follow: at rest on it, it moves along until it is left behind.
-Ride left_behind(System& system, const Eigen::VectorXd& xi) {
+// The start on a cam that falls away faster than the beam can follow: the static equilibrium, with the rates of
+// following the cam.
+FollowingState left_behind(System& system, const Eigen::VectorXd& xi) {
     const double dt = kLeavingDifference / std::fabs(system.problem().cam->speed);
     const Eigen::VectorXd still = Eigen::VectorXd::Zero(xi.size());
-    Ride later{xi, still, still}, earlier = later;
-    if (!rest(system, dt, later) || !rest(system, -dt, earlier))
+    FollowingState later{xi, still, still}, earlier = later;
+    if (!equilibrium_on_cam(system, dt, later) || !equilibrium_on_cam(system, -dt, earlier))
         throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
     return {xi, (later.xi - earlier.xi) / (2 * dt), still};
 }
 
-// The rigid rod on that side of the disc where weight and torque press it on, pressed in by what carries them.
+// The rigid rod on that side of the disc against which weight and torque press it, with the static penetration.
 Eigen::VectorXd rod_on_cam(const System& system) {
     const Problem& problem = system.problem();
     const Vec2 disc = system.cam(0).disc;
@@ -240,25 +244,25 @@ Eigen::VectorXd rod_on_cam(const System& system) {
     return xi;
 }
 
-// Puts the coordinates of the shapes that are given into the state; how far they turn the hub.
-double given(System& system, const std::vector<double>& coordinates, Eigen::VectorXd& xi) {
+// Copies the given coordinates of shapes into ξ. Returns Σ h_i q_i, their contribution to the hub angle.
+double set_shape_coordinates(System& system, const std::vector<double>& coordinates, Eigen::VectorXd& xi) {
     const double* hub = system.model().hub_row();
-    double turned = 0;
+    double alpha = 0;
     for (std::size_t i = 0; i < coordinates.size() && static_cast<Eigen::Index>(i) + 1 < xi.size(); ++i) {
         const auto row = static_cast<Eigen::Index>(i) + 1;
         xi[row] = coordinates[i];
-        turned += hub[row] * coordinates[i];
+        alpha += hub[row] * coordinates[i];
     }
-    return turned / hub[0];
+    return alpha / hub[0];
 }
 
 }  // namespace
 
 InitialState initial_state(const Problem& problem) { return initial_state(System(problem)); }
 
-InitialState initial_state(const System& of) {
-    System system(of);
-    const Problem& problem = of.problem();
+InitialState initial_state(const System& original) {
+    System system(original);
+    const Problem& problem = original.problem();
     const int n = system.coordinates();
     InitialState state;
     state.y.assign(static_cast<std::size_t>(system.size), 0.0);
@@ -266,28 +270,29 @@ InitialState initial_state(const System& of) {
     xi[0] = system.drive().prescribed() ? system.drive().motion(0).angle : problem.initial.angle;
     double* y = state.y.data();
     switch (problem.initial.shape) {
-        case InitialShape::straight:  // but for what is given
-            xi[0] -= given(system, problem.initial.q, xi);
+        case InitialShape::straight:
+            xi[0] -= set_shape_coordinates(system, problem.initial.q, xi);
             break;
         case InitialShape::static_equilibrium:
-            if (!hold(system, xi[0], xi))
+            if (!clamped_equilibrium(system, xi[0], xi))
                 throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
             break;
         case InitialShape::resting: {
             xi = rod_on_cam(system);
             Phase phase;
-            phase.touching = false;  // geometry only; the force is the static one
+            phase.touching = false;  // the contact force is added by equilibrium_on_cam
             system.set_phase(phase);
             const Eigen::VectorXd still = Eigen::VectorXd::Zero(n);
-            Ride ride{xi, still, still};
-            if (!rest(system, 0, ride)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
+            FollowingState start{xi, still, still};
+            if (!equilibrium_on_cam(system, 0, start))
+                throw StepFailure("no equilibrium of the beam resting on the cam was found");
             if (problem.cam->speed != 0) {
-                Riding riding(system, ride.xi);
-                state.left_behind = !riding.find();
-                ride = state.left_behind ? left_behind(system, ride.xi) : riding.start();
+                CamFollowing following(system, start.xi);
+                state.left_behind = !following.find();
+                start = state.left_behind ? left_behind(system, start.xi) : following.start();
             }
-            xi = ride.xi;
-            std::copy_n(ride.rate.data(), n, y + n);
+            xi = start.xi;
+            std::copy_n(start.rate.data(), n, y + n);
             state.phase.touching = true;
             state.phase.held = problem.contact.model == ContactModel::restitution;
             state.phase.approach = problem.contact.approach_floor.value;
@@ -297,7 +302,7 @@ InitialState initial_state(const System& of) {
     std::copy_n(xi.data(), n, y);
     if (problem.initial.shape != InitialShape::resting) {
         Eigen::VectorXd rate = Eigen::VectorXd::Zero(n);
-        rate[0] = problem.initial.angular_velocity - given(system, problem.initial.q_dot, rate);
+        rate[0] = problem.initial.angular_velocity - set_shape_coordinates(system, problem.initial.q_dot, rate);
         std::copy_n(rate.data(), n, y + n);
     }
     if (system.drive().prescribed()) {
@@ -308,9 +313,9 @@ InitialState initial_state(const System& of) {
     return state;
 }
 
-Initial initial_of(const System& of, const std::vector<double>& y) {
-    System system(of);
-    system.place(0, y.data());
+Initial initial_of(const System& original, const std::vector<double>& y) {
+    System system(original);
+    system.set_state(0, y.data());
     const auto rates = y.begin() + system.coordinates();
     Initial initial;
     initial.angle = system.model().hub_angle();

@@ -1,4 +1,5 @@
-// The state at t = 0: straight or as given, in static equilibrium with the hub held, or resting on the cam.
+// The state at t = 0: straight or with given coordinates, in static equilibrium with the hub clamped, or in equilibrium
+// on the cam. MODEL.md §11.
 #pragma once
 
 #include <vector>
@@ -8,17 +9,17 @@
 namespace beamcam::sim {
 
 struct InitialState {
-    std::vector<double> y;  // of the system's `size`
+    std::vector<double> y;  // System::size numbers
     Phase phase;
-    bool left_behind = false;  // no motion along the turning cam was found: it is the beam at rest that moves along
+    bool left_behind =
+        false;  // a resting beam starts from the equilibrium without inertia, because the cam is too fast
 };
 
-// Throws StepFailure when no equilibrium is found. MODEL.md §11.
+// Throws StepFailure if no equilibrium is found.
 InitialState initial_state(const Problem& problem);
-// The same with a system of that problem at hand, which is copied.
-InitialState initial_state(const System& of);
+InitialState initial_state(const System& system);  // copies the system
 
-// What a problem says to begin in a state of the system, of its `size`, that does not touch the cam.
-Initial initial_of(const System& of, const std::vector<double>& y);
+// The `initial` of a problem that starts in the state y without contact.
+Initial initial_of(const System& system, const std::vector<double>& y);
 
 }  // namespace beamcam::sim

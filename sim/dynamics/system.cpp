@@ -52,7 +52,7 @@ System::System(const System& other)
     search_again();
 }
 
-void System::place(double t, const double* y) {
+void System::set_state(double t, const double* y) {
     if (!drive_.prescribed()) {
         model_->set(y, y + n_);
         return;
@@ -67,8 +67,8 @@ void System::place(double t, const double* y) {
 }
 
 ContactState System::contact(double t, const double* y, bool search) {
-    place(t, y);
-    return contact_placed(t, y, search);
+    set_state(t, y);
+    return current_contact(t, y, search);
 }
 
 ContactState System::contact_geometry(double t, bool search) {
@@ -77,22 +77,22 @@ ContactState System::contact_geometry(double t, bool search) {
     return geometry_.evaluate(*model_, gap_bound_, t, search, phase_.gap_offset);
 }
 
-ContactState System::contact_placed(double t, const double* y, bool search) {
+ContactState System::current_contact(double t, const double* y, bool search) {
     ContactState c = contact_geometry(t, search);
     if (phase_.held) {
         double acc[kMaxSize];
         require_inertia(acc);
         add_torque(t, acc);
-        hold(t, c, acc, true);
+        constrain(t, c, acc, true);
     } else if (phase_.touching) {
         c.factor = law_.factor(-c.gap_rate, phase_.approach);
         c.force = law_.force(-c.gap, -c.gap_rate, phase_.approach);
-        c.friction = friction_.force(phase_.grip, c.force, c.slip, bristle(y));
+        c.friction = friction_.force(phase_.friction, c.force, c.slip, bristle(y));
     }
     return c;
 }
 
-// With the hub's motion prescribed only the beam's own inertia answers, and that is always positive.
+// With a prescribed hub only the inertia of the beam matters, which is always positive.
 bool System::assemble(double* f) { return model_->assemble(f) || drive_.prescribed(); }
 
 void System::require_inertia(double* f) {
@@ -100,7 +100,7 @@ void System::require_inertia(double* f) {
 }
 
 void System::rhs(double t, const double* y, double* dy) {
-    place(t, y);
+    set_state(t, y);
     double* acc = dy + n_;
     std::fill(dy, dy + size, 0.0);
     double* ledger = dy + controlled;
@@ -116,13 +116,13 @@ void System::rhs(double t, const double* y, double* dy) {
     ContactState c;
     if (phase_.held) {
         c = contact_geometry(t, false);
-        ledger[kWorkDrive] += hold(t, c, acc, true);
+        ledger[kWorkDrive] += constrain(t, c, acc, true);
     } else if (phase_.touching) {
-        c = contact_placed(t, y, false);
+        c = current_contact(t, y, false);
         double jn[kMaxSize], jt[kMaxSize];
         contact_rows(c, jn, jt);
         for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];  // (S28)
-        if (has_bristle()) dy[2 * n_] = friction_.bristle_rate(phase_.grip, c.force, c.slip, bristle(y));
+        if (has_bristle()) dy[2 * n_] = friction_.bristle_rate(phase_.friction, c.force, c.slip, bristle(y));
     }
     if (!phase_.held) ledger[kWorkDrive] += accelerate(t, acc);
     if (phase_.touching) {
@@ -136,7 +136,7 @@ void System::rhs(double t, const double* y, double* dy) {
     if (drive_.prescribed()) dy[0] = drive_.motion(t).rate;
 }
 
-// acc ← M⁻¹ acc, or with the hub moved as prescribed; returns the power of the drive that does it.
+// acc ← ξ̈ from generalized forces. Returns the power of a prescribed drive.
 double System::accelerate(double t, double* acc) const {
     if (!drive_.prescribed()) {
         model_->solve(acc);
@@ -146,7 +146,7 @@ double System::accelerate(double t, double* acc) const {
     return model_->solve_held(acc, hub.acceleration) * hub.rate;
 }
 
-// ξ̈ or Δξ̇ from generalized forces or impulses alone.
+// f ← M⁻¹ f; a prescribed hub does not respond.
 void System::respond(double* f) const {
     if (drive_.prescribed())
         model_->solve_held(f, 0);
@@ -154,16 +154,16 @@ void System::respond(double* f) const {
         model_->solve(f);
 }
 
-// Power of the cam for these contact forces; for impulses, the work.
+// Power of the cam's motion for contact forces, or its work for impulses (S28).
 double System::cam_power(double t, const ContactState& c, double normal, double tangential) const {
     const Vec2 velocity = cam(t).velocity;
     return normal * dot(c.normal, velocity) +
            tangential * (dot(c.tangent, velocity) + problem_.cam->speed * problem_.cam->radius);
 }
 
-// Sustained contact: the normal force λ that keeps g = ġ = 0, friction −μλ tanh(v_t/v_s) with it (S45).
-// acc: assembled forces in, ξ̈ out. Returns the drive's power.
-double System::hold(double t, ContactState& c, double* acc, bool pushed) {
+// Sustained contact: the normal force λ that keeps g = ġ = 0, with the friction −μλ tanh(v_t/v_s) (S45).
+// acc: generalized forces in, ξ̈ out. Without `with_force` λ = 0. Returns the power of a prescribed drive.
+double System::constrain(double t, ContactState& c, double* acc, bool with_force) {
     double jn[kMaxSize], jt[kMaxSize], row[kMaxSize], minv_row[kMaxSize], free[kMaxSize];
     contact_rows(c, jn, jt);
     const double ratio = friction_.ratio(c.slip);
@@ -177,9 +177,9 @@ double System::hold(double t, ContactState& c, double* acc, bool pushed) {
         gap_acceleration += jn[i] * free[i];
         per_newton += jn[i] * minv_row[i];
     }
-    // Rounding of g and ġ decays at this rate (Baumgarte 1972).
-    const double wanted = -2 * baumgarte_rate_ * c.gap_rate - baumgarte_rate_ * baumgarte_rate_ * c.gap;
-    c.force = pushed ? (wanted - gap_acceleration) / per_newton : 0;
+    // Rounding errors of g and ġ decay at this rate (Baumgarte 1972).
+    const double target = -2 * baumgarte_rate_ * c.gap_rate - baumgarte_rate_ * baumgarte_rate_ * c.gap;
+    c.force = with_force ? (target - gap_acceleration) / per_newton : 0;
     c.friction = ratio * c.force;
     free_gap_acceleration_ = gap_acceleration;
     for (int i = 0; i < n_; ++i) acc[i] += c.force * row[i];
@@ -188,17 +188,17 @@ double System::hold(double t, ContactState& c, double* acc, bool pushed) {
 
 double System::free_gap_acceleration(double t, const double* y) {
     double acc[kMaxSize];
-    place(t, y);
+    set_state(t, y);
     require_inertia(acc);
     add_torque(t, acc);
     ContactState c = contact_geometry(t, true);
-    hold(t, c, acc, false);
+    constrain(t, c, acc, false);
     return free_gap_acceleration_;
 }
 
 Compliance System::compliance(double t, const double* y, const ContactState& c) {
     double f[kMaxSize], jn[kMaxSize], jt[kMaxSize], by_n[kMaxSize], by_t[kMaxSize];
-    place(t, y);
+    set_state(t, y);
     require_inertia(f);
     contact_rows(c, jn, jt);
     std::copy_n(jn, n_, by_n);
@@ -220,10 +220,10 @@ double System::touch_time(double t, const double* y, const ContactState& c, doub
     return impact_depth(law_.exponent, per_newton * law_.stiffness, 1, approach) / approach;
 }
 
-void System::strike(double t, double* y, const ContactState& c, const ImpactResult& impact) {
+void System::apply_impact(double t, double* y, const ContactState& c, const ImpactResult& impact) {
     BEAMCAM_ASSERT(impact.impulse_n >= 0);
     double f[kMaxSize], jn[kMaxSize], jt[kMaxSize], jump[kMaxSize];
-    place(t, y);
+    set_state(t, y);
     require_inertia(f);
     contact_rows(c, jn, jt);
     for (int i = 0; i < n_; ++i) jump[i] = impact.impulse_n * jn[i] + impact.impulse_t * jt[i];
@@ -233,7 +233,7 @@ void System::strike(double t, double* y, const ContactState& c, const ImpactResu
     else
         model_->solve(jump);
     for (int i = 0; i < n_; ++i) y[n_ + i] += jump[i];
-    // Work of an impulse: impulse times the mean of the speeds before and after (S46).
+    // Work of an impulse = impulse × mean of the speeds before and after (S46).
     ledger[kNormalWork] -= impact.impulse_n * 0.5 * (c.gap_rate + impact.v_n);
     ledger[kFrictionWork] -= impact.impulse_t * 0.5 * (c.slip + impact.v_t);
     ledger[kWorkCam] += cam_power(t, c, impact.impulse_n, impact.impulse_t);
@@ -249,12 +249,12 @@ void System::add_torque(double t, double* f) const {
 
 bool System::generalized_force(double t, const ContactState& c, double normal, double* f) {
     double jn[kMaxSize], jt[kMaxSize];
-    const bool inert = assemble(f);
+    const bool positive = assemble(f);
     add_torque(t, f);
     contact_rows(c, jn, jt);
     const double ratio = has_bristle() ? 0 : friction_.ratio(c.slip);
     for (int i = 0; i < n_; ++i) f[i] += normal * (jn[i] + ratio * jt[i]);
-    return inert;
+    return positive;
 }
 
 void System::acceleration(double t, const double* y, double* acc) {
@@ -263,7 +263,7 @@ void System::acceleration(double t, const double* y, double* acc) {
     std::copy_n(dy + n_, n_, acc);
 }
 
-void System::acceleration_placed(double t, const ContactState& c, double* acc) {
+void System::current_acceleration(double t, const ContactState& c, double* acc) {
     require_inertia(acc);
     add_torque(t, acc);
     if (phase_.touching) {
@@ -275,7 +275,7 @@ void System::acceleration_placed(double t, const ContactState& c, double* acc) {
 }
 
 System::EnergyBalance System::mechanical_balance(double t, const double* y) {
-    place(t, y);
+    set_state(t, y);
     const double* ledger = y + controlled;
     EnergyBalance b;
     b.energies = model_->energies();
@@ -298,15 +298,15 @@ System::EnergyBalance System::energy_balance(double t, const double* y) {
     EnergyBalance b = mechanical_balance(t, y);
     double normal = 0, bristle_energy = 0;
     if (phase_.touching) {
-        const ContactState c = contact_placed(t, y, false);
+        const ContactState c = current_contact(t, y, false);
         normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
         if (has_bristle()) {
-            const bool state = phase_.grip == Grip::stick || friction_.lags;
-            const double z = state ? y[2 * n_] : friction_.sliding_bristle(phase_.grip, c.force);
+            const bool state = phase_.friction == FrictionState::stick || friction_.lags;
+            const double z = state ? y[2 * n_] : friction_.sliding_bristle(phase_.friction, c.force);
             bristle_energy = 0.5 * friction_.stiffness * z * z;
         }
     }
-    // What went into the contact is stored or lost (S38).
+    // The work done on the contact is stored or lost (S38).
     b.contact = normal + bristle_energy;
     b.loss_contact -= normal;
     b.loss_friction -= bristle_energy;

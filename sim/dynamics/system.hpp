@@ -1,8 +1,9 @@
-// Beam, cam and contact together, as one first-order system in each phase of the motion: flight, or
-// touching (with the grip of stick-slip friction). MODEL.md §§7–10.
+// Beam, cam and contact as one first-order system of differential equations, which is smooth in each phase of the
+// motion: flight, compliant contact (with the state of stick-slip friction), or sustained impulsive contact.
+// MODEL.md §§7–10.
 //
-// State y: ξ (N+1), ξ̇ (N+1), bristle deflection z (stick-slip only); then the integrals of the
-// energy ledger, which error control does not see.
+// State y: ξ (N+1), ξ̇ (N+1), bristle deflection z (stick-slip friction only); then the integrals of the energy balance,
+// which take no part in error control.
 #pragma once
 
 #include <memory>
@@ -18,7 +19,7 @@
 
 namespace beamcam::sim {
 
-// Integrals kept beside the state.
+// The integrals of the energy balance (S38).
 enum Ledger : int {
     kLossStructural,
     kNormalWork,
@@ -32,25 +33,23 @@ enum Ledger : int {
 
 struct Phase {
     bool touching = false;
-    bool held = false;    // touching under a constraint (model `restitution`), not by penetration
-    double approach = 1;  // δ̇₋ of this touch, floored [m/s]
-    Grip grip = Grip::stick;
-    double gap_offset = 0;  // rounding left by the last event, taken out of the gap [m]
+    bool held = false;    // sustained impulsive contact: touching under the constraint of a zero gap (S45)
+    double approach = 1;  // δ̇₋ of this touch, not below the approach floor [m/s]
+    FrictionState friction = FrictionState::stick;
+    double gap_offset = 0;  // added to the gap: cancels the rounding error at the last event [m]
 };
 
 class System final : public Ode {
   public:
     explicit System(const Problem& problem);
-    // Another observer of the same problem: tables are shared, the state is its own.
-    System(const System& other);
+    System(const System& other);  // shares the constant tables
 
-    // The next evaluation of the contact searches the whole beam.
+    // Also makes the next evaluation of the contact search the whole beam.
     void set_phase(const Phase& phase) {
         phase_ = phase;
         search_again();
     }
     void search_again() { geometry_.search_again(); }
-    // The next one begins at this x, near which the foot is known to be.
     void begin_contact_at(double x) { geometry_.begin_at(x); }
     const Phase& phase() const { return phase_; }
     void rhs(double t, const double* y, double* dy) override;
@@ -67,20 +66,19 @@ class System final : public Ode {
     double offset() const { return offset_; }
     const Problem& problem() const { return problem_; }
 
-    // Puts (t, y) into the model (with θ as the drive prescribes it).
-    void place(double t, const double* y);
-    // Contact geometry, and forces of `phase_` if it touches. `search`: over the whole beam, else near
-    // the foot found last.
+    // Sets the state of the model, with θ and θ̇ of a prescribed drive.
+    void set_state(double t, const double* y);
+    // Contact geometry and, in contact, the forces of the present phase. `search`: search the whole beam for the foot,
+    // else near the previous foot.
     ContactState contact(double t, const double* y, bool search);
-    // The same after `place`.
-    ContactState contact_placed(double t, const double* y, bool search);
+    // The same after `set_state`.
+    ContactState current_contact(double t, const double* y, bool search);
 
-    // After `contact`: forces and torque at that state with the cam pushing by `normal` [N] along n, and by the
-    // Coulomb friction that goes with it along t; array of `coordinates`. False when the inertia that would answer is
-    // not positive.
+    // After `contact`: f ← generalized forces in that state with the normal force `normal` [N] and its Coulomb
+    // friction; array of `coordinates`. False if the inertia is not positive.
     bool generalized_force(double t, const ContactState& c, double normal, double* f);
 
-    // Energies and what the ledger says of losses and work at (t, y); the total must stay constant.
+    // Energies, losses and work at (t, y); the total is constant (S38).
     struct EnergyBalance {
         Energies energies;
         double contact = 0, loss_structural = 0, loss_contact = 0, loss_friction = 0, work_cam = 0, work_drive = 0;
@@ -90,24 +88,24 @@ class System final : public Ode {
         }
     };
     EnergyBalance energy_balance(double t, const double* y);
-    // The same in contact without friction's bristle, where the gap is known.
+    // The same in contact with a known gap, without a bristle.
     EnergyBalance energy_balance(double t, const double* y, double gap);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
-    // The same after `place`, in flight or with the forces of the contact that is known.
-    void acceleration_placed(double t, const ContactState& c, double* acc);
+    // The same after `set_state`, in flight or with the contact forces of `c`.
+    void current_acceleration(double t, const ContactState& c, double* acc);
 
     double highest_frequency() const { return highest_frequency_; }
     double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]
 
     bool inertia_lost() const { return inertia_lost_; }
-    // Impulsive contact: how the contact point answers, and the jump of ξ̇ and of the ledger in y.
+    // Impulsive contact: the response of the contact point to impulses, and the jump of ξ̇ and of the energy balance.
     Compliance compliance(double t, const double* y, const ContactState& c);
-    void strike(double t, double* y, const ContactState& c, const ImpactResult& impact);
-    // How long a touch at this approach speed takes to reach its deepest point, at least [s]: Hertz impact of
-    // the contact point's own compliance.
+    void apply_impact(double t, double* y, const ContactState& c, const ImpactResult& impact);
+    // Lower bound of the time from touch to maximum penetration [s]: the undamped impact of the contact point's own
+    // effective mass.
     double touch_time(double t, const double* y, const ContactState& c, double approach);
-    // Rate of the gap's rate if nothing pushed: < 0 presses on the cam [m/s²].
+    // Acceleration of the gap without contact force [m/s²]; negative: the beam presses on the cam.
     double free_gap_acceleration(double t, const double* y);
 
     long gap_evaluations = 0;
@@ -119,12 +117,10 @@ class System final : public Ode {
     void add_torque(double t, double* f) const;
     double accelerate(double t, double* acc) const;
     void respond(double* f) const;
-    double hold(double t, ContactState& c, double* acc, bool pushed);
+    double constrain(double t, ContactState& c, double* acc, bool with_force);
     double cam_power(double t, const ContactState& c, double normal, double tangential) const;
-    // Forces and inertia of the model; false when the inertia that must answer is not positive.
-    bool assemble(double* f);
-    // The same, but throws InertiaLost.
-    void require_inertia(double* f);
+    bool assemble(double* f);         // false if the inertia is not positive
+    void require_inertia(double* f);  // the same, but throws InertiaLost
     EnergyBalance mechanical_balance(double t, const double* y);
 
     Problem problem_;

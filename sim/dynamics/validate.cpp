@@ -1,4 +1,4 @@
-// What a problem may not be, and what it should not be: every finding at once.
+// Validation of a problem: all errors and warnings at once.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,40 +10,41 @@
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
-#include "sim/problem/derived.hpp"
 #include "sim/problem/keys.hpp"
+#include "sim/problem/number_range.hpp"
 #include "sim/problem/problem.hpp"
-#include "sim/problem/scales.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-class Findings {
+class Issues {
   public:
-    void refuse(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), true}); }
-    void warn(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), false}); }
-    std::vector<Finding> list;
+    void error(std::string path, std::string message) { list.push_back({std::move(path), std::move(message), true}); }
+    void warning(std::string path, std::string message) {
+        list.push_back({std::move(path), std::move(message), false});
+    }
+    std::vector<Issue> list;
 };
 
-// Whether each number is within the range that its key has.
+// Checks each number against the range of its key.
 class RangeCheck final : public Visitor {
   public:
-    RangeCheck(Findings& out, std::string path) : out_(out), path_(std::move(path)) {}
+    RangeCheck(Issues& out, std::string path) : out_(out), path_(std::move(path)) {}
 
     void number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) override {
-        judge(key, value, unit, range);
+        in_range(key, value, unit, range);
     }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char*,
                 const char*) override {
-        if (value) judge(key, *value, unit, range);
+        if (value) in_range(key, *value, unit, range);
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range, const Length&,
                  const char*) override {
-        (void)std::all_of(values.begin(), values.end(), [&](double x) { return judge(key, x, unit, range); });
+        (void)std::all_of(values.begin(), values.end(), [&](double x) { return in_range(key, x, unit, range); });
     }
     void integer(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
         if (value && (*value < least || *value > most))
-            out_.refuse(path(key), fmt::format("must be {} to {}, is {}", least, most, *value));
+            out_.error(path(key), fmt::format("must be {} to {}, is {}", least, most, *value));
     }
     void boolean(const Key&, bool&, const char*) override {}
     void text(const Key&, std::string&, const char*) override {}
@@ -60,103 +61,102 @@ class RangeCheck final : public Visitor {
   private:
     std::string path(const Key& key) const { return path_ + key.name; }
 
-    bool judge(const Key& key, double value, const Unit& unit, const Range& range) {
+    bool in_range(const Key& key, double value, const Unit& unit, const Range& range) {
         const bool finite = std::isfinite(value);
         const bool bounded = std::isfinite(range.most);
         if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargestNumber)) return true;
-        out_.refuse(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
+        out_.error(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
         return false;
     }
     static std::string problem(double value, const Unit& unit, const Range& range, bool bounded, bool finite) {
         if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.least, range.most, value);
         if (finite && range.contains(value))
-            return fmt::format("must lie within ±{:g}, is {:g}: nothing is computed with larger numbers",
-                               kLargestNumber, value);
+            return fmt::format("must lie within ±{:g}, is {:g}: products of larger numbers overflow", kLargestNumber,
+                               value);
         if (!std::isfinite(range.least)) return fmt::format("must be a finite number, is {:g}", value);
         if (!range.without_least) return fmt::format("must not be negative, is {:g}", value);
-        return fmt::format("must be a positive number of {}, is {:g}", in_words(unit), value);
+        return fmt::format("must be a positive number of {}, is {:g}", unit_name(unit), value);
     }
-    static std::string in_words(const Unit& unit) {
+    static std::string unit_name(const Unit& unit) {
         const std::string symbol = unit.symbol();
         return symbol == "m" ? "metres" : symbol == "s" ? "seconds" : symbol;
     }
 
-    Findings& out_;
+    Issues& out_;
     std::string path_;
 };
 
-void check_table(Findings& out, const char* t_path, const char* v_path, const std::vector<double>& t,
+void check_table(Issues& out, const char* t_path, const char* v_path, const std::vector<double>& t,
                  const std::vector<double>& v, std::size_t least) {
     if (t.size() < least)
-        return out.refuse(t_path, fmt::format("needs at least {}, has {}",
-                                              counted(static_cast<long long>(least), "point"), t.size()));
+        return out.error(t_path, fmt::format("needs at least {}, has {}",
+                                             counted(static_cast<long long>(least), "point"), t.size()));
     if (t.size() != v.size())
-        out.refuse(v_path, fmt::format("must have as many values as the times ({}), has {}", t.size(), v.size()));
+        out.error(v_path, fmt::format("must have as many values as the times ({}), has {}", t.size(), v.size()));
     for (std::size_t i = 1; i < t.size(); ++i)
         if (!(t[i] > t[i - 1])) {
-            out.refuse(t_path, fmt::format("times must increase: {:g} follows {:g}", t[i], t[i - 1]));
+            out.error(t_path, fmt::format("times must increase: {:g} follows {:g}", t[i], t[i - 1]));
             break;
         }
 }
 
-void check_hub(Findings& out, const Problem& p) {
+void check_hub(Issues& out, const Problem& p) {
     if (p.beam.length > 0 && std::isfinite(p.hub.radius) && !(p.hub.radius > -p.beam.length))
-        out.refuse("hub.radius", fmt::format("must be larger than minus the beam's length ({:g} m), is {:g} m",
-                                             -p.beam.length, p.hub.radius));
+        out.error("hub.radius", fmt::format("must be larger than minus the beam's length ({:g} m), is {:g} m",
+                                            -p.beam.length, p.hub.radius));
     if (const auto* d = std::get_if<TorqueTable>(&p.hub.drive))
         check_table(out, "hub.drive.t", "hub.drive.torque", d->t, d->torque, 1);
     if (const auto* d = std::get_if<AngleTable>(&p.hub.drive))
         check_table(out, "hub.drive.t", "hub.drive.theta", d->t, d->theta, 2);
 }
 
-void check_beam(Findings& out, const Problem& p) {
+void check_beam(Issues& out, const Problem& p) {
     const Beam& b = p.beam;
     if (b.damping_ratio.size() > 1 && static_cast<int>(b.damping_ratio.size()) != b.modes)
-        out.refuse("beam.damping_ratio", fmt::format("needs one number, or one for each of the {} modes; has {}",
-                                                     b.modes, b.damping_ratio.size()));
+        out.error("beam.damping_ratio", fmt::format("needs one number, or one for each of the {} modes; has {}",
+                                                    b.modes, b.damping_ratio.size()));
     if (b.kelvin_voigt && std::any_of(b.damping_ratio.begin(), b.damping_ratio.end(), [](double z) { return z != 0; }))
-        out.refuse("beam.kelvin_voigt", "cannot be given together with damping_ratio; remove one of them");
+        out.error("beam.kelvin_voigt", "cannot be given together with damping_ratio; remove one of them");
     if (b.basis == Basis::hub_beam && is_prescribed(p.hub.drive))
-        out.refuse("beam.basis",
-                   "hub-beam shapes are those of a freely turning hub; with a prescribed drive use \"cantilever\" or "
-                   "\"auto\"");
+        out.error("beam.basis",
+                  "hub-beam shapes are those of a freely rotating hub; with a prescribed drive use \"cantilever\" or "
+                  "\"auto\"");
     if (b.basis == Basis::hub_beam && b.model == ModelKind::paper)
-        out.refuse("beam.basis",
-                   "the paper's equation (4) is written in the hub's frame; use \"cantilever\" or \"auto\"");
+        out.error("beam.basis",
+                  "the paper's equation (4) is written in the hub's frame; use \"cantilever\" or \"auto\"");
 }
 
-void check_contact(Findings& out, const Problem& p) {
+void check_contact(Issues& out, const Problem& p) {
     const Contact& c = p.contact;
     const auto finite = [](DampingLaw law) { return std::isfinite(damping_factor(law, 0)); };
     if (c.model == ContactModel::compliant && !finite(c.damping) && c.restitution < kLeastFiniteRestitution) {
         std::vector<const char*> others;
         for (const auto& law : names(DampingLaw{}))
             if (law.value != DampingLaw::none && finite(law.value)) others.push_back(law.name);
-        out.refuse("contact.restitution",
-                   fmt::format("the law {} has no finite damping at 0: give at least {:g} (is {:g}) or use one of {}",
-                               name(c.damping), kLeastFiniteRestitution, c.restitution, fmt::join(others, ", ")));
+        out.error("contact.restitution",
+                  fmt::format("the law {} has no finite damping at 0: give at least {:g} (is {:g}) or use one of {}",
+                              name(c.damping), kLeastFiniteRestitution, c.restitution, fmt::join(others, ", ")));
     }
     if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
         if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))
-            out.refuse(
+            out.error(
                 "contact.friction.static_coefficient",
                 fmt::format("must be at least the coefficient {:g}, is {:g}", f->coefficient, *f->static_coefficient));
 }
 
-void check_cam(Findings& out, const Problem& p) {
+void check_cam(Issues& out, const Problem& p) {
     const Cam& cam = *p.cam;
     if (cam.radius > 0 && !(cam.eccentricity < cam.radius))
-        out.refuse(
+        out.error(
             "cam.eccentricity",
             fmt::format("must be smaller than the cam's radius {:g} m, is {:g} m: the axis would lie outside the disc",
                         cam.radius, cam.eccentricity));
 }
 
-// Where cam and beam are to each other; every number is known to be sane.
 struct StartGap {
     double gap, x;  // [m]
 };
-// Of a straight beam: the distance of a segment and a disc.
+// For a straight beam: the distance between a line segment and a disc.
 StartGap straight_gap(const Problem& p) {
     const Cam& cam = *p.cam;
     double angle = p.initial.angle;
@@ -172,28 +172,27 @@ StartGap gap_at_start(const Problem& p) {
     return {c.gap, c.x};
 }
 
-void check_geometry(Findings& out, const Problem& p) {
+void check_geometry(Issues& out, const Problem& p) {
     const Cam& cam = *p.cam;
     const double d = contact_offset(p), away = norm(cam.centre), a = p.hub.radius;
     const double nearest_axis = away - cam.eccentricity - cam.radius;
     if (nearest_axis <= 0) {
-        out.refuse("cam.centre", fmt::format("the cam passes over the hub's axis: its centre is {:g} m away, "
-                                             "eccentricity and radius make {:g} m; move it away",
-                                             away, cam.eccentricity + cam.radius));
+        out.error("cam.centre", fmt::format("the cam passes over the hub's axis: its centre is {:g} m away, "
+                                            "eccentricity and radius make {:g} m; move it away",
+                                            away, cam.eccentricity + cam.radius));
         return;
     }
     if (a > nearest_axis) {
-        out.refuse(
-            "hub.radius",
-            fmt::format(
-                "the hub reaches {:g} m from its axis, into the circle that the cam sweeps, which comes as near as "
-                "{:g} m; make it smaller or move the cam away",
-                a, nearest_axis));
+        out.error("hub.radius",
+                  fmt::format(
+                      "the hub reaches {:g} m from its axis, but the cam comes as near as {:g} m; make the hub smaller "
+                      "or move the cam away",
+                      a, nearest_axis));
         return;
     }
     const double reach = a + p.beam.length + d;
     if (nearest_axis > reach) {
-        out.warn(
+        out.warning(
             "cam.centre",
             fmt::format("the beam reaches {:g} m from the axis, the cam comes no nearer than {:g} m: they never touch",
                         reach, nearest_axis));
@@ -201,9 +200,9 @@ void check_geometry(Findings& out, const Problem& p) {
     }
     const bool rigid = p.beam.model == ModelKind::rigid || p.beam.modes == 0;
     if (rigid && is_prescribed(p.hub.drive) && p.contact.model == ContactModel::restitution) {
-        out.refuse("contact.model",
-                   "nothing gives way to an impulse when a rigid beam meets the cam at a prescribed angle; use "
-                   "\"compliant\" contact, a flexible beam, or a torque instead of the angle");
+        out.error("contact.model",
+                  "a rigid beam at a prescribed angle cannot respond to an impulse; use \"compliant\" contact, a "
+                  "flexible beam, or a torque instead of the angle");
         return;
     }
     if (p.initial.shape == InitialShape::resting) return;
@@ -211,31 +210,32 @@ void check_geometry(Findings& out, const Problem& p) {
         const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty();
         const auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
         if (gap < -kStartGap * std::max(1.0, p.beam.length))
-            out.refuse("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
-                                                    "the beam); raise the angle, turn cam.phase, "
-                                                    "or use \"shape\": \"resting\"",
-                                                    -gap, x));
+            out.error("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
+                                                   "the beam); raise the angle, change cam.phase, or use \"shape\": "
+                                                   "\"resting\"",
+                                                   -gap, x));
     } catch (const StepFailure& failure) {
-        out.refuse("initial.shape", failure.what());
+        out.error("initial.shape", failure.what());
     }
 }
 
-void check_given_shapes(Findings& out, const Problem& p) {
+void check_given_shapes(Issues& out, const Problem& p) {
     const int shapes = p.beam.model == ModelKind::rigid ? 0 : p.beam.modes;
     for (const auto& [key, given] :
          {std::pair{"initial.q", &p.initial.q}, std::pair{"initial.q_dot", &p.initial.q_dot}}) {
         if (static_cast<int>(given->size()) > shapes)
-            out.refuse(key, fmt::format("{} values, but the beam has {} shapes", given->size(), shapes));
+            out.error(key, fmt::format("{} values, but the beam has {} shapes", given->size(), shapes));
         if (!given->empty() && p.initial.shape != InitialShape::straight)
-            out.refuse(key, fmt::format("the shape \"{}\" has its own; use \"straight\"", name(p.initial.shape)));
+            out.error(key, fmt::format("the shape \"{}\" determines the coordinates; use \"straight\"",
+                                       name(p.initial.shape)));
     }
 }
 
 }  // namespace
 
-std::vector<Finding> validate(const Problem& problem) {
-    Findings out;
-    Problem visited = problem;  // visitors may write; this one does not
+std::vector<Issue> validate(const Problem& problem) {
+    Issues out;
+    Problem visited = problem;  // visitors take references that may be written to; this one only reads
     RangeCheck ranges(out, "");
     visit(ranges, visited);
     check_hub(out, problem);
@@ -244,22 +244,24 @@ std::vector<Finding> validate(const Problem& problem) {
     if (problem.cam) check_cam(out, problem);
     if (problem.initial.shape == InitialShape::resting) {
         if (!problem.cam)
-            out.refuse("initial.shape", "a beam cannot rest on a cam that is not there; give a cam or another shape");
+            out.error("initial.shape",
+                      "the beam cannot rest on the cam, because the scene has none; give a cam or "
+                      "another shape");
         if (is_prescribed(problem.hub.drive))
-            out.refuse("initial.shape",
-                       "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
+            out.error("initial.shape",
+                      "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
     }
     check_given_shapes(out, problem);
     bool sane = out.list.empty();
     if (sane) {
-        out.list = beyond_arithmetic(problem);
+        out.list = number_range_issues(problem);
         sane = out.list.empty();
     }
     if (sane && problem.cam) check_geometry(out, problem);
     if (sane && problem.beam.model == ModelKind::paper)
-        out.warn("beam.model",
-                 "the paper's equation (4) does not conserve energy (its stiffening uses L cos θ); compare with "
-                 "\"first-order\"");
+        out.warning("beam.model",
+                    "the paper's equation (4) does not conserve energy (its stiffening uses L cos θ); compare with "
+                    "\"first-order\"");
     return std::move(out.list);
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/contact/constants.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/integrate/constants.hpp"
 

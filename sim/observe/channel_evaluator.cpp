@@ -14,7 +14,7 @@ void ChannelEvaluator::set(double t, const double* y) {
     t_ = t;
     std::copy_n(y, y_.size(), y_.begin());
     balance_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
-    system_.place(t, y_.data());
+    system_.set_state(t, y_.data());
 }
 
 const ContactState& ChannelEvaluator::contact() {
@@ -146,7 +146,7 @@ void ChannelEvaluator::find_hub_acceleration(const ContactState& c) {
     if (acceleration_known_) return;
     double acc[kMaxSize];
     if (forces_known_) {
-        system_.acceleration_placed(t_, c, acc);
+        system_.current_acceleration(t_, c, acc);
     } else {
         system_.begin_contact_at(c.x);
         system_.acceleration(t_, y_.data(), acc);
@@ -154,7 +154,7 @@ void ChannelEvaluator::find_hub_acceleration(const ContactState& c) {
     hub_acceleration_ = 0;
     for (int i = 0; i < system_.coordinates(); ++i) hub_acceleration_ += system_.model().hub_row()[i] * acc[i];
     acceleration_known_ = true;
-    system_.place(t_, y_.data());
+    system_.set_state(t_, y_.data());
 }
 
 Pose ChannelEvaluator::pose(int stations) {

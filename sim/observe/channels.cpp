@@ -11,6 +11,7 @@ struct ChannelRow {
     ChannelKind kind;
     const char* name;
     const char* unit;
+    bool needs_cam = false;
 };
 constexpr std::array kEntries{
     ChannelRow{ChannelKind::t, "t", "s"},
@@ -18,25 +19,25 @@ constexpr std::array kEntries{
     ChannelRow{ChannelKind::theta_dot, "theta_dot", "rad/s"},
     ChannelRow{ChannelKind::tip_deflection, "tip_deflection", "m"},
     ChannelRow{ChannelKind::tip_rate, "tip_rate", "m/s"},
-    ChannelRow{ChannelKind::contact_force, "contact_force", "N"},
-    ChannelRow{ChannelKind::friction_force, "friction_force", "N"},
-    ChannelRow{ChannelKind::gap, "gap", "m"},
-    ChannelRow{ChannelKind::contact_x, "contact_x", "m"},
-    ChannelRow{ChannelKind::contact_s, "contact_s", "m"},
-    ChannelRow{ChannelKind::cam_angle, "cam_angle", "rad"},
+    ChannelRow{ChannelKind::contact_force, "contact_force", "N", true},
+    ChannelRow{ChannelKind::friction_force, "friction_force", "N", true},
+    ChannelRow{ChannelKind::gap, "gap", "m", true},
+    ChannelRow{ChannelKind::contact_x, "contact_x", "m", true},
+    ChannelRow{ChannelKind::contact_s, "contact_s", "m", true},
+    ChannelRow{ChannelKind::cam_angle, "cam_angle", "rad", true},
     ChannelRow{ChannelKind::q, "q", "m"},
     ChannelRow{ChannelKind::energy_kinetic, "energy_kinetic", "J"},
     ChannelRow{ChannelKind::energy_potential, "energy_potential", "J"},
     ChannelRow{ChannelKind::energy_elastic, "energy_elastic", "J"},
-    ChannelRow{ChannelKind::energy_contact, "energy_contact", "J"},
+    ChannelRow{ChannelKind::energy_contact, "energy_contact", "J", true},
     ChannelRow{ChannelKind::loss_structural, "loss_structural", "J"},
-    ChannelRow{ChannelKind::loss_contact, "loss_contact", "J"},
-    ChannelRow{ChannelKind::loss_friction, "loss_friction", "J"},
-    ChannelRow{ChannelKind::work_cam, "work_cam", "J"},
+    ChannelRow{ChannelKind::loss_contact, "loss_contact", "J", true},
+    ChannelRow{ChannelKind::loss_friction, "loss_friction", "J", true},
+    ChannelRow{ChannelKind::work_cam, "work_cam", "J", true},
     ChannelRow{ChannelKind::work_drive, "work_drive", "J"},
     ChannelRow{ChannelKind::energy_residual, "energy_residual", "J"},
-    ChannelRow{ChannelKind::separation, "separation", "m/s^2"},
-    ChannelRow{ChannelKind::separation_paper, "separation_paper", "m/s^2"},
+    ChannelRow{ChannelKind::separation, "separation", "m/s^2", true},
+    ChannelRow{ChannelKind::separation_paper, "separation_paper", "m/s^2", true},
 };
 
 const ChannelRow& entry(ChannelKind kind) {
@@ -57,6 +58,8 @@ const char* unit(Channel channel, const Problem& problem) {
     if (channel.kind == ChannelKind::q && problem.beam.model == ModelKind::exact) return "rad";
     return entry(channel.kind).unit;
 }
+
+bool needs_cam(ChannelKind kind) { return entry(kind).needs_cam; }
 
 std::optional<Channel> channel_named(std::string_view text) {
     for (const ChannelRow& e : kEntries)

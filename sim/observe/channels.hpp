@@ -49,6 +49,7 @@ inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();  // the
 
 std::string name(Channel channel);                          // "theta", "q1"
 const char* unit(Channel channel, const Problem& problem);  // "rad", "m", "" for none
+bool needs_cam(ChannelKind kind);                           // undefined without a cam
 // The channel of that name, or nothing. q indices are checked against the problem by `all_channels`.
 std::optional<Channel> channel_named(std::string_view name);
 // Every channel of this problem in the order of DESIGN's list (q1…qN expanded).

@@ -17,7 +17,7 @@ enum Record : int { kBegin = 1, kInterval, kTouch, kRelease, kResume, kEnd };
 
 void put(std::vector<double>& out, const Phase& p) {
     for (double value :
-         {double(p.touching), double(p.held), p.approach, double(static_cast<int>(p.grip)), p.gap_offset})
+         {double(p.touching), double(p.held), p.approach, double(static_cast<int>(p.friction)), p.gap_offset})
         out.push_back(value);
 }
 
@@ -25,7 +25,7 @@ void put(std::vector<double>& out, const RunStatistics& t) {
     const Counters& c = t.counters;
     const Fallbacks& f = t.fallbacks;
     for (long value : {c.steps, c.rejected, c.rhs_evaluations, c.gap_evaluations, c.jacobians, t.floored, t.chatters,
-                       f.steps, f.handed_over, f.grips, f.strikes, f.coarse, f.left_behind})
+                       f.steps, f.handed_over, f.friction_changes, f.strikes, f.coarse, f.left_behind})
         out.push_back(static_cast<double>(value));
     out.push_back(f.gap);
     out.push_back(static_cast<int>(f.method));
@@ -94,7 +94,7 @@ Phase phase_of(Numbers& n) {
     p.touching = n.flag();
     p.held = n.flag();
     p.approach = n.next();
-    p.grip = static_cast<Grip>(n.whole());
+    p.friction = static_cast<FrictionState>(n.whole());
     p.gap_offset = n.next();
     return p;
 }
@@ -103,8 +103,9 @@ RunStatistics statistics_of(Numbers& n) {
     RunStatistics t;
     Counters& c = t.counters;
     Fallbacks& f = t.fallbacks;
-    for (long* value : {&c.steps, &c.rejected, &c.rhs_evaluations, &c.gap_evaluations, &c.jacobians, &t.floored,
-                        &t.chatters, &f.steps, &f.handed_over, &f.grips, &f.strikes, &f.coarse, &f.left_behind})
+    for (long* value :
+         {&c.steps, &c.rejected, &c.rhs_evaluations, &c.gap_evaluations, &c.jacobians, &t.floored, &t.chatters,
+          &f.steps, &f.handed_over, &f.friction_changes, &f.strikes, &f.coarse, &f.left_behind})
         *value = n.whole();
     f.gap = n.next();
     f.method = static_cast<Method>(n.whole());

@@ -79,11 +79,11 @@ void tell_fallbacks(const Problem& problem, const Result& result, const RunStati
         out.push_back(
             "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
             "without inertia and may leave the cam");
-    if (f.grips > 0)
+    if (f.friction_changes > 0)
         out.push_back(
             fmt::format("in {} the friction changed between stick and slip again and again at one instant and was left "
                         "as it was: tighten solver.rtol, or give contact.friction a damping",
-                        counted(f.grips, "step")));
+                        counted(f.friction_changes, "step")));
     if (f.strikes > 0)
         out.push_back(
             fmt::format("{} taken as plastic: the rebound is smaller than the error of a step; tighten "

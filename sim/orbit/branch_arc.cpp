@@ -16,7 +16,7 @@ bool same_events(const FlowMap& a, const FlowMap& b) {
 
 }  // namespace
 
-// ∂P/∂p by differences, on the side where nothing grazes or is released before.
+// ∂P/∂p by finite differences; one-sided where only one side has the same events.
 Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const {
     const Eigen::Index n = z.size() - 1;
     const auto shifted = [&](double shift) { return map(z[n] + shift).at(z.head(n), false); };
@@ -47,13 +47,13 @@ Eigen::MatrixXd BranchArc::derivative_at(const BranchPoint& point) const {
     return here.at(here.scaled(point.orbit.start), true).derivative;
 }
 
-// Newton's method for P(y, p) = y on the plane through z across the tangent.                                   (S76)
+// Newton's method for P(y, p) = y on the plane through z perpendicular to the tangent.                         (S76)
 std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const try {
     const Eigen::Index n = z.size() - 1;
     const Eigen::VectorXd predicted = z;
     Eigen::VectorXd by_parameter;
     double last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kMostArcNewton; ++i) {
+    for (int i = 0; i < kMaxArcNewton; ++i) {
         const Eigen::VectorXd y = z.head(n);
         const SectionMap section = map(z[n]);
         const SectionMap::Value value = section.at(y, true);

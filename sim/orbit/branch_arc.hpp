@@ -1,5 +1,5 @@
-// The curve of solutions of P(y, p) = y over a parameter p: points on it by Newton's method, and its direction there.
-// MODEL.md §16a.
+// The curve of solutions of P(y, p) = y over a parameter p: points on it by Newton's method, and its tangent there.
+// MODEL.md (S76).
 #pragma once
 
 #include <Eigen/Core>
@@ -10,7 +10,8 @@
 
 namespace beamcam::sim {
 
-// A corrected point of the curve: the orbit's state and the parameter's share of the range; the curve's direction.
+// A point of the curve: z is the state of the orbit and the parameter, in shares of its range; `tangent` is that of the
+// curve.
 struct ArcPoint {
     Eigen::VectorXd z, tangent;
     Eigen::MatrixXd derivative;  // of the section map
@@ -19,7 +20,7 @@ struct ArcPoint {
 
 class BranchArc {
   public:
-    // Of orbits with the section and the phase of `like`.
+    // The orbits have the section and the phase of `like`.
     BranchArc(const Family& family, const ContinuationRequest& request, const PeriodicOrbit& like, int turns,
               const SectionScale& scale)
         : family_(family), request_(request), like_(like), turns_(turns), scale_(scale) {}
@@ -28,7 +29,7 @@ class BranchArc {
         return request_.from + z[z.size() - 1] * (request_.to - request_.from);
     }
     double share(double parameter) const { return (parameter - request_.from) / (request_.to - request_.from); }
-    // z of it; of `like` at this parameter.
+    // z of the point; z of `like` at this parameter.
     Eigen::VectorXd place(const BranchPoint& point) const;
     Eigen::VectorXd place(double parameter) const { return place(BranchPoint{parameter, like_}); }
     double section() const { return like_.section; }
@@ -38,7 +39,7 @@ class BranchArc {
     // The same curve with its section in the middle of this point's longest flight.
     BranchArc recentred(const BranchPoint& point) const;
 
-    // On the plane through z across the tangent; nothing where Newton's method does not converge.
+    // The solution on the plane through z perpendicular to the tangent; nothing if Newton's method does not converge.
     std::optional<ArcPoint> correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const;
 
   private:

@@ -18,15 +18,15 @@ namespace {
 Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
     return p.derivative + sign * Eigen::MatrixXd::Identity(p.derivative.rows(), p.derivative.cols());
 }
-// Test functions: each vanishes where the orbit changes.                                                         (S77)
+// Test functions; a zero is a bifurcation.                                                                       (S77)
 double fold_test(const ArcPoint& p) { return p.tangent[p.tangent.size() - 1]; }
 double doubling_test(const ArcPoint& p) { return determinant(plus_identity(p, 1)); }
 double branching_test(const ArcPoint& p) { return determinant(plus_identity(p, -1)) * (fold_test(p) > 0 ? 1 : -1); }
 
-// μ_iμ_j − 1 of all pairs: their product, which is real and smooth, and the pair that is nearest to nought.
+// The product of μ_iμ_j − 1 over all pairs, which is real and smooth, and the smallest of these factors.
 struct CircleTest {
     double product = 1, nearest = std::numeric_limits<double>::infinity();
-    bool complex = false;  // the nearest is a complex pair
+    bool complex = false;  // the smallest factor belongs to a complex conjugate pair
 };
 CircleTest circle_of(const ArcPoint& p) {
     const auto& m = p.orbit.multipliers;
@@ -44,13 +44,14 @@ CircleTest circle_of(const ArcPoint& p) {
     return test;
 }
 double circle_test(const ArcPoint& p) { return circle_of(p).product; }
-// Where nothing is lost pairs stay on the circle.
+// Of a conservative system pairs stay on the unit circle, which is no crossing.
 bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
     const CircleTest before = circle_of(a), after = circle_of(b);
     return before.product * after.product < 0 && std::min(before.nearest, after.nearest) > kOnCircle;
 }
 
-// An orbit keeps its pattern while nothing grazes or is released. Impacts before a rest on the cam are infinitely many.
+// Orbits have the same pattern unless grazing or release lies between them. Before sustained contact the number of
+// impacts is infinite and is not compared.
 bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
     return (a.chatters() || a.impacts.size() == b.impacts.size()) && a.holds == b.holds && a.lifts == b.lifts &&
            a.start.phase.touching == b.start.phase.touching;
@@ -66,7 +67,7 @@ class Continuation {
     Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
         : arc_(std::move(arc)), request_(request), progress_(progress) {}
 
-    // Steps from a point along its tangent; the point itself is not among the results.
+    // Appends points from `from` on, without `from` itself.
     void follow(ArcPoint from, Branch& branch, std::string& end);
 
   private:
@@ -124,11 +125,11 @@ void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
     if (crosses_circle(a, b)) locate(a, step, OrbitChange::neimark_sacker, circle_test, branch);
 }
 
-// What changes within `step`, too short to halve. True: the branch goes on beyond it.
+// Classifies the change within `step`, which is too short to be divided. True if the branch continues beyond it.
 bool Continuation::passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
                           std::string& end) const {
     const PeriodicOrbit& orbit = last.orbit;
-    // The direction alone jumps: at a corner, or by rounding where impacts die out.
+    // Only the direction jumps: at a corner, or by rounding where impacts vanish.
     if (beyond && same_pattern(orbit, beyond->orbit)) {
         find_changes(last, *beyond, branch);
         return true;
@@ -149,7 +150,7 @@ bool Continuation::passes(const ArcPoint& last, const std::optional<ArcPoint>& b
     return false;
 }
 
-// The same point seen from a section in the middle of its longest flight; nothing where the section is there already.
+// The same point with its section in the middle of its longest flight; nothing if the section is already there.
 std::optional<ArcPoint> Continuation::recentre(const ArcPoint& at) {
     if (at.orbit.always_touching()) return std::nullopt;
     const BranchPoint point = arc_.branch_point(at);
@@ -164,7 +165,7 @@ std::optional<ArcPoint> Continuation::recentre(const ArcPoint& at) {
     return same;
 }
 
-// The branch's last point stands at the end of the range, where it has the pattern of the point before.
+// Puts the last point at the end of the range, if it has the pattern of the point before.
 void Continuation::end_at_range(const ArcPoint& last, const ArcPoint& beyond, Branch& branch) const {
     const Eigen::Index n = last.z.size() - 1;
     const double end = beyond.z[n] > 1 ? 1 : 0, way = (end - last.z[n]) / (beyond.z[n] - last.z[n]);
@@ -214,17 +215,17 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
         from = std::move(*next);
         step = std::min(kArcGrowth * step, request_.step);
     }
-    end = "the number of points is spent";
+    end = "the largest number of points is reached";
 }
 
-// Where y is along the eigenvector of the multiplier −1, on the map of twice as many turns.                     (S77)
+// A point on the period-doubled branch, along the eigenvector of the multiplier −1.                             (S77)
 std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, const SpecialPoint& special,
                                 double size) {
     const Eigen::MatrixXd derivative = once.derivative_at(special.at);
     const Eigen::VectorXd z = twice.place(special.at);
     Eigen::VectorXd direction(derivative.rows() + 1);
     direction << eigenvector_nearest(derivative, -1.0).real().normalized(), 0;
-    for (double shift = size; shift > 1e-4 * size; shift *= 0.5) {
+    for (double shift = size; shift > kLeastDoubledShift * size; shift *= 0.5) {
         auto point = twice.correct(z + shift * direction, direction);
         if (!point || point->orbit.impacts.size() != 2 * special.at.orbit.impacts.size()) continue;
         if (point->tangent.dot(direction) < 0) point->tangent *= -1;

@@ -1,5 +1,5 @@
-// Branches of periodic orbits over a parameter: pseudo-arc-length continuation through folds, with the points where
-// stability or the pattern of impacts changes. MODEL.md §16a; its closed forms (S78) are what this is tested against.
+// Branches of periodic orbits over a parameter: pseudo-arc-length continuation through folds, with the points at which
+// stability or the pattern of impacts changes. MODEL.md (S76), (S77); tested against the closed forms (S78).
 #pragma once
 
 #include <functional>
@@ -28,20 +28,20 @@ struct SpecialPoint {
 };
 
 struct Branch {
-    std::vector<BranchPoint> points;  // along the arc
+    std::vector<BranchPoint> points;  // in the order of the arc
     std::vector<SpecialPoint> special;
-    std::string first_end, last_end;  // why it ends there
+    std::string first_end, last_end;  // reasons for the two ends
 };
 
 struct ContinuationRequest {
     double from = 0, to = 1;  // of the parameter
-    double step = 0.01;       // longest step, in shares of the range
-    int most_points = 2000;   // in either direction
-    int doublings = 0;        // so many period doublings are followed onto the doubled branch
+    double step = 0.01;       // longest step, as a fraction of the range
+    int most_points = 2000;   // in each direction
+    int doublings = 0;        // number of generations of period-doubled branches
 };
 
-// The branch through an orbit of `family(parameter)`, in both directions, and the branches that double from it. Throws
-// Interrupted, when `progress` (which sees the parameter) says so.
+// The branch through an orbit of `family(parameter)`, in both directions, and the branches that bifurcate from it by
+// period doubling. `progress` receives the parameter. Throws Interrupted.
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress = {});
 

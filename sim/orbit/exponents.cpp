@@ -14,9 +14,9 @@
 namespace beamcam::sim {
 namespace {
 
-// The longest time between two orthonormalizations: a turn of the cam, a second, or what damping allows.
+// The longest interval between two orthonormalizations: a turn of the cam, a second, or less with strong damping.
 double longest_interval(const Problem& problem) {
-    // Compliant contact may damp strongly for as long as it lasts.
+    // Compliant contact may damp strongly while it lasts.
     const double own = problem.cam && problem.contact.model == ContactModel::compliant ? kCompliant : 1;
     const double interval = std::min(own, cam_period(problem));
     System system(problem);
@@ -26,11 +26,11 @@ double longest_interval(const Problem& problem) {
     double trace = 0;
     for (int i = 0; !damping.empty() && i < modes; ++i)
         trace += damping[static_cast<std::size_t>(i * (modes + 1))] / model.mass();
-    return trace > 0 ? std::min(interval, kMostDecay / trace) : interval;
+    return trace > 0 ? std::min(interval, kMaxDecay / trace) : interval;
 }
 
-// Gram and Schmidt, twice for the rounding; returns the length that is left of each column. A column without any is
-// lost in sustained contact and stays zero.
+// Gram–Schmidt orthonormalization, repeated once against rounding. Returns the remaining length of each column. A
+// column annihilated by sustained contact has length zero and stays zero.
 Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v, double lost = 0) {
     Eigen::VectorXd lengths = Eigen::VectorXd::Zero(v.cols());
     for (Eigen::Index i = 0; i < v.cols(); ++i) {
@@ -43,10 +43,10 @@ Eigen::VectorXd orthonormalize(Eigen::MatrixXd& v, double lost = 0) {
     return lengths;
 }
 
-// Orthonormalizes the tangents and keeps the logarithms of how they stretched.                                (S74)
+// Orthonormalizes the tangents and sums the logarithms of their growth.                                       (S74)
 class Stretching {
   public:
-    // `first`: the tangents at the start.
+    // `first`: the initial tangents.
     Stretching(const Eigen::MatrixXd& first, int blocks, double transient, double duration, double interval)
         : first_(first), sum_(Eigen::VectorXd::Zero(first.cols())), block_start_(sum_), transient_(transient) {
         const auto pieces = [&](double span) { return std::max(1.0, std::ceil(span / interval)); };
@@ -64,13 +64,13 @@ class Stretching {
         if (done_ >= settling_) sum_.array() += left.array().log();
         if (t >= instant(done_ + 1)) {
             advance();
-            if (done_ == settling_) begin_anew(v, left, integrator);
+            if (done_ == settling_) replace_annihilated(v, left, integrator);
         }
         integrator.set_tangents(v, true);
         return instant(done_ + 1);
     }
 
-    // The last of the instants may be the end but for rounding.
+    // The last instant may equal the end up to rounding.
     void finish(double end, TangentIntegrator& integrator) {
         if (done_ == settling_ + per_block_ * block_.cols()) return;
         at(end, integrator);
@@ -99,7 +99,7 @@ class Stretching {
         return k <= settling_ ? transient_ * static_cast<double>(k) / static_cast<double>(settling_)
                               : transient_ + step_ * static_cast<double>(k - settling_);
     }
-    // Of this exponent, within four standard errors.
+    // The halves of the average of this exponent agree.
     bool halves_agree(Eigen::Index i) const {
         const Eigen::Index half = block_.cols() / 2;
         if (half < 2 || !std::isfinite(sum_[i])) return true;
@@ -121,8 +121,8 @@ class Stretching {
         block_start_ = sum_;
     }
 
-    // Tangents that rest on the cam has annihilated during the transient are of no use to the average.
-    void begin_anew(Eigen::MatrixXd& v, const Eigen::VectorXd& left, TangentIntegrator& integrator) const {
+    // Replaces tangents that sustained contact annihilated during the transient.
+    void replace_annihilated(Eigen::MatrixXd& v, const Eigen::VectorXd& left, TangentIntegrator& integrator) const {
         if ((left.array() > 0).all()) return;
         for (Eigen::Index i = 0; i < v.cols(); ++i)
             if (left[i] == 0) v.col(i) = first_.col(i);
@@ -142,7 +142,7 @@ class Stretching {
     std::vector<Eigen::VectorXd> history_;
 };
 
-// Orthonormal columns in no special direction.
+// Orthonormal columns in arbitrary directions.
 Eigen::MatrixXd first_tangents(Eigen::Index n, Eigen::Index count) {
     Eigen::MatrixXd v(n, count);
     for (Eigen::Index i = 0; i < n; ++i)
@@ -152,7 +152,7 @@ Eigen::MatrixXd first_tangents(Eigen::Index n, Eigen::Index count) {
     return v;
 }
 
-// With a prescribed hub, neither its angle nor its speed can differ.
+// With a prescribed hub neighbouring motions have the same hub angle and speed.
 Eigen::MatrixXd all_tangents(const Problem& problem, int coordinates, int count) {
     const Eigen::Index n = coordinates;
     if (!is_prescribed(problem.hub.drive)) {
@@ -192,8 +192,6 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
 
 }  // namespace
 
-std::optional<std::string> exponents_refusal(const Problem& problem) { return tangent_refusal(problem); }
-
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
     require_tangents(problem);
     if (!(request.transient >= 0) || !(request.duration > 0) || request.blocks < 2 || request.count < 0)
@@ -228,7 +226,7 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
             "the two halves of the average differ by more than their errors: the motion had not settled; use a longer "
             "transient");
     if (!e.lambda.empty() && std::isinf(e.lambda.back()))
-        e.warnings.push_back("sustained contact makes neighbouring motions one: such exponents are −∞");
+        e.warnings.push_back("in sustained contact neighbouring motions merge: the corresponding exponents are −∞");
     return e;
 }
 

@@ -1,7 +1,7 @@
-// Lyapunov exponents of a motion: how fast neighbouring motions part, on average over a long run. MODEL.md §16a.
+// Lyapunov exponents of a motion: average exponential rates at which neighbouring motions diverge. MODEL.md (S74).
 //
-// The tangent flow runs along the motion through every impact (tangent_integrator.hpp) and is orthonormalized at equal
-// intervals (Benettin et al. 1980); the logarithms of its stretching, per time, are the exponents.
+// Tangents are integrated along the motion through every impact (tangent_integrator.hpp) and orthonormalized at equal
+// intervals (Benettin et al. 1980). The mean logarithmic growth of their lengths gives the exponents.
 #pragma once
 
 #include <optional>
@@ -16,38 +16,36 @@
 namespace beamcam::sim {
 
 struct ExponentsRequest {
-    int count = 1;                           // of the largest exponents; 0: the whole spectrum
-    double transient = 0;                    // left out at the start [s], >= 0
-    double duration = 100;                   // averaged over [s], > 0
-    int blocks = 20;                         // for the error, >= 2
-    std::optional<InitialState> start = {};  // at t = 0, instead of the problem's
+    int count = 1;                           // number of largest exponents; 0: the whole spectrum
+    double transient = 0;                    // before the average [s], >= 0
+    double duration = 100;                   // of the average [s], > 0
+    int blocks = 20;                         // of the average, for the standard error; >= 2
+    std::optional<InitialState> start = {};  // at t = 0; absent: that of the problem
 };
 
-// What the largest exponent says. Doubtful: it is positive beyond its error only by what near-grazing impacts add.
+// Doubtful: near-grazing impacts alone may make the largest exponent positive.
 enum class Chaos { shown, doubtful, not_shown };
 
 struct Exponents {
-    std::vector<double> lambda;  // descending [1/s]; −∞ where the motion forgets at once (sustained contact)
-    std::vector<double> error;   // standard error from the spread of the blocks [1/s]
-    // Convergence: the exponents of the first part of the average, up to each of these times after the transient.
+    std::vector<double> lambda;  // in descending order [1/s]; −∞ where sustained contact annihilates a tangent
+    std::vector<double> error;   // standard error, from the spread of the blocks [1/s]
+    // Convergence: the exponents averaged from the transient up to each of these times after it.
     std::vector<double> time;                  // [s]
     std::vector<std::vector<double>> history;  // [exponent][time] [1/s]
-    double transient = 0, duration = 0;        // [s], as done
-    long impacts = 0;                          // touches within the average
-    // Impacts so slow that the linearized impact (S71) fails already for small differences: exponents are doubtful.
+    double transient = 0, duration = 0;        // [s]
+    long impacts = 0;                          // touches during the average
+    // Impacts so slow that the linearization (S71) holds only for very small differences.
     long near_grazing = 0;
     double slowest_impact = 0;  // approach speed [m/s]; 0 without impacts
-    // By how much the largest exponent may be too large because of them: as if each parted neighbours like an impact of
-    // the typical speed only [1/s].
+    // Amount by which they may make the largest exponent too large (S74) [1/s].
     double doubt = 0;
-    // The largest exponent of the first half of the average and that of the second differ by less than four times their
-    // errors: else the motion had not settled, and a transient may have looked chaotic.
+    // The largest exponents of the two halves of the average agree within four standard errors; otherwise the motion
+    // had not settled, and a transient may appear chaotic.
     bool settled = true;
     std::vector<std::string> warnings;
 
     bool grows_late() const { return settled && !lambda.empty() && lambda.front() * duration / 2 > kLateGrowth; }
-    // Shown: the largest exponent is positive beyond three times its error as well, and beyond the doubt: neighbouring
-    // motions part exponentially.
+    // Shown: the largest exponent exceeds three standard errors plus the doubt.
     Chaos chaos() const {
         if (!grows_late() || !(lambda.front() > 3 * error.front())) return Chaos::not_shown;
         return lambda.front() > 3 * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
@@ -55,15 +53,15 @@ struct Exponents {
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
 
-// Nothing where the tangent flow of this problem is known; else why not, with the remedy: models beyond first order.
-std::optional<std::string> exponents_refusal(const Problem& problem);
+// Nothing if this problem has a tangent flow, else the reason and the remedy: models beyond first order have none.
+std::optional<std::string> tangent_refusal(const Problem& problem);
 
-// `progress` sees the time from the start of the transient. Throws SolverError, Interrupted; std::invalid_argument
-// for what `exponents_refusal` refuses.
+// `progress` receives the time from the start of the transient. Throws SolverError, Interrupted; std::invalid_argument
+// where `tangent_refusal` has a reason.
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress = {});
 
-// Chaos lasts. Where `exponents` of this request show it, the motion goes on for as long again, and if neighbours no
-// longer part then, it had not settled: a sensitive transient. Progress and exceptions as above. (S89a)
+// If `exponents` of this request show chaos, continues the motion for as long again. If neighbouring motions no longer
+// diverge there, the motion had not settled but was a sensitive transient. Progress and exceptions as above. (S89a)
 void confirm_chaos(const Problem& problem, const ExponentsRequest& request, Exponents& exponents,
                    const Progress& progress = {});
 

@@ -1,4 +1,5 @@
-// Where a motion goes from any state within a time, and the derivative of that by the state. MODEL.md §16a.
+// The flow map: the state of a motion after a given time as a function of its initial state, with the derivative.
+// MODEL.md §16a.
 #pragma once
 
 #include <Eigen/Core>
@@ -11,28 +12,28 @@
 namespace beamcam::sim {
 
 struct FlowMap {
-    InitialState end;            // state and phase after the time; a new run may start there
-    Eigen::MatrixXd derivative;  // ∂(ξ, ξ̇)/∂(ξ₀, ξ̇₀), 2n × 2n, in SI; empty if not asked for
+    InitialState end;            // final state and phase; a new run may start there
+    Eigen::MatrixXd derivative;  // ∂(ξ, ξ̇)/∂(ξ₀, ξ̇₀), 2n × 2n, in SI units; empty if not requested
     double inertia_share = 1;    // at the end (S73)
-    Eigen::VectorXd units;       // of ξ and ξ̇: rows of one size in energy (tangent_integrator.hpp)
+    Eigen::VectorXd units;       // of ξ and ξ̇ (TangentIntegrator::units)
     std::vector<TangentTouch> touches;
-    long holds = 0, lifts = 0;  // strikes that sustained contact followed; ends of sustained contact
+    long holds = 0, lifts = 0;  // impacts followed by sustained contact; ends of sustained contact
     long steps = 0;
 };
 
-// What differences a derivative allows at a start in sustained contact.
+// For a start in sustained contact: neighbouring initial states may leave the cam (free), or remain on it (kept).
 enum class StartOnCam { free, kept };
 
-// From `start` at t = 0, by the problem's method and tolerances, for what `require_tangents` lets pass. Throws
+// From `start` at t = 0, by the problem's method and tolerances, for problems that pass `require_tangents`. Throws
 // SolverError, Interrupted.
 FlowMap flow_map(const Problem& problem, const InitialState& start, double duration, bool derivative,
                  const Progress& progress = {}, StartOnCam on_cam = StartOnCam::free);
 
-// Where the motion from `start` at t = 0 is after the time, by the problem's own method.
+// The state after the duration, from `start` at t = 0, by the problem's own method.
 InitialState motion_end(const Problem& problem, const InitialState& start, double duration,
                         const Progress& progress = {});
 
-// Throws std::invalid_argument with the reason of `tangent_refusal`, or of an impossible problem.
+// Throws std::invalid_argument with the reason of `tangent_refusal` or of an invalid problem.
 void require_tangents(const Problem& problem);
 
 }  // namespace beamcam::sim

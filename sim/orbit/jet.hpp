@@ -1,5 +1,5 @@
-// Numbers with eight directional derivatives (forward automatic differentiation): a function written in them yields its
-// value and its derivative along eight tangents at once, exactly.
+// Numbers with eight directional derivatives (forward-mode automatic differentiation): a function of jets returns its
+// value and its exact derivatives along eight tangents.
 #pragma once
 
 #include <cmath>
@@ -52,7 +52,7 @@ inline Jet tanh(const Jet& a) {
 
 inline Jet fabs(const Jet& a) { return a.v < 0 ? -a : a; }
 
-// By the values alone.
+// Comparisons use the values only.
 inline bool isfinite(const Jet& a) { return std::isfinite(a.v); }
 inline bool operator<(const Jet& a, const Jet& b) { return a.v < b.v; }
 inline bool operator>(const Jet& a, const Jet& b) { return a.v > b.v; }

@@ -1,28 +1,11 @@
 #include "sim/orbit/modal_jets.hpp"
 
-#include <fmt/format.h>
-
 namespace beamcam::sim {
 namespace {
 
 std::size_t entry(int i) { return static_cast<std::size_t>(i); }
 
 }  // namespace
-
-std::optional<std::string> tangent_refusal(const Problem& problem) {
-    switch (problem.beam.model) {
-        case ModelKind::rigid:
-        case ModelKind::zeroth_order:
-        case ModelKind::first_order:
-            break;
-        case ModelKind::paper:
-        case ModelKind::second_order:
-        case ModelKind::exact:
-            return fmt::format("the tangent flow of the model {} is not known; use beam.model first-order or rigid",
-                               name(problem.beam.model));
-    }
-    return std::nullopt;
-}
 
 ModalJets::ModalJets(System& system)
     : problem_(system.problem()),
@@ -54,21 +37,21 @@ ModalJets::ModalJets(System& system)
 }
 
 void ModalJets::set(const JetState& s) {
-    angle_ = s.xi[0];
-    spin_ = s.rate[0];
+    Theta_ = s.xi[0];
+    Theta_dot_ = s.rate[0];
     if (drive_.prescribed()) {
         const HubMotion hub = drive_.motion(s.t.v);
-        angle_ = chain(s.t, hub.angle, hub.rate);
-        spin_ = chain(s.t, hub.rate, hub.acceleration);
+        Theta_ = chain(s.t, hub.angle, hub.rate);
+        Theta_dot_ = chain(s.t, hub.rate, hub.acceleration);
     }
-    sin_ = sin(angle_);
-    cos_ = cos(angle_);
-    turn_ = turn_rate_ = 0;
+    sin_ = sin(Theta_);
+    cos_ = cos(Theta_);
+    alpha_ = alpha_dot_ = 0;
     for (int i = 0; i < modes_; ++i) {
         q_[entry(i)] = s.xi[entry(1 + i)];
         dq_[entry(i)] = s.rate[entry(1 + i)];
-        turn_ += model_.hub_row()[1 + i] * q_[entry(i)];
-        turn_rate_ += model_.hub_row()[1 + i] * dq_[entry(i)];
+        alpha_ += model_.hub_row()[1 + i] * q_[entry(i)];
+        alpha_dot_ += model_.hub_row()[1 + i] * dq_[entry(i)];
     }
 }
 
@@ -91,16 +74,16 @@ void ModalJets::assemble(const JetState& s) {
         wq += m_.W[i] * q_[entry(i)];
         qgq += gq * q_[entry(i)];
         force_[entry(1 + i)] =
-            spin_ * spin_ * bq + g * (sin_ * gq) - m_.K[i] * q_[entry(i)] - (g * m_.W[i]) * cos_ - damping;
+            Theta_dot_ * Theta_dot_ * bq + g * (sin_ * gq) - m_.K[i] * q_[entry(i)] - (g * m_.W[i]) * cos_ - damping;
     }
     inertia_ = m_.J + qbq;
-    force_[0] = -2 * (spin_ * coriolis) - g * (m_.S * cos_ - wq * sin_ - 0.5 * (cos_ * qgq));
+    force_[0] = -2 * (Theta_dot_ * coriolis) - g * (m_.S * cos_ - wq * sin_ - 0.5 * (cos_ * qgq));
     if (!drive_.has_torque()) return;
     const double torque = drive_.torque(s.t.v);
     for (int i = 0; i < n_; ++i) force_[entry(i)] += torque * model_.hub_row()[i];
 }
 
-// f ← M⁻¹f; a prescribed hub turns as it must if `driven`, else it is held.
+// f ← M⁻¹f; a prescribed hub has its own acceleration if `driven`, else none.
 void ModalJets::solve(const JetState& s, std::vector<Jet>& f, bool driven) const {
     const double mass = model_.mass();
     if (drive_.prescribed()) {
@@ -125,13 +108,13 @@ void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& 
     bristle_rate = 0;
     if (phase.touching) {
         contact(s, near);
-        const Forces f = placed_forces(s, phase, near.at_end);
+        const Forces f = current_forces(s, phase, near.at_end);
         for (int i = 0; i < n_; ++i)
             force_[entry(i)] += f.normal * c_.jn[entry(i)] + f.friction * c_.jt[entry(i)];  // (S28)
-        if (friction_.bristle && phase.grip == Grip::stick)
+        if (friction_.bristle && phase.friction == FrictionState::stick)
             bristle_rate = f.slip;
         else if (friction_.lags)
-            bristle_rate = (friction_.stiffness / friction_.damping) * (sliding_bristle(phase.grip, f) - s.bristle);
+            bristle_rate = (friction_.stiffness / friction_.damping) * (sliding_bristle(phase.friction, f) - s.bristle);
     }
     solve(s, force_, true);
     acceleration = force_;

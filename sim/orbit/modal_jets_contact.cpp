@@ -1,7 +1,7 @@
-// The contact in jets: geometry, forces and impulses.
+// ModalJets: geometry of the contact, forces and impulses.
 #include <cmath>
 
-#include "sim/contact/impulse_of.hpp"
+#include "sim/contact/impulse.hpp"
 #include "sim/orbit/modal_jets.hpp"
 
 namespace beamcam::sim {
@@ -30,7 +30,7 @@ Jet normal_force(const NormalLaw& law, const Jet& depth, const Jet& rate, const 
 
 }  // namespace
 
-// The centre line at x, which may move with the tangents: ModalModel::point, jacobian and convective in jets.
+// The centre line at x, which may depend on the tangents: ModalModel::point, jacobian and convective in jets.
 void ModalJets::line(const Jet& x) {
     const bool shortened = model_.foreshortening() && modes_ > 0;
     const double a = problem_.hub.radius;
@@ -60,9 +60,9 @@ void ModalJets::line(const Jet& x) {
             du -= dq_[index_of(i)] * hq;
             bend -= dq_[index_of(i)] * hdq;
         }
-        u -= 0.5 * a * (turn_ * turn_);
-        du -= a * (turn_ * turn_rate_);
-        bend -= a * (turn_rate_ * turn_rate_);
+        u -= 0.5 * a * (alpha_ * alpha_);
+        du -= a * (alpha_ * alpha_dot_);
+        bend -= a * (alpha_dot_ * alpha_dot_);
         u1 = -0.5 * (v1 * v1);
         u2 = -(v1 * v2);
         du1 = -(v1 * dv1);
@@ -73,24 +73,24 @@ void ModalJets::line(const Jet& x) {
     c_.r = rx * along + v * across;
     c_.r1 = (1 + u1) * along + v1 * across;
     c_.r2 = u2 * along + v2 * across;
-    c_.v = (du - v * spin_) * along + (dv + rx * spin_) * across;
-    c_.v1 = (du1 - v1 * spin_) * along + (dv1 + (1 + u1) * spin_) * across;
+    c_.v = (du - v * Theta_dot_) * along + (dv + rx * Theta_dot_) * across;
+    c_.v1 = (du1 - v1 * Theta_dot_) * along + (dv1 + (1 + u1) * Theta_dot_) * across;
     c_.bend = bend;
     const Jet speed2 = (1 + u1) * (1 + u1) + v1 * v1;
-    c_.jn[0] = -c_.r.y;  // for now ∂x/∂Θ, ∂y/∂Θ; `contact` turns them to n and t
+    c_.jn[0] = -c_.r.y;  // here ∂X/∂ξ and ∂Y/∂ξ; `contact` projects them onto n and t
     c_.jt[0] = c_.r.x;
     for (int i = 0; i < modes_; ++i) {
         Jet ui;
-        if (shortened) ui = -shortening_[index_of(i)] - (a * model_.hub_row()[1 + i]) * turn_;
+        if (shortened) ui = -shortening_[index_of(i)] - (a * model_.hub_row()[1 + i]) * alpha_;
         c_.jn[index_of(1 + i)] = ui * along.x + shape_[index_of(i)] * across.x;
         c_.jt[index_of(1 + i)] = ui * along.y + shape_[index_of(i)] * across.y;
-        // ∂χ/∂q takes the place of a curvature that nobody needs any more.
+        // curve_ now stores ∂χ/∂q; the curvature is no longer needed.
         curve_[index_of(i)] =
             ((1 + u1) * slope_[index_of(i)] + (shortened ? v1 * v1 * slope_[index_of(i)] : Jet())) / speed2;
     }
 }
 
-// Foot, gap, slip and the rows of the contact. The foot moves with the tangents as r′·(r − B) = 0 demands.      (S24)
+// Foot, gap, slip and the rows of the contact. The derivative of the foot follows from r′·(r − B) = 0.          (S24)
 void ModalJets::contact(const JetState& s, const ContactState& near) {
     const Cam& cam = *problem_.cam;
     const Jet2 arm = cam_arm(cam, s.t), disc = Jet2{cam.centre.x, cam.centre.y} + arm;
@@ -115,50 +115,51 @@ void ModalJets::contact(const JetState& s, const ContactState& near) {
 
 Jet ModalJets::friction_ratio() const { return -friction_.kinetic * tanh(c_.slip / friction_.slip_speed); }
 
-// The force of sustained contact (S45); force_ is the assembled one.
-Jet ModalJets::hold(const JetState& s, bool at_end) {
+// The normal force of sustained contact (S45), after `assemble`.
+Jet ModalJets::constraint_force(const JetState& s, bool at_end) {
     const Cam& cam = *problem_.cam;
     const Jet2 arm = cam_arm(cam, s.t);
     const Jet2 d = c_.distance * c_.normal, w = c_.v - Jet2{cam.speed * arm.y, -cam.speed * arm.x};
     const Jet rate = at_end ? Jet() : -(dot(c_.v1, d) + dot(c_.r1, w)) / (dot(c_.r2, d) + dot(c_.r1, c_.r1));
     const Jet2 d_rate = w + rate * c_.r1;
     const Jet2 n_rate = (1.0 / c_.distance) * (d_rate - dot(c_.normal, d_rate) * c_.normal);
-    const Jet2 relative{c_.v.x + spin_ * c_.r.y, c_.v.y - spin_ * c_.r.x};  // to the turning frame
-    const Jet2 convective = -(spin_ * spin_) * c_.r + 2 * spin_ * Jet2{-relative.y, relative.x} + c_.bend * c_.along;
+    const Jet2 relative{c_.v.x + Theta_dot_ * c_.r.y, c_.v.y - Theta_dot_ * c_.r.x};  // relative to the rotating frame
+    const Jet2 convective =
+        -(Theta_dot_ * Theta_dot_) * c_.r + 2 * Theta_dot_ * Jet2{-relative.y, relative.x} + c_.bend * c_.along;
     const Jet2 disc_acceleration = Jet(-cam.speed * cam.speed) * arm;
     Jet gap_acceleration = dot(n_rate, w) + dot(c_.normal, convective + rate * c_.v1 - disc_acceleration);  // (S44)
     const Jet ratio = friction_.none() ? Jet() : friction_ratio();
-    std::vector<Jet> free = force_, answer(index_of(n_));
-    for (int i = 0; i < n_; ++i) answer[index_of(i)] = c_.jn[index_of(i)] + ratio * c_.jt[index_of(i)];
+    std::vector<Jet> free = force_, response(index_of(n_));
+    for (int i = 0; i < n_; ++i) response[index_of(i)] = c_.jn[index_of(i)] + ratio * c_.jt[index_of(i)];
     solve(s, free, true);
-    solve(s, answer, false);
+    solve(s, response, false);
     Jet per_newton;
     for (int i = 0; i < n_; ++i) {
         gap_acceleration += c_.jn[index_of(i)] * free[index_of(i)];
-        per_newton += c_.jn[index_of(i)] * answer[index_of(i)];
+        per_newton += c_.jn[index_of(i)] * response[index_of(i)];
     }
     const Jet gap = c_.distance - (cam.radius + offset_);
     const Jet decay = baumgarte_rate_ * (2 * c_.gap_rate + baumgarte_rate_ * (gap - gap.v));
     return -(decay + gap_acceleration) / per_newton;
 }
 
-Jet ModalJets::sliding_bristle(Grip grip, const Forces& f) const {
-    return (FrictionLaw::sign(grip) * friction_.kinetic / friction_.stiffness) * f.normal;
+Jet ModalJets::sliding_bristle(FrictionState state, const Forces& f) const {
+    return (FrictionLaw::sign(state) * friction_.kinetic / friction_.stiffness) * f.normal;
 }
 
 // After `assemble` and `contact`; friction as FrictionLaw::force.
-ModalJets::Forces ModalJets::placed_forces(const JetState& s, const Phase& phase, bool at_end) {
+ModalJets::Forces ModalJets::current_forces(const JetState& s, const Phase& phase, bool at_end) {
     Forces f;
     f.slip = c_.slip;
     const Jet depth = problem_.cam->radius + offset_ - phase.gap_offset - c_.distance;
-    f.normal = phase.held ? hold(s, at_end) : normal_force(law_, depth, -c_.gap_rate, s.approach);
+    f.normal = phase.held ? constraint_force(s, at_end) : normal_force(law_, depth, -c_.gap_rate, s.approach);
     if (friction_.none()) return f;
     if (!friction_.bristle)
         f.friction = friction_ratio() * f.normal;
-    else if (phase.grip == Grip::stick)
+    else if (phase.friction == FrictionState::stick)
         f.friction = -(friction_.stiffness * s.bristle + friction_.damping * c_.slip);
     else
-        f.friction = (-FrictionLaw::sign(phase.grip) * friction_.kinetic) * f.normal;
+        f.friction = (-FrictionLaw::sign(phase.friction) * friction_.kinetic) * f.normal;
     return f;
 }
 
@@ -166,7 +167,7 @@ ModalJets::Forces ModalJets::forces(const JetState& s, const Phase& phase, const
     set(s);
     assemble(s);
     contact(s, near);
-    return placed_forces(s, phase, near.at_end);
+    return current_forces(s, phase, near.at_end);
 }
 
 ModalJets::Gap ModalJets::gap(const JetState& s, const ContactState& near) {
@@ -181,7 +182,7 @@ double ModalJets::foot(const ContactState& near) const {
 }
 
 // ξ̇ ← ξ̇ + M⁻¹(J_nᵀP_n + J_tᵀP_t)                                                                               (S43)
-void ModalJets::strike(JetState& s, const ContactState& near, double restitution) {
+void ModalJets::apply_impact(JetState& s, const ContactState& near, double restitution) {
     set(s);
     assemble(s);
     contact(s, near);

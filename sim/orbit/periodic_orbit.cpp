@@ -7,6 +7,7 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/constants.hpp"
+#include "sim/orbit/exponents.hpp"
 #include "sim/orbit/section_map.hpp"
 
 namespace beamcam::sim {
@@ -17,13 +18,13 @@ double section_after(const Problem& problem, double section, double t) {
     return std::remainder(section - problem.cam->speed * t, 2 * std::numbers::pi);
 }
 
-// A motion and where it is: the cam angle, the state there.
+// A state of a motion and the cam angle at that instant.
 struct Place {
     double section;
     InitialState state;
 };
 
-// The middle of the longest flight within some turns; the place itself where there is none.
+// The middle of the longest flight within the duration; `from` itself if there is no flight.
 Place longest_flight(const Problem& problem, const Place& from, double duration, const Progress& progress) {
     const Problem here = at_section(problem, from.section);
     const FlowMap seen = flow_map(here, from.state, duration, false, progress);
@@ -38,15 +39,15 @@ Place longest_flight(const Problem& problem, const Place& from, double duration,
     return {section_after(problem, from.section, middle), there.end};
 }
 
-// Newton's method from y; nothing when it does not converge.
+// Newton's method from y; nothing if it does not converge.
 std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
     const Eigen::Index n = y.size();
     double last = std::numeric_limits<double>::infinity();
-    for (int i = 0; i < kMostOrbitNewton; ++i) {
+    for (int i = 0; i < kMaxOrbitNewton; ++i) {
         const SectionMap::Value value = map.at(y, true);
         const Eigen::VectorXd residual = value.image - y;
         const double size = residual.norm();
-        if (!std::isfinite(size) || size > 1e3) return std::nullopt;
+        if (!std::isfinite(size) || size > kOrbitLost) return std::nullopt;
         if (size < kOrbitConverged || (size < kOrbitAcceptable && size > 0.5 * last)) return map.orbit(y, value);
         last = size;
         Eigen::VectorXd step = solve(value.derivative - Eigen::MatrixXd::Identity(n, n), -residual);
@@ -59,12 +60,12 @@ std::optional<PeriodicOrbit> newton(const SectionMap& map, Eigen::VectorXd y) {
 std::optional<PeriodicOrbit> newton_quietly(const SectionMap& map, const Eigen::VectorXd& y) {
     try {
         return newton(map, y);
-    } catch (const SolverError&) {  // an iterate left the machine
+    } catch (const SolverError&) {  // an iterate cannot be integrated
         return std::nullopt;
     }
 }
 
-// A shorter orbit that was gone through more than once.
+// True if the orbit consists of repetitions of a shorter one.
 bool repeats(const PeriodicOrbit& orbit) {
     const std::size_t count = orbit.impacts.size(), turns = static_cast<std::size_t>(orbit.turns);
     for (std::size_t times = 2; times <= turns; ++times) {
@@ -79,7 +80,7 @@ bool repeats(const PeriodicOrbit& orbit) {
     return false;
 }
 
-// Orbits through the place, the fewest turns first among those after which the motion comes back.
+// The orbit near the place with the smallest number of turns after which the motion returns to it.
 std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& place, const OrbitRequest& request,
                                            const Progress& progress) {
     const Problem here = at_section(problem, place.section);
@@ -101,8 +102,8 @@ std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& 
     return std::nullopt;
 }
 
-// The straight beam thrown from the cam at this cam angle, so high that it would come down after `period`; where it is
-// some time before. Nothing where it cannot.
+// A place in flight of the straight beam that is thrown off the cam at this cam angle with a speed for which it would
+// return after `period`. Nothing if no such flight exists.
 std::optional<Place> thrown(const Problem& problem, double section, double period, std::size_t size,
                             const Progress& progress) {
     System at(at_section(problem, section));
@@ -133,7 +134,7 @@ bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
            std::fabs(a.slowest_impact() - b.slowest_impact()) < kSameOrbit * a.slowest_impact();
 }
 
-// Where the motion chatters or is lost, orbits of few impacts may exist beside it.
+// Orbits with few impacts that may coexist with a motion that chatters or cannot be integrated.
 std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t size, const OrbitRequest& request,
                                             const Progress& progress) {
     std::vector<PeriodicOrbit> found;
@@ -149,7 +150,7 @@ std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t 
             if (request.impacts && static_cast<int>(orbit->impacts.size()) != *request.impacts) continue;
             if (std::none_of(found.begin(), found.end(), [&](const auto& o) { return same_orbit(o, *orbit); }))
                 found.push_back(std::move(*orbit));
-        } catch (const SolverError&) {  // thrown out of the machine
+        } catch (const SolverError&) {  // this throw cannot be integrated
         }
     }
     std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.stable() > b.stable(); });
@@ -181,7 +182,7 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
     const InitialState begin = initial_state(problem);
     std::vector<PeriodicOrbit> found;
     try {
-        Problem loose = problem;  // where the search begins need not be exact
+        Problem loose = problem;  // the start of the search need not be exact
         loose.solver = given.solver;
         Place place{problem.cam->phase, begin};
         if (request.transient > 0)
@@ -190,7 +191,7 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
         auto orbit = orbit_through(problem, place, request, progress);
         if (orbit && (!request.impacts || static_cast<int>(orbit->impacts.size()) == *request.impacts))
             found.push_back(std::move(*orbit));
-    } catch (const SolverError&) {  // the motion leaves the machine; orbits may exist all the same
+    } catch (const SolverError&) {  // the motion cannot be integrated, but orbits may exist
     }
     if (!found.empty() && !found.front().chatters()) return found;
     for (PeriodicOrbit& orbit : orbits_by_throws(problem, begin.y.size(), request, progress))

@@ -9,7 +9,7 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kFlow = kDirections - 1;  // the direction of the motion itself at events
+constexpr int kFlow = kDirections - 1;  // this direction of the jets carries the time derivative of the motion itself
 
 void seed(JetState& s, const double* y, const Phase& phase, bool bristle) {
     const std::size_t n = s.xi.size();
@@ -42,13 +42,13 @@ void Saltation::pass(double t, const double* before, const Phase& was, const dou
     if (was.held && !is.touching) ++lifts_;
     const bool jumps = !std::equal(after + n_, after + 2 * n_, before + n_);
     if (jumps)
-        strike(at, tangents);
+        impact(at, tangents);
     else if (!was.touching && is.touching)
         begin_touch(at, tangents);
     else if (was.touching && !is.touching)
         release(tangents);
-    else if (was.grip != is.grip)
-        change_grip(at, tangents);
+    else if (was.friction != is.friction)
+        change_friction(at, tangents);
     if (!is.touching && (jumps || was.touching)) left_ = t;
 }
 
@@ -65,14 +65,15 @@ std::vector<double> Saltation::flow_after(const Instant& at) {
     return flow;
 }
 
-// Of the contact near_, whose geometry `jets_` holds.
-void Saltation::note_touch(const Instant& at) {
+// After jets_.gap at the contact near_.
+void Saltation::record_touch(const Instant& at) {
     if (-near_.gap_rate > kRestSpeed)
         touches_.push_back(
             {at.t, -near_.gap_rate, at.t - left_, near_.x, jets_.foot(near_) - probe_.problem().beam.length});
 }
 
-// The state before an event as jets: tangents from column `first` on, and in the last direction the motion itself.
+// The state before an event as jets: the tangents from column `first` on and, in the last direction, the time
+// derivative of the motion.
 JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first) {
     std::vector<double> flow(static_cast<std::size_t>(probe_.size));
     probe_.set_phase(at.was);
@@ -93,15 +94,15 @@ JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangen
 }
 
 // Ξ v = D_xR v + (D_xR F⁻ + D_tR − F⁺) δt, δt = −D_x g v/ġ                                                       (S71)
-void Saltation::strike(const Instant& at, Eigen::MatrixXd& tangents) {
+void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
     const std::vector<double> flow = flow_after(at);
     const double rebound = probe_.contact(at.t, at.after, true).gap_rate;
     for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
         JetState s = jets_before(at, tangents, first);
         const double pre_set = probe_.problem().contact.restitution;
         const Jet gap = jets_.gap(s, near_).gap;
-        if (first == 0) note_touch(at);
-        jets_.strike(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
+        if (first == 0) record_touch(at);
+        jets_.apply_impact(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             const double delay = -gap.d[k] / gap.d[kFlow];
             for (int i = 0; i < n_; ++i) {
@@ -119,8 +120,8 @@ void Saltation::strike(const Instant& at, Eigen::MatrixXd& tangents) {
     keep_on_cam(at.t, at.after, tangents);
 }
 
-// Neighbours that rest on the cam have no gap and no gap rate either: rounding of (S71) at a vanishing speed is
-// removed.
+// Neighbouring motions in sustained contact have neither a gap nor a gap rate. Projecting both out of the tangents also
+// removes the rounding errors of (S71) at a vanishing speed.
 void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents) {
     const int freedoms = 2 * n_;
     Eigen::MatrixXd normals(freedoms, 2);  // gradients of gap and gap rate
@@ -141,7 +142,8 @@ void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents
         tangents.topRows(freedoms) -= normals * (normals.transpose() * tangents.topRows(freedoms)).eval();
 }
 
-// State and force go on; what the touch keeps is its approach speed, unless that is the floor or an earlier one. (S72)
+// State and force are continuous at a compliant touch. A new variable is its approach speed, unless that is the floor
+// or the speed of an earlier touch. (S72)
 void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
     for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
         const JetState s = jets_before(at, tangents, first);
@@ -149,9 +151,9 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
         const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
                            std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
         const ModalJets::Gap gap = jets_.gap(s, near_);
-        if (first == 0) note_touch(at);
+        if (first == 0) record_touch(at);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
-            tangents(2 * n_, first + k) = 0;  // the bristle is relaxed
+            tangents(2 * n_, first + k) = 0;  // the bristle starts without deflection
             double& row = tangents(rows_ - 1, first + k);
             const double delay = -gap.gap.d[k] / gap.gap.d[kFlow];
             if (keeps) row = -units_[rows_ - 1] * (gap.rate.d[k] + gap.rate.d[kFlow] * delay);
@@ -160,9 +162,10 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
     }
 }
 
-// Break-away drops the force if the static coefficient is larger; at the catch the bristle is put where it carries the
-// sliding force, and its rate goes on. A lagging bristle is a state throughout.                              (S36, S71)
-void Saltation::change_grip(const Instant& at, Eigen::MatrixXd& tangents) {
+// At break-away the friction force drops if μ_s > μ. When the bristle sticks again, its deflection is that of the
+// sliding force and its rate is continuous. The deflection of a lagging bristle is a state throughout.          (S36),
+// (S71)
+void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
     const FrictionLaw& friction = probe_.friction();
     const std::vector<double> flow = flow_after(at);
     for (Eigen::Index first = 0; first < tangents.cols(); first += kFlow) {
@@ -172,10 +175,10 @@ void Saltation::change_grip(const Instant& at, Eigen::MatrixXd& tangents) {
         Jet bristle_rate;
         jets_.flow(s, at.was, near_, acceleration, bristle_rate);
         const Jet guard = friction.limit * f.normal - fabs(f.friction);
-        const Jet caught = jets_.sliding_bristle(at.was.grip, f) - (friction.damping / friction.stiffness) * f.slip;
+        const Jet caught = jets_.sliding_bristle(at.was.friction, f) - (friction.damping / friction.stiffness) * f.slip;
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             double& bristle = tangents(2 * n_, first + k);
-            if (at.is.grip == Grip::stick) {
+            if (at.is.friction == FrictionState::stick) {
                 if (!friction.lags) bristle = units_[2 * n_] * caught.d[k];
                 continue;
             }
@@ -189,7 +192,8 @@ void Saltation::change_grip(const Instant& at, Eigen::MatrixXd& tangents) {
     }
 }
 
-// The force has faded: state and flow go on. What the touch kept is forgotten, unless the next one may keep it, too.
+// The force is zero at the release: state and flow are continuous. The approach speed is dropped, unless the next touch
+// may use it, too.
 void Saltation::release(Eigen::MatrixXd& tangents) {
     tangents.row(2 * n_).setZero();
     if (probe_.problem().contact.approach_floor.policy == ApproachFloorPolicy::value)

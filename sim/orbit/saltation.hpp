@@ -1,5 +1,5 @@
-// How small differences of neighbouring motions pass the events of a motion: touches, strikes, releases, changes of
-// grip. MODEL.md §16a.
+// Saltation: the jump of tangents (differences of neighbouring motions to first order) at touches, impacts, releases
+// and stick–slip transitions. MODEL.md (S71), (S72).
 #pragma once
 
 #include <Eigen/Core>
@@ -12,24 +12,24 @@ namespace beamcam::sim {
 struct TangentTouch {
     double t = 0;         // [s]
     double approach = 0;  // −ġ before it [m/s]
-    double flight = 0;    // since the beam left the cam, or since the start [s]
-    double x = 0;         // of the foot along the beam [m]
-    double overhang = 0;  // of the foot over the tip: negative between root and tip [m]
+    double flight = 0;    // duration of the flight before it [s]
+    double x = 0;         // x_c [m]
+    double overhang = 0;  // of the foot beyond the tip; negative between root and tip [m]
 };
 
 class Saltation {
   public:
-    // `jets` and `units` (of the rows of tangents) must outlive this.
+    // `jets` and `units` (of the rows of tangents) must outlive this object.
     Saltation(const System& system, ModalJets& jets, const Eigen::VectorXd& units);
 
-    // Tangents, in units, pass the event between the states before and after, if it is one.
+    // Applies the event between the states `before` and `after`, if there is one, to the tangents (in units).
     void pass(double t, const double* before, const Phase& was, const double* after, const Phase& is,
               Eigen::MatrixXd& tangents);
-    // A start on the cam with tangents that remain on it.
+    // Start in sustained contact: projects the tangents onto differences that remain on the cam.
     void start_on_cam(double t, const double* y, const Phase& is, Eigen::MatrixXd& tangents);
 
     const std::vector<TangentTouch>& touches() const { return touches_; }
-    long holds() const { return holds_; }  // strikes that sustained contact followed
+    long holds() const { return holds_; }  // impacts followed by sustained contact
     long lifts() const { return lifts_; }  // ends of sustained contact
 
   private:
@@ -38,22 +38,22 @@ class Saltation {
         const double *before, *after;
         const Phase &was, &is;
     };
-    void strike(const Instant& at, Eigen::MatrixXd& tangents);
+    void impact(const Instant& at, Eigen::MatrixXd& tangents);
     void begin_touch(const Instant& at, Eigen::MatrixXd& tangents);
-    void change_grip(const Instant& at, Eigen::MatrixXd& tangents);
+    void change_friction(const Instant& at, Eigen::MatrixXd& tangents);
     void release(Eigen::MatrixXd& tangents);
     void keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents);
     JetState jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first);
     std::vector<double> flow_after(const Instant& at);
-    void note_touch(const Instant& at);
+    void record_touch(const Instant& at);
 
-    System probe_;  // evaluates at events, so that the motion does not depend on it
+    System probe_;  // a separate copy, so that evaluations at events do not affect the motion
     ModalJets& jets_;
     const Eigen::VectorXd& units_;
     int n_, rows_;
     ContactState near_;  // at the last event
     std::vector<TangentTouch> touches_;
-    double left_ = 0;  // when the beam left the cam last [s]
+    double left_ = 0;  // instant of the last release [s]
     long holds_ = 0, lifts_ = 0;
 };
 

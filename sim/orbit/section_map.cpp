@@ -23,7 +23,7 @@ Problem for_orbits(Problem problem) {
     problem.solver.method = Method::automatic;
     problem.solver.rtol = std::min(problem.solver.rtol, kTightRtol);
     problem.solver.atol = std::min(problem.solver.atol, kTightAtol);
-    problem.solver.max_steps = std::min(problem.solver.max_steps, kMostMapSteps);
+    problem.solver.max_steps = std::min(problem.solver.max_steps, kMaxMapSteps);
     return problem;
 }
 
@@ -75,7 +75,7 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     for (const TangentTouch& touch : value.map.touches)
         orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach, touch.x, touch.overhang});
     Eigen::MatrixXd derivative = value.derivative;
-    if (like_.phase.held)  // neighbours on the cam only: leaving it is no freedom of the motion
+    if (like_.phase.held)  // only neighbouring states on the cam
         derivative = flow_map(problem_, orbit.start, period_, true, {}, StartOnCam::kept).derivative;
     const Eigen::VectorXcd multipliers = eigenvalues(derivative);
     orbit.multipliers.assign(multipliers.begin(), multipliers.end());

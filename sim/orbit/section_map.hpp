@@ -1,4 +1,4 @@
-// The section map: from the state at a cam angle to that some turns of the cam later. MODEL.md §16a.
+// The section map: from the state at a cam angle to the state some turns of the cam later. MODEL.md (S75).
 #pragma once
 
 #include <Eigen/Core>
@@ -8,22 +8,21 @@
 
 namespace beamcam::sim {
 
-// From the state at a cam angle, in units and over `size`, to that some turns later.                            (S75)
+// States are scaled: multiplied by `units` and divided by `size`.
 class SectionMap {
   public:
-    // `like` has the phase and the rest of the state.
+    // `like` supplies the phase and the remaining state variables.
     SectionMap(const Problem& problem, double section, int turns, InitialState like, Eigen::VectorXd units,
                double size);
     struct Value {
         Eigen::VectorXd image;
-        Eigen::MatrixXd derivative;  // empty if not asked for
+        Eigen::MatrixXd derivative;  // empty if not requested
         FlowMap map;
     };
     Value at(const Eigen::VectorXd& y, bool derivative) const;
 
     Eigen::VectorXd scaled(const InitialState& state) const;
     PeriodicOrbit orbit(const Eigen::VectorXd& y, const Value& value) const;
-    double period() const { return period_; }
 
   private:
     Problem problem_;
@@ -33,19 +32,19 @@ class SectionMap {
     Eigen::VectorXd units_;
 };
 
-// What states near an orbit are measured in.
+// Scale of the states near an orbit.
 struct SectionScale {
     Eigen::VectorXd units;
     double size = 1;
 };
 SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit);
 
-// Tolerances of the integration for orbits: tight, so that Newton's method ends near rounding.
+// The problem with tight tolerances, with which Newton's method converges to rounding.
 Problem for_orbits(Problem problem);
 
 // The problem with its cam at this angle at t = 0.
 Problem at_section(Problem problem, double section);
-// What deviations are measured by: the speed of impacts, or the state y in units itself without any.
+// The size of an orbit: the speed of its fastest impact in units or, without impacts, the norm of the state y in units.
 double size_of(const Problem& problem, const FlowMap& map, const Eigen::VectorXd& y);
 
 }  // namespace beamcam::sim

@@ -9,16 +9,16 @@
 namespace beamcam::sim {
 namespace {
 
-// Rows of one size: √J Ω and √m ω_i of angle and deflections, √J and √m of their rates.
+// √J Ω and √m ω_i of angle and deflections, √J and √m of their rates: each row is then the root of an energy.
 Eigen::VectorXd units_of(System& system) {
     const Problem& problem = system.problem();
     const auto& model = dynamic_cast<const ModalModel&>(system.model());
     const int n = system.coordinates();
-    const double spin = problem.cam ? std::fabs(problem.cam->speed) : 0;
+    const double speed = problem.cam ? std::fabs(problem.cam->speed) : 0;
     const double swing = std::sqrt(std::fabs(problem.gravity) / problem.beam.length);
     const double inertia = std::sqrt(model.matrices().J), mass = std::sqrt(model.mass());
     Eigen::VectorXd units = Eigen::VectorXd::Constant(2 * n + kTangentMemories, mass);
-    units[0] = inertia * std::max({spin, swing, 1e-3});
+    units[0] = inertia * std::max({speed, swing, kSlowestMotion});
     units[n] = inertia;
     for (int i = 1; i < n; ++i) units[i] = mass * model.frequency(i - 1);
     if (system.has_bristle()) units[2 * n] = std::sqrt(system.friction().stiffness);
@@ -42,7 +42,7 @@ TangentIntegrator::TangentIntegrator(System& system, std::unique_ptr<Integrator>
     tangents_.topRows(2 * n_) = tangents;
 }
 
-// At the start, after an event, and where the drive is not smooth.
+// Called at the beginning, after an event, and where the drive is not smooth.
 void TangentIntegrator::start(double t, const double* y) {
     const Phase is = system_.phase();
     const std::size_t touched = touches().size();
@@ -65,13 +65,13 @@ void TangentIntegrator::start(double t, const double* y) {
 const Segment& TangentIntegrator::step() {
     if (segment_) advance(segment_->t1);
     motion_->stop_at(std::min(stop_, end_));
-    return took(motion_->step());
+    return accept(motion_->step());
 }
 
-// Tangents follow once the step is final.
-const Segment& TangentIntegrator::shorten(double at) { return took(motion_->shorten(at)); }
+// The tangents advance once the step is final.
+const Segment& TangentIntegrator::shorten(double at) { return accept(motion_->shorten(at)); }
 
-const Segment& TangentIntegrator::took(const Segment& segment) {
+const Segment& TangentIntegrator::accept(const Segment& segment) {
     segment_ = &segment;
     counters = motion_->counters;
     return segment;

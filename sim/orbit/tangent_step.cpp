@@ -11,7 +11,7 @@
 namespace beamcam::sim {
 namespace {
 
-// The hub as an oscillator without stiffness: its response is the integral.
+// The hub as an oscillator without stiffness.
 StepTable::Row hub_row(double h) {
     const Collocation& gauss = Collocation::get();
     StepTable::Row row{};
@@ -56,7 +56,7 @@ void TangentStep::begin(const Phase& phase) {
     probe_.set_phase(phase);
 }
 
-// Its rows: the hub, the modes. The longest on the ladder that fits, or the rest.
+// The table of the step length of this level, or of the rest of the interval if that is shorter. Rows: hub, modes.
 const StepTable& TangentStep::table(int level, double rest) {
     const double h = step_length(level);
     const bool odd = rest <= kRestLevel * h && std::fabs(rest - h) > kSameLength * h;
@@ -68,7 +68,7 @@ const StepTable& TangentStep::table(int level, double rest) {
     return entry;
 }
 
-// D_xF at the nodes, less the oscillators.
+// D_xF at the nodes, without the oscillators.
 void TangentStep::differentiate(const Segment& motion, double t0, double h) {
     const Collocation& gauss = Collocation::get();
     const int columns = 2 * n_ + kTangentMemories;
@@ -113,7 +113,7 @@ void TangentStep::differentiate(const Segment& motion, double t0, double h) {
     }
 }
 
-// The equations of the nodal forcing: f_k − D_k Σ_l R_kl f_l = D_k v_k, v_k what the start alone leads to.
+// The equations of the nodal forcing: f_k − D_k Σ_l R_kl f_l = D_k v_k, v_k the unforced solution.
 void TangentStep::couple(const StepTable& table) {
     const Collocation& gauss = Collocation::get();
     matrix_.setIdentity(forced_ * kNodes, forced_ * kNodes);

@@ -1,6 +1,6 @@
-// Small differences of neighbouring motions along a motion that is known: within a phase they obey v̇ = D_xF v, a linear
-// equation of oscillators with a forcing that is linear in v. It is solved by the exponential collocation of
-// MODEL.md §12, whose nodal equations are linear here and solved directly, however strong the coupling. MODEL.md §16a.
+// Integrates tangents along a given motion. Within a phase they obey v̇ = D_xF v: oscillators with a forcing that is
+// linear in v. The exponential collocation of MODEL.md §12 has linear nodal equations here, which are solved directly,
+// however strong the coupling. MODEL.md (S70).
 #pragma once
 
 #include <Eigen/Core>
@@ -13,20 +13,18 @@
 
 namespace beamcam::sim {
 
-// A step of the tangents of one phase.                                                                           (S70)
 class TangentStep {
   public:
-    // `probe` evaluates the contact along the motion; it, `jets` and `units` (of the rows of tangents) must outlive
-    // this. Errors are kept below rtol of each tangent.
+    // `probe` evaluates the contact along the motion. It, `jets` and `units` (of the rows of tangents) must outlive
+    // this object. Errors are kept below rtol of each tangent.
     TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol);
 
-    // A phase begins, or goes on after an event.
     void begin(const Phase& phase);
-    // From t0 to t1 inside the segment, in the phase that began. Tangents are columns, their rows in units.
+    // From t0 to t1 inside the segment. Tangents are columns; their rows are in units.
     void advance(const Segment& motion, double t0, double t1, Eigen::MatrixXd& tangents);
 
   private:
-    // What the forcing of a component answers to at the nodes: a row for each, columns as the rows of tangents.
+    // Derivative of the forcing at one node: a row for each forced component, columns as the rows of tangents.
     using NodalDerivative = Eigen::MatrixXd;
 
     const StepTable& table(int level, double rest);

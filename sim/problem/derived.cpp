@@ -1,10 +1,11 @@
-// Values that follow from a problem's numbers.
-#include "sim/problem/derived.hpp"
-
+// The derived values of problem.hpp.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "sim/base/assert.hpp"
+#include "sim/problem/constants.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 
@@ -24,11 +25,9 @@ double contact_stiffness(const Problem& problem) {
     return 4.0 / 3.0 / compliance * std::sqrt(cam.radius);  // (S29)
 }
 
-// Auto: 20 ms for a beam of 1 m that falls on Earth; without gravity as if it did.
 double collision_gap(const Problem& problem) {
-    constexpr double kEarth = 9.81;  // [m/s²]
-    const double g = problem.gravity == 0 ? kEarth : std::fabs(problem.gravity);
-    return problem.contact.collision_gap.value_or(0.02 * std::sqrt(problem.beam.length * kEarth / g));
+    const double g = problem.gravity == 0 ? kEarthGravity : std::fabs(problem.gravity);
+    return problem.contact.collision_gap.value_or(kCollisionGap * std::sqrt(problem.beam.length * kEarthGravity / g));
 }
 
 double contact_offset(const Problem& problem) { return problem.contact.offset.value_or(0.5 * problem.beam.depth); }
@@ -40,6 +39,12 @@ CamPose cam_pose(const Cam& cam, double t) {
     pose.disc = cam.centre + arm;  // (S23)
     pose.velocity = -cam.speed * perp(arm);
     return pose;
+}
+
+// In factors that cannot overflow together.
+double first_clamped_frequency(const Beam& b) {
+    return kFirstClampedFrequency * std::sqrt(b.youngs_modulus) * std::sqrt(b.second_moment) /
+           (std::sqrt(b.density) * std::sqrt(b.area)) / b.length / b.length;
 }
 
 double impact_depth(double exponent, double stiffness, double mass, double speed) {
@@ -54,7 +59,6 @@ double cam_period(const Problem& problem) {
 
 double turn_fraction(double turns) { return turns - std::floor(turns); }
 
-// ψ = ψ₀ − ωt.
 double section_phase(const Problem& problem, double psi) {
     if (!problem.cam || problem.cam->speed == 0) return 0;
     return turn_fraction(std::copysign(1, problem.cam->speed) * (problem.cam->phase - psi) / (2 * std::numbers::pi));
@@ -62,8 +66,8 @@ double section_phase(const Problem& problem, double psi) {
 
 void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes) {
     Beam& beam = problem.beam;
-    const bool bends = model == ModelKind::exact;  // its coordinates are angles
-    const bool same = basis == beam.basis && bends == (beam.model == ModelKind::exact) && model != ModelKind::rigid;
+    const bool angles = model == ModelKind::exact;  // its coordinates are angles, those of other models lengths
+    const bool same = basis == beam.basis && angles == (beam.model == ModelKind::exact) && model != ModelKind::rigid;
     const auto count = static_cast<std::size_t>(modes);
     for (std::vector<double>* given : {&problem.initial.q, &problem.initial.q_dot})
         given->resize(same ? std::min(given->size(), count) : 0);

@@ -9,7 +9,7 @@
 namespace beamcam::sim {
 
 bool same(const Dimension& a, const Dimension& b) {
-    // Exponents are small decimals such as 1.5 or 3/2; 1e-9 is far below any difference that is meant.
+    // Exponents are small decimals such as 1.5; 1e-9 covers their rounding.
     auto equal = [](double x, double y) { return std::abs(x - y) < 1e-9; };
     return equal(a.length, b.length) && equal(a.mass, b.mass) && equal(a.time, b.time) && equal(a.angle, b.angle);
 }

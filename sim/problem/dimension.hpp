@@ -1,4 +1,4 @@
-// The dimension of a quantity. Angles count as a dimension of their own, so that Hz (cycles) is never taken for rad/s.
+// The dimension of a quantity. The angle is a base dimension here, so that Hz (cycles) is not confused with rad/s.
 #pragma once
 
 #include <string>
@@ -32,7 +32,7 @@ constexpr Dimension kSpringDamping{0, 1, -1, 0};    // N s/m
 constexpr Dimension contact_stiffness(double n) { return {1 - n, 1, -2, 0}; }
 }  // namespace dimension
 
-// The SI unit in which plain numbers of that dimension are read: "m", "rad/s", "N/m^1.5", "1".
+// The SI unit of plain numbers of this dimension: "m", "rad/s", "N/m^1.5", "1".
 std::string si_unit(const Dimension& dimension);
 
 }  // namespace beamcam::sim

@@ -57,7 +57,7 @@ static void visit(Visitor& v, Hub& hub) {
     v.number("radius", hub.radius, dim::kLength, kAny,
              "Distance from the fixed axis O to the root of the beam; negative: the root lies beyond the axis.");
     v.number("inertia", hub.inertia, dim::kInertia, kNotNegative, "Moment of inertia about O.");
-    v.object("drive", hub.drive, "What turns the hub.");
+    v.object("drive", hub.drive, "Drive of the hub.");
 }
 
 // ---- beam ------------------------------------------------------------------------------------
@@ -168,8 +168,8 @@ static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
              "straight; static: in equilibrium with the hub held; resting: in equilibrium on the cam.");
     v.numbers(
         written_if(!initial.q.empty(), "q"), initial.q, angles ? dim::kAngle : dim::kLength, kAny, {0, 40},
-        "Coordinates of the first shapes, as the channels q1, q2 … say them, in place of a straight beam; of the model "
-        "\"exact\" in rad. With \"angle\", \"angular_velocity\" and \"q_dot\" the whole state.");
+        "Coordinates of the first shapes (channels q1, q2 …) of a beam that is not straight at the start; in rad for "
+        "the model \"exact\". Together with \"angle\", \"angular_velocity\" and \"q_dot\" they are the whole state.");
     v.numbers(written_if(!initial.q_dot.empty(), "q_dot"), initial.q_dot, angles ? dim::kAngularSpeed : dim::kSpeed,
               kAny, {0, 40}, "Their rates.");
 }
@@ -177,7 +177,7 @@ static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
 static void visit(Visitor& v, Solver& solver) {
     v.choice("method", solver.method, "Integrator.");
     v.number("rtol", solver.rtol, dim::kNone, between(1e-13, 1e-2), "Relative tolerance.");
-    // Below 1e-40 nothing moves by as much: a tolerance of zero by another name.
+    // Below 1e-40 the tolerance would be zero in effect.
     v.number("atol", solver.atol, dim::kNone, between(1e-40, 1e10), "Absolute tolerance.");
     v.integer("max_steps", solver.max_steps, 1, 2'000'000'000,
               "Steps that a run may try before it stops with an error (exit code 4).");

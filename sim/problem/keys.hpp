@@ -1,5 +1,5 @@
-// Every key that describes a problem, once: its name, unit, range and meaning. What reads, writes, checks or explains
-// problems is a Visitor and visits the keys; a new key is one line in `visit` of its struct.
+// The keys of a problem: name, unit, range and meaning of each, described once. Readers, writers, checks and the
+// reference are Visitors of these keys; a new key is one line in `visit` of its struct.
 #pragma once
 
 #include <functional>
@@ -18,9 +18,9 @@ namespace beamcam::sim {
 
 struct Key {
     const char* name;
-    const char* example = nullptr;  // of a key that must be given; absent: it may be left out
-    bool written = true;            // false: the value means nothing here and is not written
-    bool derived = false;           // the default follows from other keys
+    const char* example = nullptr;  // present only for a required key
+    bool written = true;            // false: writers leave out the key, because its value has no meaning here
+    bool derived = false;           // the default depends on other keys
 
     // NOLINTNEXTLINE(google-explicit-constructor): most keys are a name alone
     constexpr Key(const char* key) : name(key) {}
@@ -36,8 +36,8 @@ constexpr Key derived(const char* name) {
 
 struct Unit {
     Dimension dimension;
-    const double* exponent = nullptr;  // n of a stiffness in N/m^n, which another key gives
-    bool plain = false;                // a number in JSON alone, never a text
+    const double* exponent = nullptr;  // of a stiffness in N/m^n: n, the value of another key
+    bool plain = false;                // only a JSON number, never a string with a unit
 
     // NOLINTNEXTLINE(google-explicit-constructor): most units are a dimension alone
     constexpr Unit(const Dimension& of) : dimension(of) {}
@@ -52,10 +52,9 @@ struct Range {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
     double least = -kInfinity, most = kInfinity;
-    bool without_least = false, without_most = false;  // the bound itself is outside
-    // What a message says after "KEY = VALUE", where "is outside LEAST … MOST" would not be plain.
-    const char* complaint = nullptr;
-    const char* remedy = "";  // what it says at its end
+    bool without_least = false, without_most = false;  // the interval is open at this end
+    const char* complaint = nullptr;  // follows "KEY = VALUE" in messages, in place of "is outside LEAST … MOST"
+    const char* remedy = "";          // ends the message
 
     bool contains(double value) const {
         return (without_least ? value > least : value >= least) && (without_most ? value < most : value <= most);
@@ -73,7 +72,7 @@ struct Named {
     Enum value;
     const char* name;
 };
-// The names of a closed set, in the order of its documentation.
+// The names of an enumeration's values, in the order of the reference.
 std::span<const Named<ModelKind>> names(ModelKind);
 std::span<const Named<Basis>> names(Basis);
 std::span<const Named<DampingLaw>> names(DampingLaw);
@@ -85,21 +84,21 @@ std::span<const Named<Method>> names(Method);
 
 class Visitor;
 
-// One of the shapes that an object may have. Tags are keys with a fixed word, and tell the shapes apart.
+// One of the variants of an object. Tags are keys with a fixed string, which distinguish the variants.
 struct Alternative {
     std::vector<std::pair<const char*, const char*>> tags;
     const char* meaning;
-    bool chosen;                           // the value has this shape
-    std::function<void(Visitor&)> fields;  // gives the value this shape if it has another
+    bool chosen;                           // the value is of this variant
+    std::function<void(Visitor&)> fields;  // visits the fields, after a change to this variant if necessary
 };
 template <class Shape, class... Shapes>
 Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<const char*, const char*>> tags,
                         const char* meaning);
 
-// How many numbers a list has. Of a list of `modes`, one number may stand alone.
+// Number of entries of a list.
 struct Length {
     std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
-    bool or_one_number = false;
+    bool or_one_number = false;  // a single number may replace the list
 };
 
 class Visitor {
@@ -107,7 +106,7 @@ class Visitor {
     virtual ~Visitor() = default;
 
     virtual void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) = 0;
-    // Absent: nothing is written, or `word` where there is one.
+    // An absent value is not written, or as `word` if that is not null.
     virtual void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                         const char* meaning, const char* word = nullptr) = 0;
     virtual void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
@@ -117,13 +116,13 @@ class Visitor {
     virtual void text(const Key& key, std::string& value, const char* meaning) = 0;
     virtual void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
                          const char* meaning) = 0;
-    // An object; `present` where null may stand for it, and says whether it does not.
+    // An object. `present` is not null if the value may be null; it states whether the object exists.
     virtual void object(const Key& key, const std::function<void(Visitor&)>& fields, const char* meaning,
                         bool* present = nullptr) = 0;
-    // The object that is visited is one of these.
+    // The visited object is one of these variants.
     virtual void alternatives(const std::vector<Alternative>& all) = 0;
 
-    // ---- of those above ----
+    // ---- built from the functions above ----
     void integer(const Key& key, int& value, int least, int most, const char* meaning) {
         std::optional<int> some = value;
         integer(key, some, least, most, meaning);

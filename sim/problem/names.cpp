@@ -1,5 +1,5 @@
-// The names that scenes, tables and messages use for the closed sets of problem.hpp; those of the dissipation laws
-// stand beside their formulas in contact/dissipation.cpp.
+// The names of the enumerations of problem.hpp in scenes, tables and messages. Those of the dissipation laws are beside
+// their formulas in contact/dissipation.cpp.
 #include "sim/problem/keys.hpp"
 
 namespace beamcam::sim {

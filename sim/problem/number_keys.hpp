@@ -1,5 +1,4 @@
-// The keys of a problem that are numbers, by their path ("cam.speed", "cam.centre.0", "initial.angle"): what a sweep
-// can vary.
+// The numerical keys of a problem by their path ("cam.speed", "cam.centre.0", "initial.angle"). Sweeps vary them.
 #pragma once
 
 #include <optional>
@@ -15,15 +14,15 @@ namespace beamcam::sim {
 struct NumberKey {
     std::string path;
     Dimension dimension;
-    bool whole = false;  // takes whole numbers alone
-    double value = 0;    // NaN where the key is not given
+    bool whole = false;  // integers only
+    double value = 0;    // NaN where the key is absent
 };
-// Of the problem as it is: the keys of its own drive, friction and so on.
+// Only the keys of the problem's own variants of drive, friction and so on.
 std::vector<NumberKey> number_keys(const Problem& problem);
 std::optional<NumberKey> number_key(const Problem& problem, std::string_view path);
 
-// False where the problem has no such key, or the key takes whole numbers alone and this is none. Ranges are judged by
-// `validate`.
+// False where the problem has no such key, or the key takes only integers and the value is not one. `validate` checks
+// ranges.
 bool set_number(Problem& problem, std::string_view path, double value);
 
 }  // namespace beamcam::sim

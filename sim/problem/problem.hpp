@@ -1,8 +1,5 @@
-// The mechanical problem that one simulation solves: hub, beam, cam, contact law, drive, initial
-// state, solver settings. Plain numbers, SI throughout; MODEL.md defines every symbol.
-//
-// A Problem says nothing about files, pictures or JSON. `validate` returns every impossible or
-// pointless value at once, each with the scene key it belongs to; nothing here throws.
+// The mechanical problem that one simulation solves: hub, beam, cam, contact law, drive, initial state, solver
+// settings. SI units throughout; MODEL.md defines every symbol. A Problem knows no files, pictures or JSON.
 #pragma once
 
 #include <optional>
@@ -25,7 +22,7 @@ struct HarmonicTorque {    // amplitude · sin(2π·frequency·t + phase)
     double frequency = 0;  // [Hz], >= 0
     double phase = 0;      // [rad]
 };
-struct TorqueTable {             // linear between the points, held constant outside them
+struct TorqueTable {             // linear between the points, constant outside them
     std::vector<double> t;       // [s], strictly increasing, at least one
     std::vector<double> torque;  // [N m]
 };
@@ -36,13 +33,13 @@ struct SpinUp {           // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, t
     double speed = 0;     // Ω [rad/s]
     double duration = 1;  // T [s], > 0
 };
-struct AngleTable {         // natural cubic spline through the points (C²), outside them straight on at the end speeds
-    std::vector<double> t;  // [s], strictly increasing, at least two
+struct AngleTable {             // natural cubic spline through the points, linear outside them
+    std::vector<double> t;      // [s], strictly increasing, at least two
     std::vector<double> theta;  // [rad]
 };
 using Drive = std::variant<FreeDrive, ConstantTorque, HarmonicTorque, TorqueTable, ConstantSpeed, SpinUp, AngleTable>;
 
-// True when the law gives θ(t) and only the beam is integrated.
+// Whether the drive prescribes θ(t), so that only the beam is integrated.
 bool is_prescribed(const Drive& drive);
 
 struct Hub {
@@ -63,11 +60,11 @@ struct Beam {
     double density = 2766.7;            // ρ [kg/m³], > 0
     double youngs_modulus = 6.8952e10;  // E [Pa], > 0
     double poisson_ratio = 0.3;         // ν [–], −1 < ν < 0.5; Hertz stiffness only
-    double depth = 0.0368;              // h [m], > 0; drawn, and the contact offset "half-depth"
+    double depth = 0.0368;              // h [m], > 0; for drawing and the contact offset "half-depth"
     ModelKind model = ModelKind::first_order;
     Basis basis = Basis::automatic;      // automatic: cantilever for prescribed drive and `paper`, else hub-beam
     int modes = 2;                       // N, 1…40; ignored by `rigid`
-    std::vector<double> damping_ratio;   // ζ_i [–], >= 0; empty: none; one value: all modes; else one per mode
+    std::vector<double> damping_ratio;   // ζ_i [–], >= 0; empty: none; one value for all modes, or one per mode
     std::optional<double> kelvin_voigt;  // η [s], >= 0; excludes damping_ratio
 
     double line_density() const { return density * area; }                       // ρA [kg/m]
@@ -82,7 +79,7 @@ struct Cam {
     double eccentricity = 0.02;            // e [m], 0 <= e < R
     double phase = 0;                      // ψ₀ [rad], counter-clockwise angle of B about C at t = 0
     double speed = 1;                      // ω [rad/s], positive clockwise: ψ = ψ₀ − ω t
-    std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; the beam's when absent
+    std::optional<double> youngs_modulus;  // [Pa]; Hertz stiffness only; absent: that of the beam
     double poisson_ratio = 0.3;            // [–]
 };
 
@@ -109,9 +106,9 @@ struct CoulombFriction {
 };
 struct StickSlipFriction {
     double coefficient = 0.2;                  // μ, kinetic [–], >= 0
-    std::optional<double> static_coefficient;  // μ_s >= μ; μ when absent
-    std::optional<double> stiffness;           // bristle [N/m], > 0; MODEL.md states the default
-    std::optional<double> damping;             // bristle [N s/m], >= 0; MODEL.md states the default
+    std::optional<double> static_coefficient;  // μ_s >= μ; absent: μ
+    std::optional<double> stiffness;           // bristle [N/m], > 0; absent: (S37)
+    std::optional<double> damping;             // bristle [N s/m], >= 0; absent: 0
 };
 using Friction = std::variant<NoFriction, CoulombFriction, StickSlipFriction>;
 
@@ -123,13 +120,14 @@ struct ApproachFloor {
 
 struct Contact {
     ContactModel model = ContactModel::compliant;
-    std::optional<double> stiffness = 1e8;  // K [N/m^n], > 0; absent: "hertz", from the materials
+    std::optional<double> stiffness = 1e8;  // K [N/m^n], > 0; absent: Hertz's (S29)
     double exponent = 1.5;                  // n [–], 1…2
     DampingLaw damping = DampingLaw::lankarani_nikravesh;
     double restitution = 0.7;           // c_r [–], 0…1
-    ImpactLaw law = ImpactLaw::newton;  // of the model `restitution`
+    ImpactLaw law = ImpactLaw::newton;  // of ContactModel::restitution
     Friction friction;
-    std::optional<double> offset = 0.0;  // d [m], >= 0, of the contact face; absent: "half-depth"
+    std::optional<double> offset =
+        0.0;  // d [m], >= 0, from the centre line to the contact face; absent: half the depth
     ApproachFloor approach_floor;
     std::optional<double> collision_gap = 0.02;  // [s]: impacts closer than this form one collision; absent: "auto"
 };
@@ -139,9 +137,10 @@ struct Contact {
 enum class InitialShape { straight, static_equilibrium, resting };
 struct Initial {
     double angle = 0.78539816339744830962;  // θ(0) [rad], of the hub
-    double angular_velocity = 0;            // [rad/s], rigid rotation of the given shape
+    double angular_velocity = 0;            // of the hub, θ̇(0) [rad/s]
     InitialShape shape = InitialShape::straight;
-    std::vector<double> q = {}, q_dot = {};  // of a straight beam's first shapes, besides the rotation; others are 0
+    std::vector<double> q = {},
+                        q_dot = {};  // coordinates and rates of the first shapes (only `straight`); others are 0
 };
 
 enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
@@ -149,7 +148,7 @@ struct Solver {
     Method method = Method::automatic;
     double rtol = 1e-8;           // 1e-13…1e-2
     double atol = 1e-11;          // > 0
-    int max_steps = 100'000'000;  // steps that a run may try, 1…2e9
+    int max_steps = 100'000'000;  // attempted steps of a run, 1…2e9
 };
 
 struct Problem {
@@ -162,23 +161,36 @@ struct Problem {
     Solver solver;
 };
 
-// ---- derived ---------------------------------------------------------------------------------
+// ---- derived values --------------------------------------------------------------------------
 
 Basis resolved_basis(const Problem& problem);      // never `automatic`
-double contact_stiffness(const Problem& problem);  // K, Hertz evaluated [N/m^n]
+double contact_stiffness(const Problem& problem);  // K; Hertz's from the materials (S29) [N/m^n]
 double contact_offset(const Problem& problem);     // d [m]
-double collision_gap(const Problem& problem);      // [s]; "auto": in proportion to the time of a fall, √(L/g)
-double cam_period(const Problem& problem);         // 2π/|ω|; 1 s with a cam at rest or without a cam [s]
-double turn_fraction(double turns);                // without the whole ones: 0 … 1
-// Turns after the start at which the cam's angle is ψ: 0 … 1.
+double collision_gap(const Problem& problem);      // "auto": proportional to the time of a fall, √(L/g) [s]
+double first_clamped_frequency(const Beam& beam);  // 3.516 √(EI/ρA)/L² [rad/s]
+double cam_period(const Problem& problem);         // 2π/|ω|; 1 s if the cam is at rest or absent [s]
+double turn_fraction(double turns);                // fractional part, in [0, 1)
+// Fraction of a turn after t = 0 at which the cam's angle is ψ, in [0, 1).
 double section_phase(const Problem& problem, double psi);
-// Dissipation factor D_c of F = Kδⁿ(1 + D_c δ̇/δ̇₋) for a pre-set restitution c.
+
+struct CamPose {
+    double angle = 0;  // ψ [rad]
+    Vec2 disc;         // B [m]
+    Vec2 velocity;     // Ḃ [m/s]
+};
+CamPose cam_pose(const Cam& cam, double t);  // (S23)
+inline Vec2 disc_centre(const Cam& cam, double t) { return cam_pose(cam, t).disc; }
+
+// Maximum penetration of a mass that hits an undamped contact F = K δⁿ at this speed,
+// [(n+1) m v²/(2K)]^{1/(n+1)} [m] (S37).
+double impact_depth(double exponent, double stiffness, double mass, double speed);
+// Dissipation factor D of F = Kδⁿ(1 + D δ̇/δ̇₋) for the pre-set restitution (S31).
 double damping_factor(DampingLaw law, double restitution);
-// The restitution that such a contact really has: D(1+e) = ln[(1+D)/(1−eD)].
+// The restitution that this contact has: the root e of D(1+e) = ln[(1+D)/(1−eD)] (S31).
 double effective_restitution(double damping_factor);
 
-// Another model, other shapes or another number of them. The last damping ratio serves shapes that are added; initial
-// coordinates stay as far as they mean the same.
+// Changes model, basis and number of shapes. Added shapes take the last damping ratio; initial coordinates are kept as
+// far as they mean the same.
 void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes);
 
 // Names as scenes spell them ("first-order", "hub-beam", "lankarani-nikravesh", …).
@@ -190,14 +202,14 @@ const char* name(ContactModel);
 const char* name(InitialShape);
 const char* name(Method);
 
-struct Finding {
+struct Issue {
     std::string path;     // scene key, "cam.eccentricity"
-    std::string message;  // what, which value, what to do
-    bool fatal = true;    // false: a warning (pointless, not impossible)
+    std::string message;  // cause, value and remedy
+    bool fatal = true;    // false: a warning
 };
-// Every violated range of the comments above, and every impossible combination (cam over the hub,
-// overlap at the start, e >= R, hub-beam basis with a prescribed drive, …); also warnings such as a
-// cam that the beam cannot reach. Cheap: no simulation.
-std::vector<Finding> validate(const Problem& problem);
+// All issues at once: values outside the ranges above, impossible combinations (cam over the hub, overlap at the start,
+// e >= R, hub-beam basis with a prescribed drive, …), and warnings such as a cam that the beam cannot reach. Simulates
+// nothing.
+std::vector<Issue> validate(const Problem& problem);
 
 }  // namespace beamcam::sim

@@ -4,21 +4,22 @@
 #include <array>
 #include <cmath>
 
+#include "sim/contact/constants.hpp"
 #include "sim/dynamics/failure.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-// Equal steps through a segment.
+// Instants at equal intervals in a segment.
 struct Instants {
     double t0, t1;
     int count;
     double operator()(int i) const { return i == count ? t1 : t0 + (t1 - t0) * i / count; }
 };
 
-// Where a guard without a rate, known by its values f[0…last] at the instants, falls below zero between two of them
-// that do not show it. The rates are differences; they are looked for unless the values stay farther from zero than
-// a curve bends that changes by them.
+// The first instant at which a guard falls below zero between two of its samples f[0…last] that are positive. The
+// search uses finite differences for the rate, and is skipped where the samples exceed their own largest second
+// difference.
 template <class Value>
 std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, const double* f, int last) {
     const double step = kGuardDifference * (time.t1 - time.t0);
@@ -31,7 +32,7 @@ std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, 
     const double deep = kGuardRounding * std::fabs(*std::max_element(f, f + last + 1));
     for (int i = 1; i <= last; ++i) {
         if (!(f[i - 1] > 0) || f[i] < 0 || (last > 1 && std::min(f[i - 1], f[i]) > bend)) continue;
-        // A guard that starts at zero has the sign that was seen, not that of another rounding.
+        // The sampled values decide the sign: a second evaluation near zero may round otherwise.
         Guard before = guard(time(i - 1)), after = guard(time(i));
         before.value = f[i - 1];
         after.value = f[i];
@@ -48,11 +49,11 @@ Event ContactGuards::first_lift(const Segment& segment) {
     const auto force = [&](double t) { return probe_.contact(segment, t, false).force; };
     std::array<double, kMaxPieces + 1> f;
     for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] = force(time(i));
-    // Rounding of a vanishing force does not lift.
-    const double none = -kVanishingForce * (std::fabs(probe_.system.problem().gravity) * probe_.system.model().mass() +
-                                            *std::max_element(f.begin(), f.begin() + count + 1));
-    for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= none;
-    const auto lifted = [&](double t) { return force(t) - none; };
+    // A tensile force below this limit is rounding.
+    const double limit = -kVanishingForce * (std::fabs(probe_.system.problem().gravity) * probe_.system.model().mass() +
+                                             *std::max_element(f.begin(), f.begin() + count + 1));
+    for (int i = 0; i <= count; ++i) f[static_cast<std::size_t>(i)] -= limit;
+    const auto lifted = [&](double t) { return force(t) - limit; };
     if (f[0] < 0) return {EventKind::lift, segment.t0};
     const int last =
         static_cast<int>(std::find_if(f.begin() + 1, f.begin() + count, [](double v) { return v < 0; }) - f.begin());
@@ -68,32 +69,31 @@ ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) 
     Guards w{c.side, {t, -c.gap, -c.gap_rate}, c.factor, 1};
     const FrictionLaw& friction = probe_.system.friction();
     if (!friction.bristle) return w;
-    if (state_.phase.grip == Grip::stick) {
-        w.grip = friction.limit * c.force - std::fabs(c.friction);
+    if (state_.phase.friction == FrictionState::stick) {
+        w.friction = friction.limit * c.force - std::fabs(c.friction);
     } else if (friction.lags) {
-        w.grip =
-            friction.foot_speed(state_.phase.grip, c.force, c.slip, probe_.state()[2 * probe_.system.coordinates()]);
+        w.friction = friction.foot_speed(state_.phase.friction, c.force, c.slip,
+                                         probe_.state()[2 * probe_.system.coordinates()]);
     } else {
-        w.grip = sliding_guard(segment, t, c.slip);
+        w.friction = sliding_guard(segment, t, c.slip);
     }
     return w;
 }
 
-// An event at the very passage may end a step between two looks.
 void ContactGuards::check_side(const Guards& now) {
     if (now.side * state_.side < 0 && now.release.value > 0)
         throw RunStopped(Stop::passed_cam, "the beam passed through the cam");
     if (now.side != 0) state_.side = now.side;
 }
 
-// The speed of a sliding bristle's foot along its direction, s v_t − μṄ/k.
+// Speed of a sliding bristle's foot in the direction of sliding, s v_t − μṄ/k (S36).
 double ContactGuards::sliding_guard(const Segment& segment, double t, double slip) {
     const FrictionLaw& friction = probe_.system.friction();
     const double step = kForceDifference * (segment.t1 - segment.t0);
     const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
     const double growth =
         (probe_.contact(segment, late, false).force - probe_.contact(segment, early, false).force) / (late - early);
-    return FrictionLaw::sign(state_.phase.grip) * slip - friction.kinetic * growth / friction.stiffness;
+    return FrictionLaw::sign(state_.phase.friction) * slip - friction.kinetic * growth / friction.stiffness;
 }
 
 Event ContactGuards::first_event(const Segment& segment) {
@@ -110,41 +110,43 @@ Event ContactGuards::first_event(const Segment& segment) {
     const int count = std::max(probe_.pieces(segment), probe_.pieces_by_travel(segment, probe_.range(segment)));
     const Instants time{segment.t0, segment.t1, count};
     const auto release = [&](double t) { return evaluate(segment, t).release; };
-    const auto grip_at = [&](double t) { return evaluate(segment, t).grip; };
+    const auto friction_at = [&](double t) { return evaluate(segment, t).friction; };
     Event best;
     const auto offer = [&](EventKind kind, std::optional<double> t) {
         if (t && (best.kind == EventKind::none || *t < best.t)) best = {kind, *t};
     };
     Guards a = evaluate(segment, segment.t0);
     check_side(a);
-    grip_.assign(static_cast<std::size_t>(count) + 1, a.grip);
+    friction_.assign(static_cast<std::size_t>(count) + 1, a.friction);
     if (segment.t0 == state_.phase_start) a.release.value = std::max(a.release.value, 0.0);
     int last = 0;
     while (last < time.count && best.kind == EventKind::none) {
         const Guards b = evaluate(segment, time(++last));
         check_side(b);
-        grip_[static_cast<std::size_t>(last)] = b.grip;
+        friction_[static_cast<std::size_t>(last)] = b.friction;
         offer(EventKind::release, first_fall(release, a.release, b.release, probe_.gap_rounding()));
         offer(EventKind::clamp, clamp_event(segment, a, b));
-        if (b.grip < 0 && may_change_grip())
-            offer(EventKind::grip,
-                  a.grip > 0 ? find_root(grip_at, a.release.t, b.release.t, a.grip, b.grip) : a.release.t);
+        if (b.friction < 0 && may_change_friction())
+            offer(EventKind::friction, a.friction > 0
+                                           ? find_root(friction_at, a.release.t, b.release.t, a.friction, b.friction)
+                                           : a.release.t);
         a = b;
     }
     if (!probe_.system.has_bristle()) return best;
-    const auto at = first_dip_of_samples(grip_at, time, grip_.data(), last);
-    if (at && (best.kind == EventKind::none || *at < best.t) && may_change_grip()) return {EventKind::grip, *at};
+    const auto at = first_dip_of_samples(friction_at, time, friction_.data(), last);
+    if (at && (best.kind == EventKind::none || *at < best.t) && may_change_friction())
+        return {EventKind::friction, *at};
     return best;
 }
 
-// Else it stays for this step: too many changes at one instant.
-bool ContactGuards::may_change_grip() {
-    if (state_.idle_events <= kMostFlips) return true;
-    ++state_.statistics.fallbacks.grips;
+// False after too many changes at one instant: the friction state then lasts for this step.
+bool ContactGuards::may_change_friction() {
+    if (state_.idle_events <= kMaxInstantEvents) return true;
+    ++state_.statistics.fallbacks.friction_changes;
     return false;
 }
 
-// Where the clamp of the force sets in or lets go.
+// The instant at which the clamp of the force starts or ends.
 std::optional<double> ContactGuards::clamp_event(const Segment& segment, const Guards& a, const Guards& b) {
     const NormalLaw& law = probe_.system.normal_law();
     if (!(law.damping > 0)) return std::nullopt;
@@ -155,7 +157,7 @@ std::optional<double> ContactGuards::clamp_event(const Segment& segment, const G
     std::optional<double> at;
     for (int tries = 0; tries < 2; ++tries, state_.clamp_side = -state_.clamp_side) {
         at = first_passing(penetration, a.release, b.release, level, state_.clamp_side, -kZeroFactor * level);
-        // Else it starts on the kink, and was taken to be on the wrong side of it.
+        // Otherwise the step starts on the kink, and the assumed side of it was wrong.
         if (known || !at || *at - t0 > kOnKink * (t1 - t0)) break;
     }
     const bool shows = known && std::fabs(b.clamp) > kZeroFactor && (a.clamp > 0) != (b.clamp > 0);

@@ -1,5 +1,5 @@
-// The first event in a step in contact: release, clamp of the force, change of the grip; lift of sustained contact.
-// MODEL.md (S36), (S58).
+// Locates the first event in a step in contact: release, start or end of the force's clamp, stick–slip transition; in
+// sustained impulsive contact the lift. MODEL.md (S36), (S58).
 #pragma once
 
 #include <optional>
@@ -15,27 +15,27 @@ class ContactGuards {
   public:
     ContactGuards(SegmentProbe& probe, RunState& state) : probe_(probe), state_(state) {}
     Event first_event(const Segment& segment);
-    // Held on the cam until the force that holds it would have to pull.
+    // The instant at which the constraint force of sustained contact becomes tensile.
     Event first_lift(const Segment& segment);
 
   private:
-    // The guards of contact at one instant.
+    // The guard functions at one instant.
     struct Guards {
-        double side;       // of the beam (ContactState)
-        Guard release;     // penetration and its rate
-        double clamp = 1;  // 1 + D δ̇/δ̇₋: where it changes sign the never-negative force has a kink
-        double grip = 1;   // positive while the grip holds (S36)
+        double side;          // ContactState::side
+        Guard release;        // penetration and its rate
+        double clamp = 1;     // 1 + D δ̇/δ̇₋; the force has a kink where it changes sign
+        double friction = 1;  // positive while the state of friction lasts (S36)
     };
     Guards evaluate(const Segment& segment, double t);
-    // Throws when the disc's centre has changed sides since the touch.
+    // Throws if the disc's centre has changed sides since the touch.
     void check_side(const Guards& now);
     double sliding_guard(const Segment& segment, double t, double slip);
     std::optional<double> clamp_event(const Segment& segment, const Guards& a, const Guards& b);
-    bool may_change_grip();
+    bool may_change_friction();
 
     SegmentProbe& probe_;
     RunState& state_;
-    std::vector<double> grip_;  // the guard at the instants of one step
+    std::vector<double> friction_;  // Guards::friction at the instants of one step
 };
 
 }  // namespace beamcam::sim

@@ -20,7 +20,7 @@ Problem at_tolerance(const Problem& problem) {
     return out;
 }
 
-// `auto` is Runge–Kutta's method where the equations are no oscillators.
+// For equations that are not oscillators `auto` itself is rk8.
 Method other_method(const Problem& problem, System& system) {
     switch (problem.solver.method) {
         case Method::automatic:
@@ -36,7 +36,7 @@ Method other_method(const Problem& problem, System& system) {
     return Method::rk8;
 }
 
-// The fastest rate that explicit steps must resolve [1/s]: of vibration, or of its decay.
+// The fastest rate that an explicit method must resolve, of vibration or of its decay [1/s].
 double fastest_rate(const Problem& problem, const System& system) {
     const double fastest = system.highest_frequency();
     double ratio = 0.5 * problem.beam.kelvin_voigt.value_or(0) * fastest;
@@ -44,14 +44,14 @@ double fastest_rate(const Problem& problem, const System& system) {
     return fastest * std::max(1.0, 2 * ratio);
 }
 
-// Nothing but the cam's turning changes with time, and lasting contact has no events of its own.
+// True if only the cam's rotation changes with time and lasting contact has no internal events.
 bool repeats_in_contact(const Problem& problem) {
     const Drive& drive = problem.hub.drive;
     return problem.cam && (std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive)) &&
            !std::holds_alternative<StickSlipFriction>(problem.contact.friction);
 }
 
-// Whether row i of the two is the same angle.
+// True if the angles of row i agree.
 bool agree(const Problem& problem, const Result& plain, const Result& other, std::size_t i) {
     const double scale = compared_angle(problem).scale;
     const double a = scale * plain.tables[0].values[0][i], b = scale * other.tables[0].values[0][i];
@@ -64,7 +64,8 @@ std::string sentence(const Result& result) {
                        : fmt::format("from {:.4g} s on", lost.from);
     };
     if (result.not_reproducible.empty())
-        return fmt::format("reproducible to {:g} rad all along, compared with {}", kReproducible, result.compared_with);
+        return fmt::format("reproducible to {:g} rad throughout, compared with {}", kReproducible,
+                           result.compared_with);
     std::vector<std::string> lost;
     for (const Interval& interval : result.not_reproducible) lost.push_back(until(interval));
     const std::string again =
@@ -112,9 +113,9 @@ bool agrees_for_good(const Problem& problem, const Request& angle, const Result&
 Comparison comparison(const Problem& problem, double end) {
     System system(problem);
     Comparison out{at_tolerance(problem), false};
-    if (fastest_rate(problem, system) * end > kExplicitRadians * kMostComparedSteps) return tighter_comparison(problem);
+    if (fastest_rate(problem, system) * end > kExplicitRadians * kMaxComparedSteps) return tighter_comparison(problem);
     out.problem.solver.method = other_method(problem, system);
-    out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMostComparedSteps));
+    out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMaxComparedSteps));
     return out;
 }
 
@@ -136,19 +137,19 @@ double other_needed_until(const Problem& problem, const Request& angle, const Re
     return until;
 }
 
-void put_first(const Result& first, Result& whole) {
+void replace_first_rows(const Result& first, Result& whole) {
     std::ranges::copy(first.tables[0].values[0], whole.tables[0].values[0].begin());
 }
 
-void tell_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
-                          const Comparison& compared, Result& result) {
+void report_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,
+                            const Comparison& compared, Result& result) {
     const std::vector<double>& times = angle.tables[0].times;
     const double end = result.end_time;
     result.not_reproducible.clear();
     result.reproducible_again_from.reset();
-    double agreed = 0;  // the last instant that did
+    double agreed = 0;  // last instant of agreement
     bool lost = false;
-    double back = 0;  // since when it agrees again
+    double back = 0;  // first instant of renewed agreement
     for (std::size_t i = 0; i < times.size() && times[i] <= end; ++i) {
         const double t = times[i];
         if (!agree(problem, plain, other, i)) {

@@ -14,9 +14,7 @@ namespace beamcam::sim {
 namespace {
 
 std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynamics) {
-    // `auto` keeps a reserve: local errors of a third of the tolerance, so that what adds up over
-    // many impacts stays within ten times rtol in the energy balance.
-    const double share = solver.method == Method::automatic ? 1.0 / 3 : 1;
+    const double share = solver.method == Method::automatic ? kLocalShare : 1;
     const double rtol = share * solver.rtol, atol = share * solver.atol;
     switch (solver.method) {
         case Method::automatic:
@@ -57,9 +55,9 @@ std::vector<Result> Run::integrate() {
     try {
         start();
         while (state_.t < end_ && !output_.done()) {
-            keep_to_budget();
-            keep_in_bounds();
-            take(step());
+            check_budget();
+            check_deflection();
+            process(step());
         }
     } catch (const StepFailure& failure) {
         if (!started_)
@@ -91,8 +89,8 @@ const Segment& Run::step() {
     return segment;
 }
 
-// Goes to the first event in the segment, or to its end.
-void Run::take(const Segment& segment) {
+// Advances to the first event in the segment, or to its end.
+void Run::process(const Segment& segment) {
     const Event event = first_event(segment);
     if (event.kind == EventKind::none) {
         const bool kink = segment.t1 >= next_kink();
@@ -114,7 +112,7 @@ Event Run::first_event(const Segment& segment) {
     return touch ? Event{EventKind::touch, *touch} : Event{};
 }
 
-// Puts the state at the event. False when the run ends before, or a shorter step was taken instead.
+// Advances the state to the event. False if the run ends before it, or if a shorter step was processed instead.
 bool Run::reach(const Segment& segment, const Event& event) {
     const double start = segment.t0;
     BEAMCAM_ASSERT(event.t >= start && event.t <= segment.t1);
@@ -122,24 +120,23 @@ bool Run::reach(const Segment& segment, const Event& event) {
         double at = event.t;
         const Segment& ended = shorten(start, event, at);
         if (ended.t1 < at) {
-            take(ended);
+            process(ended);
             return false;
         }
-        // Also when the run ends before the event: a longer run evaluates this shortened step, too.
+        // Even if the run ends before the event, so that it remains a prefix of a longer run.
         record(ended, start, true);
         state_.idle_events = 0;
         return ended.t1 <= end_;
     }
     segment.value(start, state_.y.data());
     state_.t = start;
-    // Events without progress: a guard that cannot leave its surface.
-    if (++state_.idle_events > kMostIdleEvents)
+    if (++state_.idle_events > kMaxIdleEvents)
         throw RunStopped(Stop::stuck, "the contact changes its state again and again without time passing");
     return true;
 }
 
-// Retakes the step from `start` up to the event. It is more accurate than the dense output that the event was found on:
-// one Newton step in time puts a touch or release where it belongs, `at`.
+// Repeats the step from `start` up to the event. Its end is more accurate than the dense output on which the event was
+// found: one Newton step in time corrects the instant `at` of a touch or release.
 const Segment& Run::shorten(double start, const Event& event, double& at) {
     const Segment& ended = integrator_->shorten(at);
     if (ended.t1 != at || (event.kind != EventKind::touch && event.kind != EventKind::release)) return ended;
@@ -150,7 +147,7 @@ const Segment& Run::shorten(double start, const Event& event, double& at) {
     return integrator_->shorten(at);
 }
 
-// Hands the segment on from `from`, as far as the requests reach; an event follows at its end or not.
+// Outputs the segment from `from` to the end of the run at most. `event`: an event follows at its end.
 void Run::record(const Segment& segment, double from, bool event) {
     const double to = std::min(segment.t1, end_);
     output_.segment(segment, from, to, event && segment.t1 <= end_);
@@ -158,45 +155,45 @@ void Run::record(const Segment& segment, double from, bool event) {
     state_.t = to;
 }
 
-// After an event, and at the start.
+// Starts the integrator: at the beginning and after each event.
 void Run::resume() {
     output_.resume(state_);
     if (state_.t < end_) integrator_->start(state_.t, state_.y.data());
 }
 
-void Run::keep_to_budget() {
+void Run::check_budget() {
     const long tried = integrator_->counters.steps + integrator_->counters.rejected;
     if (tried >= problem_.solver.max_steps) throw RunStopped(Stop::steps_spent, "the budget of steps is spent");
-    if (tried < next_pace_) return;
-    const auto lately = static_cast<double>(tried - paced_);
-    projected_steps_ = static_cast<double>(tried) + lately * (end_ - state_.t) / (state_.t - paced_time_);
-    const double unsure = std::max(1.0, kSurePace / lately);
-    next_pace_ = 2 * tried;
-    paced_ = tried;
-    paced_time_ = state_.t;
-    if (projected_steps_ > kHopeless * unsure * unsure * problem_.solver.max_steps)
-        throw RunStopped(Stop::too_slow, "the budget of steps cannot do");
+    if (tried < next_projection_) return;
+    const auto recent = static_cast<double>(tried - projected_at_step_);
+    projected_steps_ = static_cast<double>(tried) + recent * (end_ - state_.t) / (state_.t - projected_at_time_);
+    const double uncertainty = std::max(1.0, kSureProjection / recent);
+    next_projection_ = 2 * tried;
+    projected_at_step_ = tried;
+    projected_at_time_ = state_.t;
+    if (projected_steps_ > kHopeless * uncertainty * uncertainty * problem_.solver.max_steps)
+        throw RunStopped(Stop::too_slow, "the budget of steps is too small");
 }
 
-// An equation that lets a deflection grow without end would go on until numbers overflow.
-void Run::keep_in_bounds() const {
+// Stops before the numbers of a diverging solution overflow.
+void Run::check_deflection() const {
     for (std::size_t i = 1; i < static_cast<std::size_t>(dynamics_.coordinates()); ++i)
-        if (!(std::fabs(state_.y[i]) < kEndless * problem_.beam.length))
-            throw StepFailure("the deflection grows without end");
+        if (!(std::fabs(state_.y[i]) < kUnboundedDeflection * problem_.beam.length))
+            throw StepFailure("the deflection grows without bound");
 }
 
-// Where the right-hand side is not smooth next, or chatter that was summed up ends.
+// The next instant at which the right-hand side is not smooth, or summed-up chatter ends.
 double Run::next_kink() const {
     const double kink = kinks_.empty() ? std::numeric_limits<double>::infinity() : kinks_.front();
     return std::min(kink, state_.chatter_end.value_or(kink));
 }
 
-// An event may fall on a kink, or so near before it that no step fits between.
-bool Run::has_come(double t) const { return t - state_.t <= kInstantRounding * std::fabs(state_.t); }
+// True if t is reached up to rounding.
+bool Run::is_reached(double t) const { return t - state_.t <= kInstantRounding * std::fabs(state_.t); }
 
 void Run::pass_kinks() {
-    while (!kinks_.empty() && has_come(kinks_.front())) kinks_.erase(kinks_.begin());
-    if (state_.chatter_end && has_come(*state_.chatter_end)) transitions_.end_chatter();
+    while (!kinks_.empty() && is_reached(kinks_.front())) kinks_.erase(kinks_.begin());
+    if (state_.chatter_end && is_reached(*state_.chatter_end)) transitions_.end_chatter();
     integrator_->stop_at(next_kink());
 }
 

@@ -1,4 +1,4 @@
-// One integration of a motion: steps, events, transitions, output. MODEL.md §§11–12.
+// The integration of one motion: steps, event location, transitions, output. MODEL.md §§11–12.
 #pragma once
 
 #include <functional>
@@ -15,12 +15,11 @@
 
 namespace beamcam::sim {
 
-// What a run may have besides its requests.
 struct RunOptions {
-    TrajectoryWriter* keep = nullptr;     // takes the trajectory down
+    TrajectoryWriter* keep = nullptr;     // stores the trajectory
     MotionObserver* observer = nullptr;   // follows the motion and may end the run
-    const InitialState* start = nullptr;  // the state to begin with; else that of the problem
-    // Another integrator around that of the problem's solver.
+    const InitialState* start = nullptr;  // initial state; null: that of the problem
+    // Wraps the integrator of the problem's solver into another one.
     std::function<std::unique_ptr<Integrator>(System&, std::unique_ptr<Integrator>)> around = {};
 };
 
@@ -28,7 +27,7 @@ class Run {
   public:
     Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options);
 
-    // Throws SolverError with what was reached by then.
+    // Throws SolverError with the partial results.
     std::vector<Result> integrate();
     Counters counters() const { return statistics().counters; }
     const RunState& state() const { return state_; }
@@ -36,16 +35,16 @@ class Run {
   private:
     void start();
     const Segment& step();
-    void take(const Segment& segment);
+    void process(const Segment& segment);
     Event first_event(const Segment& segment);
     bool reach(const Segment& segment, const Event& event);
     const Segment& shorten(double start, const Event& event, double& at);
     void record(const Segment& segment, double from, bool event);
     void resume();
-    void keep_to_budget();
-    void keep_in_bounds() const;
+    void check_budget();
+    void check_deflection() const;
     double next_kink() const;
-    bool has_come(double t) const;
+    bool is_reached(double t) const;
     void pass_kinks();
     void report(double t) const;
     RunStatistics statistics() const;
@@ -62,14 +61,15 @@ class Run {
     TouchSearch touch_search_;
     ContactGuards contact_guards_;
     Transitions transitions_;
-    std::vector<double> kinks_;  // of the drive, still to come [s]
+    std::vector<double> kinks_;  // of the drive, after the present time [s]
     double end_;                 // [s]
     double last_step_ = 0;       // [s]
-    // The pace: steps that the whole run would take, when last projected; steps and time at the next and last
-    // projection.
-    double projected_steps_ = 0, paced_time_ = 0;
-    long steps_ = 0, next_pace_ = kFirstPace, paced_ = 0;
-    bool started_ = false;  // a state to begin with was found
+    long steps_ = 0;
+    // Projection of the whole run's steps: the result, attempted steps and time at the last projection, and attempted
+    // steps at the next one.
+    double projected_steps_ = 0, projected_at_time_ = 0;
+    long projected_at_step_ = 0, next_projection_ = kFirstProjection;
+    bool started_ = false;  // an initial state was found
 };
 
 }  // namespace beamcam::sim

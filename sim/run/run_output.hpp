@@ -1,14 +1,27 @@
-// Everything that a run produces: its recorders and, if there are, the writer of its trajectory and an observer.
+// The output of a run: recorders and, optionally, the writer of its trajectory and an observer. All of them receive
+// accepted segments only, so that output never changes the motion.
 #pragma once
 
 #include <algorithm>
 
 #include "sim/observe/recorder_set.hpp"
 #include "sim/observe/trajectory.hpp"
-#include "sim/run/motion_observer.hpp"
 #include "sim/run/run_state.hpp"
 
 namespace beamcam::sim {
+
+// Follows a run beside its recorders and may end it. The sampler of a sweep is one.
+class MotionObserver {
+  public:
+    virtual ~MotionObserver() = default;
+    virtual double end() const = 0;  // latest end of the run [s]
+    // A phase begins: at the start and after every event.
+    virtual void resume(double t, const std::vector<double>& y, const Phase& phase) = 0;
+    virtual void segment(const SegmentInterval& s) = 0;
+    virtual void touch(double t, const std::vector<double>& y, const ContactState& contact) = 0;
+    virtual void release(double t, const std::vector<double>& y, const ContactState& contact) = 0;
+    virtual bool done() const = 0;  // true ends the run
+};
 
 class RunOutput {
   public:
@@ -37,7 +50,7 @@ class RunOutput {
         if (keep_) keep_->release(t, y, c);
         if (observer_) observer_->release(t, y, c);
     }
-    // The motion goes on from here: after an event, and at the start.
+    // A phase begins.
     void resume(const RunState& s) {
         recorders_.resume(s.t, s.y, s.phase, statistics_);
         if (keep_) keep_->resume(s.t, s.y, s.phase, statistics_());

@@ -1,4 +1,4 @@
-// The state of a run that event location and transitions share.
+// The state of a run, shared by event location and transitions.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace beamcam::sim {
 
-enum class EventKind { none, touch, release, clamp, grip, lift };
+enum class EventKind { none, touch, release, clamp, friction, lift };
 
 struct Event {
     EventKind kind = EventKind::none;
@@ -21,11 +21,11 @@ struct RunState {
     std::vector<double> y;
     Phase phase;
     double phase_start = 0;
-    double clamp_side = 1;              // of the kink of the clamp where it was last away from it: +1 pushes
-    double side = 0;                    // of the beam on which the cam touches, once a look has shown it
-    int idle_events = 0;                // at this instant, without time passing
-    std::optional<double> chatter_end;  // of the chatter that was summed up
-    RunStatistics statistics;           // without the integrator's counters
+    double clamp_side = 1;              // +1: the force is positive, −1: it is clamped
+    double side = 0;                    // of the beam on which the cam touches (ContactState::side); 0: not yet known
+    int idle_events = 0;                // consecutive events at this instant
+    std::optional<double> chatter_end;  // of summed-up chatter (S57) [s]
+    RunStatistics statistics;           // without the counters of the integrator
 };
 
 }  // namespace beamcam::sim

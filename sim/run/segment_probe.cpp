@@ -12,11 +12,10 @@ int SegmentProbe::pieces(const Segment& segment) const {
         std::clamp(std::ceil((segment.t1 - segment.t0) * system.highest_frequency()), 2.0, double(kMaxPieces)));
 }
 
-// From the values at points of Chebyshev: a polynomial of that degree leaves the middle of its values there by no
-// more than Lebesgue's constant of the points, <= 1 + (2/π) ln 12, times half of their range.
+// A polynomial deviates from the middle of its values at Chebyshev points by at most half of their range times the
+// Lebesgue constant of the points.
 SegmentProbe::Range SegmentProbe::range(const Segment& segment) {
     constexpr int kDegree = Segment::kDegree;
-    constexpr double kLebesgue = 2.6;
     const auto n = static_cast<std::size_t>(system.coordinates());
     std::array<double, kMaxSize> low, high;
     low.fill(std::numeric_limits<double>::infinity());
@@ -46,8 +45,8 @@ int SegmentProbe::pieces_by_travel(const Segment& segment, const Range& range) {
 }
 
 int SegmentProbe::limited(double pieces) {
-    if (pieces > kMostPieces) ++coarse;
-    return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kMostPieces));
+    if (pieces > kPieceLimit) ++coarse;
+    return static_cast<int>(std::clamp(std::ceil(pieces), 2.0, kPieceLimit));
 }
 
 }  // namespace beamcam::sim

@@ -24,8 +24,8 @@ std::vector<Result> integrate(const Problem& problem, std::span<const Request> r
     return results;
 }
 
-// The run that the horizon compares with. It may fail, or spend its budget of steps, where the motion itself did not:
-// then the same method at a tighter tolerance takes its place, as far as that comes.
+// The comparison run of the horizon. If it fails or exhausts its budget of steps, although the motion itself did not,
+// the same method at a tighter tolerance replaces it, as far as that one comes.
 Result comparison_run(const Problem& problem, const Request& angle, const Progress& progress, Effort* effort,
                       Comparison& compared) {
     const auto run = [&] {
@@ -43,8 +43,8 @@ Result comparison_run(const Problem& problem, const Request& angle, const Progre
     return comparison_run(problem, angle, progress, effort, compared);
 }
 
-// The same, but by another method only as far as that may tell more than the motion's own at a tighter tolerance, where
-// this is much cheaper.
+// The same at lower cost: if the motion's own method at a tighter tolerance is much cheaper, the other method is used
+// only as long as it can add information.
 Result cheap_comparison_run(const Problem& problem, const Request& angle, const Result& plain, const Progress& progress,
                             Effort* effort, Comparison& compared) {
     if (!tighter_is_cheap(problem)) {
@@ -59,13 +59,13 @@ Result cheap_comparison_run(const Problem& problem, const Request& angle, const 
         const Result first = comparison_run(problem, cut(angle, until), progress, effort, compared);
         if (!compared.same_method) {
             compared.until = until;
-            put_first(first, all);
+            replace_first_rows(first, all);
         }
     }
     return all;
 }
 
-// `motion(requests)` gives the results of the problem itself. A horizon needs one or two runs more.
+// `motion(requests)` returns the results of the problem itself. A horizon needs one or two additional runs.
 template <class Motion>
 std::vector<Result> with_horizons(const Problem& problem, std::span<const Request> requests, const Progress& progress,
                                   Effort* effort, Motion&& motion) {
@@ -87,12 +87,12 @@ std::vector<Result> with_horizons(const Problem& problem, std::span<const Reques
         other = cheap_comparison_run(problem, angle, plain, progress, effort, compared);
     }
     for (std::size_t i = 0; i < requests.size(); ++i)
-        if (requests[i].horizon) tell_reproducibility(problem, angle, plain, other, compared, results[i]);
+        if (requests[i].horizon) report_reproducibility(problem, angle, plain, other, compared, results[i]);
     return results;
 }
 
 void require_valid(const Problem& problem) {
-    for (const Finding& finding : validate(problem))
+    for (const Issue& finding : validate(problem))
         if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
 }
 
@@ -111,7 +111,7 @@ SolverError::SolverError(const std::string& what, double last_good_time, std::ve
     : std::runtime_error(what), last_time(last_good_time), partials(std::move(partial_results)) {}
 
 void Effort::add(const Counters& counters) {
-    if (counters.steps > 0) ++integrations;  // else the initial state was all
+    if (counters.steps > 0) ++integrations;  // without steps, only the initial state was evaluated
     spent.steps += counters.steps;
     spent.rejected += counters.rejected;
     spent.rhs_evaluations += counters.rhs_evaluations;

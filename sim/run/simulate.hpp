@@ -1,9 +1,6 @@
-// One simulation: a Problem and what is wanted of it go in, exactly that comes out.
-//
-// Nothing is computed because it might be wanted: no table, no pose, no ledger beyond the request
-// (the energy ledger is always kept; it never changes a step). What is asked for never changes the
-// trajectory: asking for more or less leaves every bit of it as it was, and a shorter run is a
-// prefix of a longer one.
+// Simulates a Problem and returns what the requests contain, and only that. Only the energy balance is always computed;
+// it takes no part in step control. Requests never change a bit of the trajectory, and a shorter run is a prefix of a
+// longer one.
 #pragma once
 
 #include <functional>
@@ -18,20 +15,20 @@
 
 namespace beamcam::sim {
 
-// The integration could not go on (exit code 4). `partials` hold what was reached by then.
+// The integration failed (exit code 4). `partials` hold the results up to `last_time`.
 struct SolverError : std::runtime_error {
     SolverError(const std::string& what, double last_good_time, std::vector<Result> partial_results);
     double last_time;
-    std::vector<Result> partials;  // one per Request; none where no state to start from was found
+    std::vector<Result> partials;  // one per Request; empty if no initial state was found
 };
 struct Interrupted : std::runtime_error {
     Interrupted() : std::runtime_error("interrupted") {}
 };
 
-// Called now and then with the time reached; returning false ends the run with `Interrupted`.
+// Called from time to time with the time reached; if it returns false the run throws Interrupted.
 using Progress = std::function<bool(double t)>;
 
-// What was really done, by one call or several: nothing for what came from a kept trajectory.
+// The work of one or several calls. A replayed trajectory counts nothing.
 struct Effort {
     long integrations = 0;
     Counters spent;
@@ -42,16 +39,16 @@ struct Effort {
 class Trajectory;
 class TrajectoryWriter;
 
-// Throws SolverError, Interrupted; std::invalid_argument when `validate(problem)` has fatal findings.
+// Throws SolverError, Interrupted; std::invalid_argument if `validate(problem)` returns a fatal issue.
 Result simulate(const Problem& problem, const Request& request, const Progress& progress = {});
 
-// One integration for several requests. Each result has the same bits as if its request had been alone. `keep`
-// takes the trajectory down (trajectory.hpp).
+// One integration for several requests. Each result has the same bits as with its request alone. `keep` stores the
+// trajectory (trajectory.hpp).
 std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress = {},
                              TrajectoryWriter* keep = nullptr, Effort* effort = nullptr);
 
-// The same from a trajectory that was kept: the same bits again. A horizon still costs its other runs. Throws
-// std::invalid_argument where the trajectory does not reach as far as the requests.
+// The same results, bit by bit, from a stored trajectory. Only the comparison runs of a horizon are integrated. Throws
+// std::invalid_argument if the trajectory is shorter than the requests.
 std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
                            const Progress& progress = {}, Effort* effort = nullptr);
 

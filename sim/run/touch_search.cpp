@@ -7,10 +7,10 @@
 namespace beamcam::sim {
 namespace {
 
-// Halving towards the start until the gap is open.
+// An instant after the start at which the gap is open, by halving the interval; the start itself if none is found.
 template <class Probe>
-Guard leaving(Probe&& probe, const Guard& start, double later) {
-    for (int k = 1; k <= 24; ++k) {
+Guard opening(Probe&& probe, const Guard& start, double later) {
+    for (int k = 1; k <= kMaxOpeningHalvings; ++k) {
         const Guard g = probe(start.t + std::ldexp(later - start.t, -k));
         if (g.value > 0) return g;
     }
@@ -31,7 +31,7 @@ double TouchSearch::lower_bound(double t, double h, const double* xi, const doub
     return probe_.system.gap_bound().lower_bound(probe_.system.drive(), t, h, xi, spread);
 }
 
-// By `count` equal pieces from the start of the segment to `end`, and the valleys between them.
+// Samples the gap at the ends of `count` equal subintervals and searches each for minima below zero.
 std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end, int count) {
     const double h = end - segment.t0;
     const bool everywhere = problem().beam.model == ModelKind::exact;
@@ -45,11 +45,11 @@ std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end,
         const double t = i == count ? end : segment.t0 + h * i / count;
         const Guard b = probe(t);
         if (i == 1 && segment.t0 == state_.phase_start && b.value <= 0) {
-            // It starts on the surface and is below it soon: where was it above?
-            if (!(a.rate < -kRestSpeed)) a = leaving(probe, a, b.t);
+            // The flight starts on the surface and soon lies below it: find an instant in between with an open gap.
+            if (!(a.rate < -kRestSpeed)) a = opening(probe, a, b.t);
             if (!(a.value > 0) && !opens(segment, segment.t0)) return segment.t0;
         } else if (i == 1 && segment.t0 == state_.phase_start) {
-            a.value = std::max(a.value, 0.0);  // rounding of the release
+            a.value = std::max(a.value, 0.0);  // rounding at the release
             a.rate = std::max(a.rate, 0.0);
         }
         const auto at = first_fall(probe, a, b, probe_.gap_rounding());
@@ -59,8 +59,8 @@ std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end,
     return {};
 }
 
-// At an instant where the gap is below zero: by no more than the integrator's error, while the beam moves away, or
-// would within rounding, and is pulled away. After a lift the gap grows like t³ and the error comes first.
+// At an instant with a negative gap: true if it is an integration error of a gap that opens, because the beam
+// accelerates away from the cam. After a lift the gap grows like t³, at first more slowly than the error.
 bool TouchSearch::opens(const Segment& segment, double t) {
     const ContactState c = probe_.contact(segment, t, false);
     if (c.gap_rate < -problem().contact.approach_floor.value || c.gap < -gap_error()) return false;
@@ -68,8 +68,8 @@ bool TouchSearch::opens(const Segment& segment, double t) {
     return pull > 0 && (c.gap_rate > 0 || c.gap_rate * c.gap_rate < 2 * pull * probe_.gap_rounding());
 }
 
-// |g̈| within the bounds, while the disc is no deeper than half its radius and its centre no farther than `far` from
-// the foot: the terms of (S44) one by one. Infinite where the beam may bend so much that the foot runs away.
+// Upper bound of |g̈| from the terms of (S44), for penetrations up to half the disc's radius and distances of its centre
+// from the foot up to `far`. Infinite if the beam may bend so much that the foot is not unique.
 double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) const {
     const Cam& cam = *problem().cam;
     const double near = 0.5 * cam.radius, arm = cam.eccentricity * std::fabs(cam.speed);
@@ -83,15 +83,16 @@ double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) co
     return (speed + slide) * speed / near + point + turn * slide + cam.eccentricity * cam.speed * cam.speed;
 }
 
-// Conservative advancement: from an open gap g with rate ġ nothing can touch before g + ġτ − ½Mτ² vanishes,
-// M ≥ |g̈|; so no touch is lost, however short. Once g + ġτ + ½Mτ² has a root the gap falls all the way to
-// it: Newton's method.                                                                         (S56)
+// Conservative advancement: from an open gap g with rate ġ no touch can occur before g + ġτ − ½Mτ² = 0, with M ≥ |g̈|.
+// So no touch is missed, however short. Once g + ġτ + ½Mτ² has a root, a touch is certain, and Newton's method finds
+// it.
+//                                                                                              (S56)
 std::optional<double> TouchSearch::by_advancement(const Segment& segment, const MotionBounds& bounds) {
     const double h = segment.t1 - segment.t0;
-    const double nothing[kMaxSize] = {};
+    const double no_spread[kMaxSize] = {};
     const double speed =
         bounds.spin * reach() + bounds.deflection_speed + problem().cam->eccentricity * std::fabs(problem().cam->speed);
-    if (lower_bound(segment.t0, 0, probe_.state(segment, segment.t0), nothing) > h * speed) return {};
+    if (lower_bound(segment.t0, 0, probe_.state(segment, segment.t0), no_spread) > h * speed) return {};
 
     double t = segment.t0;
     ContactState c = probe_.gap_here(t, true);
@@ -100,24 +101,24 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     if (!std::isfinite(most)) return by_resolving(segment);
     if (t == state_.phase_start) {
         if (!(c.gap_rate > kRestSpeed)) {
-            // It hardly leaves: evaluate densely at first.
+            // The beam hardly leaves the surface: sample densely at first.
             t = std::min(segment.t1, t + 1 / (probe_.system.highest_frequency() + bounds.spin + 1 / h));
             if (const auto touch = by_pieces(segment, t, 4)) return touch;
             c = probe_.gap(segment, t, true);
         }
-        c.gap = std::max(c.gap, 0.0);  // rounding of the release
+        c.gap = std::max(c.gap, 0.0);  // rounding at the release
     }
     return advance(segment, t, c, most);
 }
 
-// From t on, where the gap is c.gap; |g̈| <= most.
+// Advances from t, with the gap c.gap and |g̈| <= most.
 std::optional<double> TouchSearch::advance(const Segment& segment, double t, ContactState c, double most) {
     const double h = segment.t1 - segment.t0;
-    for (long count = 0; count < kMostAdvances; ++count) {
+    for (long count = 0; count < kMaxAdvances; ++count) {
         if (count % kEvaluationsPerReport == kEvaluationsPerReport - 1) report_(segment.t0);
-        const auto behind = static_cast<double>(count) / kMostAdvances;
-        if (count % kFirstAdvances == kFirstAdvances - 1 && !(t - segment.t0 > behind * h)) break;
-        // It opens, and is below zero by rounding only.
+        const auto used = static_cast<double>(count) / static_cast<double>(kMaxAdvances);
+        if (count % kFirstAdvances == kFirstAdvances - 1 && !(t - segment.t0 > used * h)) break;
+        // An opening gap is negative only by rounding.
         if (c.gap < 0 && c.gap_rate > 0 && c.gap > -kLowestBounce * problem().beam.length) c.gap = 0;
         if (c.gap < 0 || (c.gap == 0 && c.gap_rate < 0)) return t;
         const double falls = c.gap_rate * c.gap_rate - 2 * most * c.gap;
@@ -126,7 +127,7 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
             return falling(segment, t, c, latest);
         }
         const double safe = (c.gap_rate + std::sqrt(c.gap_rate * c.gap_rate + 2 * most * c.gap)) / most;
-        const double next = t + std::max(safe, 1e-15 * t);
+        const double next = t + std::max(safe, kShortestAdvanceShare * t);
         if (next >= segment.t1) return {};
         t = next;
         c = probe_.gap(segment, t, false);
@@ -134,29 +135,30 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
     return by_resolving(segment);
 }
 
-// By pieces that resolve the fastest vibration.
+// Subintervals resolve the fastest vibration.
 std::optional<double> TouchSearch::by_resolving(const Segment& segment) {
     const double turns = (segment.t1 - segment.t0) * probe_.system.highest_frequency();
     return by_pieces(segment, segment.t1, std::max(kMaxPieces, probe_.limited(turns)));
 }
 
-// The gap falls from t on and vanishes before `latest`, which may lie beyond the segment.
+// The gap falls from t on and vanishes before `latest`, which may lie beyond the segment: Newton's method with
+// bisection.
 std::optional<double> TouchSearch::falling(const Segment& segment, double t, ContactState c, double latest) {
     double low = t, high = latest;
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < kMaxTouchIterations; ++i) {
         double next = t - c.gap / c.gap_rate;
         if (!(next > low && next < high)) next = 0.5 * (low + high);
         next = std::min(next, segment.t1);
         c = probe_.gap(segment, next, false);
         if (next == segment.t1 && c.gap > 0) return {};
-        if (next == t || c.gap == 0 || std::fabs(c.gap) < 1e-16 * problem().cam->radius) return next;
+        if (next == t || c.gap == 0 || std::fabs(c.gap) < kTouchGap * problem().cam->radius) return next;
         (c.gap > 0 ? low : high) = next;
         t = next;
     }
     return t;
 }
 
-// What a step may leave of the gap.
+// Largest integration error of the gap in one step.
 double TouchSearch::gap_error() const {
     const Solver& solver = problem().solver;
     return kGapErrors * (solver.rtol * reach() + solver.atol);

@@ -1,4 +1,4 @@
-// The first touch in a step of flight. MODEL.md (S56), (S58).
+// Locates the first touch in a step of flight. MODEL.md (S56), (S58).
 #pragma once
 
 #include <functional>
@@ -12,7 +12,7 @@ namespace beamcam::sim {
 
 class TouchSearch {
   public:
-    // `report` is called now and then with the time reached.
+    // `report` is called during long searches, with the time reached.
     TouchSearch(SegmentProbe& probe, const RunState& state, std::function<void(double)> report)
         : probe_(probe), state_(state), report_(std::move(report)) {}
     std::optional<double> first_touch(const Segment& segment);

@@ -9,7 +9,7 @@
 namespace beamcam::sim {
 
 void Transitions::start_in_contact() {
-    set_grip();
+    start_friction();
     output_.touch(state_.t, state_.y, contact_now());
 }
 
@@ -17,11 +17,11 @@ void Transitions::apply(const Event& event) {
     switch (event.kind) {
         case EventKind::none:
             break;
-        case EventKind::clamp:  // same phase, new step: the kink lies between steps
+        case EventKind::clamp:  // only ends the step, so that the kink lies between two steps
             state_.clamp_side = -state_.clamp_side;
             break;
         case EventKind::touch:
-            problem().contact.model == ContactModel::restitution ? strike() : touch();
+            problem().contact.model == ContactModel::restitution ? impact() : touch();
             break;
         case EventKind::lift:
             lift();
@@ -29,14 +29,14 @@ void Transitions::apply(const Event& event) {
         case EventKind::release:
             release();
             break;
-        case EventKind::grip:
-            change_grip();
+        case EventKind::friction:
+            change_friction();
             break;
     }
 }
 
 void Transitions::touch() {
-    take_out_gap();
+    cancel_gap_rounding();
     state_.phase.touching = true;
     state_.clamp_side = 1;
     state_.side = 0;
@@ -49,11 +49,11 @@ void Transitions::touch() {
     state_.phase.approach =
         std::max(floor.policy == ApproachFloorPolicy::first_touch ? first_approach_ : approach, floor.value);
     if (approach < floor.value) ++state_.statistics.floored;
-    set_grip();
+    start_friction();
     enter_phase();
     const ContactState c = contact_now();
     output_.touch(state_.t, state_.y, c);
-    // A first step as long as the impact could leave the beam inside the cam before any stage has felt the force.
+    // A first step as long as the impact could move the beam into the cam before any stage evaluates the force.
     integrator_.limit_first_step(kFirstTouchStep *
                                  system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
 }
@@ -61,22 +61,21 @@ void Transitions::touch() {
 void Transitions::release() {
     const ContactState c = contact_now();
     output_.release(state_.t, state_.y, c);
-    leave();
+    begin_flight();
     if (system_.has_bristle()) bristle() = 0;
 }
 
-// Flight begins. Rounding must not look like a new touch: its gap starts at zero.
-void Transitions::leave() {
+void Transitions::begin_flight() {
     state_.phase.touching = state_.phase.held = false;
-    take_out_gap();
+    cancel_gap_rounding();
     state_.phase_start = state_.t;
     last_release_ = state_.t;
 }
 
-// Grip at touch: sliding unless the bristle can follow. For n > 1 the normal force starts flat, so
-// any slip breaks it at once, as it does with a dashpot; for n = 1 both forces grow linearly.
-void Transitions::set_grip() {
-    state_.phase.grip = Grip::stick;
+// State of friction at the touch: slip unless the bristle can stick. For n > 1 the normal force starts with zero slope,
+// so any slip breaks the bond at once, as it does with a dashpot; for n = 1 both forces grow linearly.
+void Transitions::start_friction() {
+    state_.phase.friction = FrictionState::stick;
     const FrictionLaw& friction = system_.friction();
     if (!friction.bristle) return;
     bristle() = 0;
@@ -85,26 +84,27 @@ void Transitions::set_grip() {
     const double growth =
         problem().contact.exponent > 1 ? 0 : system_.normal_law().stiffness * std::max(0.0, -c.gap_rate);
     const bool breaks = friction.damping > 0 || friction.stiffness * std::fabs(c.slip) > friction.limit * growth;
-    if (breaks && c.slip != 0 && !(c.gap < 0)) state_.phase.grip = c.slip > 0 ? Grip::slide_plus : Grip::slide_minus;
+    if (breaks && c.slip != 0 && !(c.gap < 0))
+        state_.phase.friction = c.slip > 0 ? FrictionState::slide_plus : FrictionState::slide_minus;
     enter_phase();
 }
 
-void Transitions::change_grip() {
+void Transitions::change_friction() {
     const FrictionLaw& friction = system_.friction();
     const ContactState c = contact_now();
-    // Without a dashpot the bristle follows the sliding force at once: no state until it sticks again.
-    if (state_.phase.grip == Grip::stick) {
-        state_.phase.grip = c.friction < 0 ? Grip::slide_plus : Grip::slide_minus;
+    // A bristle without lag follows the sliding force: it has no state until it sticks again.
+    if (state_.phase.friction == FrictionState::stick) {
+        state_.phase.friction = c.friction < 0 ? FrictionState::slide_plus : FrictionState::slide_minus;
         if (!friction.lags) bristle() = 0;
     } else {
-        if (!friction.lags) bristle() = friction.caught_bristle(state_.phase.grip, c.force, c.slip);
-        state_.phase.grip = Grip::stick;
+        if (!friction.lags) bristle() = friction.caught_bristle(state_.phase.friction, c.force, c.slip);
+        state_.phase.friction = FrictionState::stick;
     }
     enter_phase();
 }
 
-// What is left of the gap at an event: zero but for rounding, and exactly zero from here on.
-void Transitions::take_out_gap() {
+// The gap at an event is zero up to rounding. Makes it exactly zero, so that rounding causes no new touch.
+void Transitions::cancel_gap_rounding() {
     state_.phase.gap_offset = 0;
     enter_phase();
     const double left = contact_now().gap;
@@ -113,8 +113,8 @@ void Transitions::take_out_gap() {
     state_.statistics.fallbacks.gap = std::max(state_.statistics.fallbacks.gap, std::fabs(left));
 }
 
-void Transitions::strike() {
-    take_out_gap();
+void Transitions::impact() {
+    cancel_gap_rounding();
     const ContactState c = contact_now();
     const double approach = -c.gap_rate;
     const Compliance compliance = system_.compliance(state_.t, state_.y.data(), c);
@@ -124,28 +124,28 @@ void Transitions::strike() {
     };
     ImpactResult impact = resolve(problem().contact.restitution);
     if (sum_up_chatter(c, impact, resolve(0))) return;
-    // A rebound that the integrator cannot tell from a touch at the same instant has ended, too.
-    // Nor will bounces end that rounding of the gap keeps from falling.
+    // Chatter has also ended when rounding of the gap keeps the bounces from becoming lower, and when the integrator
+    // cannot separate a rebound from the next touch.
     const double pull = pull_on_cam();
     const bool low = pull > 0 && impact.v_n * impact.v_n < 2 * pull * kLowestBounce * problem().beam.length;
     const bool chatter =
         impact.v_n < kChatterShare * problem().contact.approach_floor.value || (low && impact.v_n >= last_rebound_);
-    const bool slow = chatter || state_.idle_events > kMostFlips;
+    const bool slow = chatter || state_.idle_events > kMaxInstantEvents;
     last_rebound_ = impact.v_n;
     state_.phase_start = state_.t;
-    // The gap opens: that it was below zero is rounding, and no impact.
+    // The gap opens: it was negative only by rounding, and there is no impact.
     if (!slow && !(approach > 0)) return;
     if (!chatter && slow) ++state_.statistics.fallbacks.strikes;
     output_.touch(state_.t, state_.y, c);
     if (slow) impact = resolve(0);
-    if (approach > 0) system_.strike(state_.t, state_.y.data(), c, impact);
+    if (approach > 0) system_.apply_impact(state_.t, state_.y.data(), c, impact);
     const double pull_after = pull_on_cam();
     if (slow && pull_after > 0) {
         hold();
         ++state_.statistics.chatters;
         return;
     }
-    // A step much longer than the bounce errs by more than the bounce is high: bounces would never die out.
+    // The error of a step much longer than the bounce exceeds the bounce's height: bounces would never die out.
     if (pull_after > 0) integrator_.limit_first_step(kBounces * 2 * impact.v_n / pull_after);
     record_rebound(state_.y, c, impact);
 }
@@ -163,16 +163,16 @@ void Transitions::hold() {
     enter_phase();
 }
 
-// Bounces under a steady pull a, each of which keeps the share e of its speed, come to rest after
-// T = 2v/(a(1 − e)). A plastic strike that is held from then on gives the beam the same impulse with the same
-// moment in time, so the motion goes on by it; the contact counts as sustained after T.             (S57)
-// False: the bounces have to be followed.
+// Bounces under a constant acceleration a towards the cam, each of which keeps the fraction e of its speed, end after
+// T = 2v/(a(1 − e)). A plastic impact with sustained contact afterwards gives the beam the same impulse with the same
+// first moment in time, so the run continues with it; the contact counts as sustained after T.      (S57)
+// False if the conditions do not hold and the bounces must be integrated.
 bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic) {
     const double approach = -c.gap_rate, rebound = impact.v_n;
     if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * problem().contact.approach_floor.value))
         return false;
     std::vector<double> settled = state_.y;
-    system_.strike(state_.t, settled.data(), c, plastic);
+    system_.apply_impact(state_.t, settled.data(), c, plastic);
     const double pull = -system_.free_gap_acceleration(state_.t, settled.data());
     const double lasts = 2 * rebound / (pull * (1 - rebound / approach));
     const double turns = std::fabs(system_.model().hub_rate()) + std::fabs(problem().cam->speed);
@@ -191,7 +191,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
     }
     output_.touch(state_.t, state_.y, c);
     std::vector<double> struck = state_.y;
-    system_.strike(state_.t, struck.data(), c, impact);
+    system_.apply_impact(state_.t, struck.data(), c, impact);
     record_rebound(struck, c, impact);
     state_.y = std::move(settled);
     state_.phase_start = state_.t;
@@ -203,7 +203,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
 void Transitions::lift() {
     if (!state_.chatter_end) output_.release(state_.t, state_.y, contact_now());
     state_.chatter_end.reset();
-    leave();
+    begin_flight();
 }
 
 void Transitions::end_chatter() {

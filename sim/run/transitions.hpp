@@ -1,4 +1,4 @@
-// The resets of state and phase at events: one function for each. MODEL.md §§8–10.
+// The resets of state and phase at events, one function for each kind of event. MODEL.md §§8–10.
 #pragma once
 
 #include "sim/run/run_output.hpp"
@@ -14,22 +14,21 @@ class Transitions {
 
     void start_in_contact();
     void apply(const Event& event);
-    // The end of chatter that was summed up: the beam rests on the cam.
-    void end_chatter();
+    void end_chatter();  // summed-up chatter ends: the beam rests on the cam (S57)
     void enter_phase();
 
   private:
     void touch();
     void release();
-    void change_grip();
-    void strike();
+    void change_friction();
+    void impact();
     void lift();
     void hold();
     bool sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic);
     void record_rebound(const std::vector<double>& y, ContactState c, const ImpactResult& impact);
-    void take_out_gap();
-    void leave();
-    void set_grip();
+    void cancel_gap_rounding();
+    void begin_flight();
+    void start_friction();
     ContactState contact_now() { return system_.contact(state_.t, state_.y.data(), true); }
     double pull_on_cam() { return -system_.free_gap_acceleration(state_.t, state_.y.data()); }
     double& bristle() { return state_.y[static_cast<std::size_t>(2 * system_.coordinates())]; }

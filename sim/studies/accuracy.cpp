@@ -10,18 +10,15 @@
 #include "sim/base/counted.hpp"
 #include "sim/run/constants.hpp"
 #include "sim/run/simulate.hpp"
+#include "sim/studies/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
 
-constexpr int kInstants = 1000;  // at which motions are compared
-constexpr double kReferenceRtol = 1e-13, kCheckRtol = 1e-12;
-constexpr double kSpare = 50;    // the reference may take this many times the longest run
-constexpr int kModelShapes = 6;  // models are compared with at least so many shapes
 constexpr const char* kLeftOut = "left out";
 constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 
-// One simulation with the compared angle at the instants.
+// One simulation with samples of the compared angle.
 struct TrialRun {
     std::vector<double> angle;
     Result result;
@@ -33,21 +30,21 @@ struct TooLong {};
 // Simulates variants of a problem within limits of time, and compares them.
 class Trials {
   public:
-    using Tell = std::function<bool(const std::string&, double)>;
+    using Report = std::function<bool(const std::string&, double)>;
 
-    Trials(const Problem& problem, const AccuracyRequest& request, const Tell& tell)
-        : angle_(compared_angle(problem)), target_(request.target), repeats_(request.repeats), tell_(tell) {}
+    Trials(const Problem& problem, const AccuracyRequest& request, const Report& report)
+        : angle_(compared_angle(problem)), target_(request.target), repeats_(request.repeats), report_(report) {}
 
     bool of_tip() const { return angle_.of_tip(); }
 
-    // What the next trials are about, and the share of the whole that is done before them.
-    void about(std::string what, double share) {
+    // Description of the next trials, and the completed fraction of the whole before them.
+    void begin(std::string what, double share) {
         what_ = std::move(what);
         share_ = share;
-        if (!tell()) throw Interrupted();
+        if (!report()) throw Interrupted();
     }
 
-    // With the angle at the instants if `sampled`. Throws what simulate throws, and TooLong beyond `limit` seconds.
+    // With samples of the angle if `sampled`. Throws the exceptions of simulate, and TooLong after `limit` seconds.
     TrialRun simulate_until(const Problem& problem, double end, double limit, bool sampled) {
         Request request;
         request.end_time = end;
@@ -62,7 +59,7 @@ class Trials {
         TrialRun run;
         try {
             run.result = simulate(problem, request, [&](double) {
-                stopped = seconds_since(start) <= limit && !tell();
+                stopped = seconds_since(start) <= limit && !report();
                 return seconds_since(start) <= limit && !stopped;
             });
         } catch (const Interrupted&) {
@@ -76,7 +73,7 @@ class Trials {
         return run;
     }
 
-    // The same for a variant that need not be possible: `note` says why there is none.
+    // The same for a variant that may be impossible: `note` states the reason.
     std::optional<TrialRun> try_until(const Problem& variant, double end, double limit, std::string& note) {
         try {
             return simulate_until(variant, end, limit, true);
@@ -84,13 +81,13 @@ class Trials {
             note = fmt::format("{}: longer than {:g} s", kLeftOut, limit);
         } catch (const SolverError& failure) {
             note = fmt::format("failed: {}", failure.what());
-        } catch (const std::invalid_argument& refused) {
-            note = fmt::format("refused: {}", refused.what());
+        } catch (const std::invalid_argument& rejected) {
+            note = fmt::format("rejected: {}", rejected.what());
         }
         return std::nullopt;
     }
 
-    // What a variant of the problem does, compared with `truth` over [0, end]. Timed without samples.
+    // Compares a variant of the problem with `truth` over [0, end]. Timed without samples.
     void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit) {
         measure(row, variant, truth, end, limit, repeats_);
     }
@@ -100,14 +97,14 @@ class Trials {
         if (!run) return;
         compare(row, *run, truth, end);
         try {
-            row.time = time(variant, end, 2 * limit, repeats, 20 * limit * (1 + share_));
+            row.time = time(variant, end, 2 * limit, repeats, kAllRuns * limit * (1 + share_));
         } catch (const TooLong&) {
             row.error.reset();
             row.note = fmt::format("{}: longer than {:g} s", kLeftOut, limit);
         }
     }
 
-    // Of `repeats` runs, or fewer once `enough` seconds have passed since the first trial of all.
+    // Of `repeats` runs, or fewer once `enough` seconds have passed since the first trial.
     Timing time(const Problem& variant, double end, double limit, int repeats, double enough) {
         std::vector<double> seconds;
         for (int k = 0; k < repeats; ++k) {
@@ -119,8 +116,7 @@ class Trials {
     }
 
   private:
-    // False: the user wants an end.
-    bool tell() { return !tell_ || tell_(what_, share_); }
+    bool report() { return !report_ || report_(what_, share_); }  // false: interrupted by the user
 
     void compare(AccuracyRow& row, const TrialRun& run, const TrialRun& truth, double end) const {
         double worst = 0;
@@ -146,7 +142,7 @@ class Trials {
     const ComparedAngle angle_;
     const double target_;  // [rad]
     const int repeats_;
-    const Tell& tell_;
+    const Report& report_;
     std::string what_;
     double share_ = 0;
     Clock::time_point started_ = Clock::now();
@@ -154,8 +150,8 @@ class Trials {
 
 class Assessment {
   public:
-    Assessment(const Problem& problem, const AccuracyRequest& request, const Trials::Tell& tell)
-        : problem_(problem), request_(request), trials_(problem, request, tell) {
+    Assessment(const Problem& problem, const AccuracyRequest& request, const Trials::Report& report)
+        : problem_(problem), request_(request), trials_(problem, request, report) {
         out_.of_tip = trials_.of_tip();
         out_.end_time = request.end_time;
         out_.target = request.target;
@@ -168,12 +164,12 @@ class Assessment {
         if (problem.beam.model == ModelKind::rigid) request_.modes.clear();
     }
 
-    Accuracy go() {
-        find_horizon();
-        work();
-        modes();
-        models();
-        contact();
+    Accuracy assess() {
+        compute_reference();
+        compare_methods();
+        compare_modes();
+        compare_models();
+        compare_contacts();
         recommend();
         return std::move(out_);
     }
@@ -182,7 +178,7 @@ class Assessment {
     Problem with(double rtol, Method method = Method::automatic) const {
         Problem variant = problem_;
         variant.solver.method = method;
-        // The absolute tolerance keeps its distance to the relative one.
+        // The ratio of the tolerances is kept.
         variant.solver.atol = problem_.solver.atol * (rtol / problem_.solver.rtol);
         variant.solver.rtol = rtol;
         return variant;
@@ -190,14 +186,13 @@ class Assessment {
 
     // ---- the tables ------------------------------------------------------------------------------
 
-    // The reference is the eighth-order Runge–Kutta method at the tightest tolerance; its own error is what a
-    // tenth of that tolerance changes. Until when the scene's own settings reproduce the motion is the time of every
-    // comparison.
-    void find_horizon() {
-        trials_.about("reference", 0);
-        const double limit = kSpare * request_.longest_run;
-        const TrialRun mine = simulate_or_refuse(problem_, limit);
-        const TrialRun truth = simulate_or_refuse(with(kReferenceRtol, Method::rk8), limit);
+    // The reference is rk8 at the tightest tolerance; its own error is estimated by a tenfold tolerance. All
+    // comparisons end where the scene's own settings no longer reproduce the motion.
+    void compute_reference() {
+        trials_.begin("reference", 0);
+        const double limit = kReferenceRuns * request_.longest_run;
+        const TrialRun mine = simulate_reference(problem_, limit);
+        const TrialRun truth = simulate_reference(with(kReferenceRtol, Method::rk8), limit);
         double until = request_.end_time;
         for (std::size_t k = 0; k < truth.angle.size(); ++k) {
             if (std::fabs(mine.angle[k] - truth.angle[k]) <= kReproducible * std::max(1.0, std::fabs(truth.angle[k])))
@@ -210,13 +205,13 @@ class Assessment {
         const TrialRun check = trials_.simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
         for (std::size_t k = 0; k < check.angle.size(); ++k)
             out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
-        // The angle itself has no more digits than this.
+        // Rounding of the angle itself.
         double size = 1;
         for (const double angle : reference_.angle) size = std::max(size, std::fabs(angle));
         out_.reference_error = std::max(out_.reference_error, std::numeric_limits<double>::epsilon() * size);
     }
 
-    TrialRun simulate_or_refuse(const Problem& problem, double limit) {
+    TrialRun simulate_reference(const Problem& problem, double limit) {
         try {
             return trials_.simulate_until(problem, request_.end_time, limit, true);
         } catch (const TooLong&) {
@@ -229,13 +224,13 @@ class Assessment {
         }
     }
 
-    void work() {
+    void compare_methods() {
         const double all = static_cast<double>(request_.methods.size() * request_.rtols.size());
         double done = 0;
         for (const Method method : request_.methods) {
             bool too_long = false;
             for (const double rtol : request_.rtols) {
-                trials_.about(fmt::format("{} at rtol {:g}", name(method), rtol), 0.1 + 0.5 * done++ / all);
+                trials_.begin(fmt::format("{} at rtol {:g}", name(method), rtol), 0.1 + 0.5 * done++ / all);
                 WorkRow row;
                 row.method = method;
                 row.rtol = rtol;
@@ -249,8 +244,8 @@ class Assessment {
         }
     }
 
-    // The scene's tolerance is far below what a shape more or less changes.
-    void modes() {
+    // At the scene's tolerance, whose error is far below the effect of one shape.
+    void compare_modes() {
         std::vector<int> ladder = request_.modes;
         if (ladder.empty()) return;
         if (std::find(ladder.begin(), ladder.end(), problem_.beam.modes) == ladder.end())
@@ -258,13 +253,13 @@ class Assessment {
         std::sort(ladder.begin(), ladder.end(), std::greater<>());
         std::optional<TrialRun> truth;
         for (std::size_t i = 0; i < ladder.size(); ++i) {
-            trials_.about(fmt::format("{} shapes", ladder[i]),
+            trials_.begin(fmt::format("{} shapes", ladder[i]),
                           0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
             Problem variant = problem_;
             set_shapes(variant, variant.beam.model, variant.beam.basis, ladder[i]);
             ModesRow row;
             row.modes = ladder[i];
-            const double limit = 5 * request_.longest_run;
+            const double limit = kModesRuns * request_.longest_run;
             if (!truth) {
                 truth = trials_.try_until(variant, out_.until, limit, row.note);
                 if (truth) out_.most_modes = ladder[i];
@@ -275,9 +270,9 @@ class Assessment {
         std::reverse(out_.modes.begin(), out_.modes.end());
     }
 
-    // All models with enough shapes that these do not matter (the bases differ), against the highest that the time
-    // allows for; where that is `exact` for a shorter motion only, the comparison is over the shorter motion.
-    void models() {
+    // All models with so many shapes that their different bases do not matter, against the most accurate one that the
+    // time allows; over a shorter motion if `exact` is affordable only for that.
+    void compare_models() {
         if (request_.models.empty())
             request_.models = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
                                ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
@@ -286,7 +281,7 @@ class Assessment {
         std::optional<TrialRun> truth;
         out_.models_until = out_.until;
         for (std::size_t i = 0; i < descending.size(); ++i) {
-            trials_.about(fmt::format("model {}", name(descending[i])),
+            trials_.begin(fmt::format("model {}", name(descending[i])),
                           0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
             Problem variant = problem_;
             set_shapes(variant, descending[i], variant.beam.basis, std::max(problem_.beam.modes, kModelShapes));
@@ -294,7 +289,7 @@ class Assessment {
                 variant.solver.rtol = std::max(variant.solver.rtol, std::min(1e-8, 1e-3 * request_.target));
             ModelRow row;
             row.model = descending[i];
-            const double limit = 10 * request_.longest_run;
+            const double limit = kModelRuns * request_.longest_run;
             if (!truth) {
                 truth = longest(variant, limit, row);
                 if (truth) out_.best_model = descending[i];
@@ -307,7 +302,7 @@ class Assessment {
         std::reverse(out_.models.begin(), out_.models.end());
     }
 
-    // As much of [0, until] as fits the time, at least a sixteenth.
+    // The longest part of [0, until] that is affordable, at least a sixteenth.
     std::optional<TrialRun> longest(const Problem& variant, double limit, AccuracyRow& row) {
         for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
             std::string note;
@@ -319,14 +314,15 @@ class Assessment {
         return std::nullopt;
     }
 
-    void contact() {
+    void compare_contacts() {
         if (!problem_.cam) return;
         const auto add = [&](std::string change, const Problem& variant) {
-            trials_.about("contact " + change, 0.92);
+            trials_.begin("contact " + change, 0.92);
             ContactRow row;
             row.change = std::move(change);
-            const TrialRun truth = trials_.simulate_until(problem_, out_.until, kSpare * request_.longest_run, true);
-            trials_.measure(row, variant, truth, out_.until, kSpare * request_.longest_run, 1);
+            const double limit = kReferenceRuns * request_.longest_run;
+            const TrialRun truth = trials_.simulate_until(problem_, out_.until, limit, true);
+            trials_.measure(row, variant, truth, out_.until, limit, 1);
             out_.contact.push_back(std::move(row));
         };
         Problem variant = problem_;
@@ -346,10 +342,10 @@ class Assessment {
         }
     }
 
-    // ---- what to choose --------------------------------------------------------------------------
+    // ---- the recommendation ----------------------------------------------------------------------
 
-    // The fewest shapes that reach as far (within 2 %) as any affordable number does, and the loosest tolerance of
-    // `auto` whose error leaves them room.
+    // The smallest number of shapes that stays within the target for as long (within 2 %) as any number does, and the
+    // loosest tolerance of `auto` whose error is at most half the target.
     void recommend() {
         Recommendation r;
         r.modes = problem_.beam.modes;
@@ -363,7 +359,7 @@ class Assessment {
             for (const ModesRow& row : out_.modes)
                 if (row.error && &row != last) farthest = std::max(farthest, row.trusted_until);
             for (const ModesRow& row : out_.modes) {
-                if (!row.error || row.trusted_until < 0.98 * farthest) continue;
+                if (!row.error || row.trusted_until < kAsFar * farthest) continue;
                 r.modes = row.modes;
                 r.until = std::min(r.until, row.trusted_until);
                 error = std::min(*row.error, request_.target);
@@ -379,8 +375,8 @@ class Assessment {
         if (r.rtol == 0 || r.until <= 0) return;
         Problem chosen = with(r.rtol);
         set_shapes(chosen, chosen.beam.model, chosen.beam.basis, r.modes);
-        trials_.about("recommendation", 0.97);
-        const double limit = kSpare * request_.longest_run;
+        trials_.begin("recommendation", 0.97);
+        const double limit = kReferenceRuns * request_.longest_run;
         try {
             r.seconds = trials_.time(chosen, r.until, limit, request_.repeats, limit * request_.repeats).median;
         } catch (const TooLong&) {
@@ -406,7 +402,7 @@ class Assessment {
 
 Accuracy assess(const Problem& problem, const AccuracyRequest& request,
                 const std::function<bool(const std::string& what, double share)>& progress) {
-    return Assessment(problem, request, progress).go();
+    return Assessment(problem, request, progress).assess();
 }
 
 }  // namespace beamcam::sim

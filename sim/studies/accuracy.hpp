@@ -1,8 +1,8 @@
-// What the numbers of a problem are worth: error against run time of every method, and the error budget — time
-// integration, number of shapes, model of the beam, contact — each with its run time. MODEL.md, "Accuracy".
+// The accuracy of a problem's results: error against run time of every method, and the error budget of time
+// integration, number of shapes, beam model and contact parameters, each with its run time. MODEL.md §16.
 //
-// Errors are of `compared_angle` (channels.hpp) [rad], the largest over equally spaced instants until `until`. Times
-// are of one core, wall clock.
+// Errors are the largest differences of `compared_angle` (channels.hpp) [rad] at equally spaced instants until `until`.
+// Run times are wall-clock times on one core.
 #pragma once
 
 #include <functional>
@@ -16,13 +16,13 @@ namespace beamcam::sim {
 
 struct AccuracyRequest {
     double end_time = 0;            // [s], > 0
-    double target = 1e-4;           // the error that the recommendation is for [rad], > 0
+    double target = 1e-4;           // largest error of the recommended settings [rad], > 0
     int repeats = 5;                // of each timing, >= 1
-    double longest_run = 2;         // a single simulation that takes longer is left out [s]
+    double longest_run = 2;         // slower simulations are left out [s]
     std::vector<double> rtols;      // of the work–precision diagram; empty: 1e-3 … 1e-12
     std::vector<Method> methods;    // empty: all
     std::vector<int> modes;         // empty: a ladder up to 20
-    std::vector<ModelKind> models;  // from the highest down; empty: all
+    std::vector<ModelKind> models;  // in descending order of accuracy; empty: all
 };
 
 struct Timing {                            // [s]
@@ -30,14 +30,14 @@ struct Timing {                            // [s]
     int repeats = 0;
 };
 
-// A row of any of the tables. `error` is nothing where the run was refused or left out: `note` says why.
+// A row of any of the tables. Without an `error` the run was rejected or left out for the reason in `note`.
 struct AccuracyRow {
     std::optional<double> error;  // [rad], largest until `Accuracy::until`
-    double trusted_until = 0;     // first instant at which the error exceeds the target, else `until` [s]
+    double trusted_until = 0;     // until here the error is within the target [s]
     Timing time;
     long steps = 0, rhs_evaluations = 0;
     long impacts = 0;
-    std::optional<double> touch_error;  // largest shift of an impact's t_start [s]; nothing where their number differs
+    std::optional<double> touch_error;  // largest error of an impact's t_start [s]; absent if their number differs
     std::string note;
 };
 struct WorkRow : AccuracyRow {
@@ -47,10 +47,10 @@ struct WorkRow : AccuracyRow {
 struct ModesRow : AccuracyRow {  // error against the row of `Accuracy::most_modes`
     int modes = 0;
 };
-struct ModelRow : AccuracyRow {  // error against `exact`, or the highest model that was affordable
+struct ModelRow : AccuracyRow {  // error against `Accuracy::best_model`
     ModelKind model = ModelKind::rigid;
 };
-struct ContactRow : AccuracyRow {  // how far the angle moves when a number of the contact law is off
+struct ContactRow : AccuracyRow {  // sensitivity to a parameter of the contact law
     std::string change;            // "stiffness +1 %"
 };
 
@@ -64,14 +64,14 @@ struct Recommendation {
 };
 
 struct Accuracy {
-    bool of_tip = false;         // the hub's angle is prescribed: errors are of the tip's deflection over the length
-    double end_time = 0;         // asked [s]
-    double until = 0;            // the motion is reproducible until here; every error is taken over [0, until] [s]
-    double reference_error = 0;  // of the reference itself, estimated [rad]
+    bool of_tip = false;         // the hub angle is prescribed: errors are those of tip deflection over length
+    double end_time = 0;         // requested [s]
+    double until = 0;            // end of reproducibility; all errors refer to [0, until] [s]
+    double reference_error = 0;  // estimated error of the reference [rad]
     double target = 0;
-    int most_modes = 0;                       // shapes that the others are compared with: the most that were affordable
+    int most_modes = 0;                       // number of shapes of the reference for `modes`
     double models_until = 0;                  // the models are compared over [0, models_until] [s]
-    ModelKind best_model = ModelKind::exact;  // that the others are compared with
+    ModelKind best_model = ModelKind::exact;  // reference for `models`
     std::vector<WorkRow> work;
     std::vector<ModesRow> modes;
     std::vector<ModelRow> models;
@@ -79,8 +79,8 @@ struct Accuracy {
     std::optional<Recommendation> recommendation;
 };
 
-// `progress` is told what is being run and the share done, 0…1; returning false ends with Interrupted.
-// Throws what `simulate` throws of the problem's own settings.
+// `progress` receives a description of the present run and the completed fraction, 0…1; if it returns false,
+// Interrupted is thrown. Throws the exceptions of `simulate` for the problem's own settings.
 Accuracy assess(const Problem& problem, const AccuracyRequest& request,
                 const std::function<bool(const std::string& what, double share)>& progress = {});
 

@@ -30,7 +30,7 @@ StaticDeflection supported_beam(const Problem& problem, double angle, double sup
     return {scale * (-q * r * r * r * r / (24 * c) + c2 * x + d2), scale * (q * r * r * r / (6 * c) + c2)};
 }
 
-// t = ∫ dθ/θ̇ with θ̇² = 3kg/L (sin θ₀ − sin θ); θ = θ₀ − s² takes the root out of the integrand (S51).
+// t = ∫ dθ/θ̇ with θ̇² = 3kg/L (sin θ₀ − sin θ); the substitution θ = θ₀ − s² removes the singularity (S51).
 double rod_fall_time(double length, double gravity, double angle, double torque_factor) {
     const double span = std::sqrt(angle);
     const Quadrature rule = gauss_legendre(60, span);

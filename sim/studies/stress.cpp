@@ -8,55 +8,33 @@
 
 #include "sim/observe/channels.hpp"
 #include "sim/run/simulate.hpp"
+#include "sim/studies/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-constexpr double kCaseLimit = 120;  // [s] of a processor that one case may take; beyond, it hangs
-constexpr int kChannelLooks = 7;    // instants at which every channel is looked at
 
 bool passive(const Problem& p) {
     return std::holds_alternative<FreeDrive>(p.hub.drive) && (!p.cam || p.cam->speed == 0) &&
            p.beam.model != ModelKind::paper;
 }
 
-// Of this thread: other work on the machine makes no case slow.
+// CPU time of this thread, which does not depend on the load of the machine.
 double processor_seconds() {
     timespec now{};
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
-bool of_contact(ChannelKind kind) {
-    switch (kind) {
-        case ChannelKind::contact_force:
-        case ChannelKind::friction_force:
-        case ChannelKind::gap:
-        case ChannelKind::contact_x:
-        case ChannelKind::contact_s:
-        case ChannelKind::cam_angle:
-        case ChannelKind::energy_contact:
-        case ChannelKind::loss_contact:
-        case ChannelKind::loss_friction:
-        case ChannelKind::work_cam:
-        case ChannelKind::separation:
-        case ChannelKind::separation_paper:
-            return true;
-        default:
-            return false;
-    }
-}
-
-// The first thing wrong with what was recorded; empty: nothing.
-std::string wrong(const StressCase& one, const Result& r, const Request& request) {
+// The first error in the recorded results; empty if there is none.
+std::string first_error(const StressCase& one, const Result& r, const Request& request) {
     const Table& table = r.tables[0];
     const std::vector<double>& times = request.tables[0].times;
-    // A beam that is straight and at rest is so to the absolute tolerance of its slopes, in radians.
+    // Elastic energy of slopes of the size of the absolute tolerance, for a beam that is straight and at rest.
     const Beam& beam = one.problem.beam;
     const double unseen = beam.bending_stiffness() / beam.length * std::pow(one.problem.solver.atol, 2);
     double start = 0;
     for (std::size_t row = 0; row < times.size(); ++row) {
-        if (times[row] > r.end_time) break;  // never reached
+        if (times[row] > r.end_time) break;
         double energy = 0;
         for (std::size_t c = 0; c < table.channels.size(); ++c) {
             const ChannelKind kind = table.channels[c].kind;
@@ -78,12 +56,12 @@ std::string wrong(const StressCase& one, const Result& r, const Request& request
     return {};
 }
 
-void judge(const StressCase& one, const Result& r, const Request& request, StressResult& out) {
+void record(const StressCase& one, const Result& r, const Request& request, StressResult& out) {
     out.reached = r.end_time;
     out.steps = r.counters.steps + r.counters.rejected;
     out.impacts = r.impacts.size();
     out.steps_per_second = r.end_time > 0 ? static_cast<double>(out.steps) / r.end_time : 0;
-    out.words = wrong(one, r, request);
+    out.message = first_error(one, r, request);
 }
 
 }  // namespace
@@ -104,45 +82,45 @@ const char* name(Outcome outcome) {
     return "";
 }
 
-StressResult survive(const StressCase& one) {
+StressResult run_case(const StressCase& one) {
     StressResult out;
     out.closure = std::numeric_limits<double>::quiet_NaN();
     Request request;
     request.end_time = one.end;
     TableRequest table;
     table.channels = all_channels(one.problem);
-    for (int k = 0; k < kChannelLooks; ++k) table.times.push_back(one.end * k / (kChannelLooks - 1));
-    if (!one.problem.cam) std::erase_if(table.channels, [](const Channel& c) { return of_contact(c.kind); });
+    for (int k = 0; k < kChannelSamples; ++k) table.times.push_back(one.end * k / (kChannelSamples - 1));
+    if (!one.problem.cam) std::erase_if(table.channels, [](const Channel& c) { return needs_cam(c.kind); });
     request.tables.push_back(table);
     request.extrema = {{ChannelKind::theta, 0}, {ChannelKind::tip_deflection, 0}};
     const Progress watch = [start = processor_seconds()](double) { return processor_seconds() - start < kCaseLimit; };
     try {
-        for (const Finding& finding : validate(one.problem))
-            if (finding.fatal) {
-                out.outcome = finding.message.empty() ? Outcome::failed : Outcome::refused;
-                out.words = finding.path + ": " + finding.message;
+        for (const Issue& issue : validate(one.problem))
+            if (issue.fatal) {
+                out.outcome = issue.message.empty() ? Outcome::failed : Outcome::refused;
+                out.message = issue.path + ": " + issue.message;
                 return out;
             }
         const Result r = simulate(one.problem, request, watch);
-        judge(one, r, request, out);
-        if (!out.words.empty()) return out;
+        record(one, r, request, out);
+        if (!out.message.empty()) return out;
         const double unit = one.problem.solver.rtol * r.energy_scale;
         out.closure = unit > 0 ? r.energy_residual_max / unit : 0;
-        const bool told = std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& w) {
+        const bool reported = std::any_of(r.warnings.begin(), r.warnings.end(), [](const std::string& w) {
             return w.find("energy ledger") != std::string::npos;
         });
-        out.outcome = told || one.problem.beam.model == ModelKind::paper ? Outcome::open : Outcome::closed;
-        if (!r.warnings.empty()) out.words = r.warnings.front();
+        out.outcome = reported || one.problem.beam.model == ModelKind::paper ? Outcome::open : Outcome::closed;
+        if (!r.warnings.empty()) out.message = r.warnings.front();
     } catch (const SolverError& error) {
-        if (!error.partials.empty()) judge(one, error.partials.at(0), request, out);
-        if (!out.words.empty()) return out;
-        out.words = error.what();
+        if (!error.partials.empty()) record(one, error.partials.at(0), request, out);
+        if (!out.message.empty()) return out;
+        out.message = error.what();
         const double reached = error.partials.empty() ? 0 : error.partials.at(0).end_time;
         out.outcome = reached == error.last_time ? Outcome::stopped : Outcome::failed;
     } catch (const Interrupted&) {
-        out.words = fmt::format("still running after {:g} s", kCaseLimit);
+        out.message = fmt::format("still running after {:g} s", kCaseLimit);
     } catch (const std::exception& error) {
-        out.words = fmt::format("an exception that is no failure of the solver: {}", error.what());
+        out.message = fmt::format("an exception other than a solver failure: {}", error.what());
     }
     return out;
 }

@@ -1,9 +1,9 @@
-// The stress campaign: a few thousand problems at the extremes of what a scene may say, each of which must end or
-// be refused in words. Plates are grids of two extremes; every cell holds several variants. Beside them stand a
-// list of single hard cases and a plate of random mixtures of everything. No files, no threads.
+// The stress campaign: a few thousand problems with extreme values. Every case must finish or be rejected with a clear
+// message. The cases are grids over two parameters with several variants in each cell, a grid of random mixtures of all
+// keys, and a list of single hard cases.
 //
-// What counts as survival: no exception but those of simulate.hpp, every recorded number finite, the energy
-// ledger closed or its opening told, no energy gained on a cam at rest, a partial trajectory after a failure.
+// A case fails unless: only exceptions of simulate.hpp occur, all recorded numbers are finite, the energy balance
+// closes or is reported as open, no energy is gained on a cam at rest, and a failed run has partial results.
 #pragma once
 
 #include <string>
@@ -14,46 +14,46 @@
 namespace beamcam::sim {
 
 enum class Outcome {
-    closed,   // reached the end, ledger within ten times rtol of the energy scale
-    open,     // reached the end, and told that the ledger does not close so well
-    refused,  // by `validate`, before any work
-    stopped,  // by SolverError: last good time, cause, remedy
+    closed,   // finished; the energy balance closes within ten times rtol of the energy scale
+    open,     // finished, and reported that the energy balance does not close so well
+    refused,  // rejected by `validate`
+    stopped,  // SolverError with last good time, cause and remedy
     failed    // anything else
 };
 const char* name(Outcome outcome);
 
 struct StressCase {
-    std::size_t plate = 0, row = 0, column = 0;  // into `Campaign::plates`
+    std::size_t grid = 0, row = 0, column = 0;  // indices into Campaign::grids, CaseGrid::rows, CaseGrid::columns
     std::string variant;
     Problem problem;
     double end = 0;  // [s]
 };
 
-struct Plate {
+struct CaseGrid {
     std::string title, row_title, column_title;
     std::vector<std::string> rows, columns;
 };
 
 struct Campaign {
-    std::vector<Plate> plates;
+    std::vector<CaseGrid> grids;
     std::vector<StressCase> cases;
 };
 
-// The same every time. `full`: all of them, more than 2000; otherwise one in ten or so, and the short ones of the
-// single hard cases.
+// Deterministic. `full`: all cases, more than 2000; otherwise one in eleven, and the single hard cases for shorter
+// times.
 Campaign stress_campaign(bool full);
 
 struct StressResult {
     Outcome outcome = Outcome::failed;
-    std::string words;            // the first warning, refusal or failure
-    double closure = 0;           // largest ledger residual over rtol × energy scale; NaN unless it ended
-    double steps_per_second = 0;  // steps taken per simulated second
+    std::string message;  // the first warning, validation error or failure
+    double closure = 0;   // largest residual of the energy balance over rtol × energy scale; NaN if not finished
+    double steps_per_second = 0;  // steps per simulated second
     double reached = 0;           // [s]
     long steps = 0;
     std::size_t impacts = 0;
 };
 
-// Runs one case; throws nothing.
-StressResult survive(const StressCase& one);
+// Runs one case without exceptions.
+StressResult run_case(const StressCase& one);
 
 }  // namespace beamcam::sim

@@ -6,8 +6,8 @@
 #include <numbers>
 #include <random>
 
-#include "sim/problem/derived.hpp"
 #include "sim/problem/keys.hpp"
+#include "sim/problem/problem.hpp"
 #include "sim/studies/stress.hpp"
 
 namespace beamcam::sim {
@@ -17,7 +17,7 @@ using std::numbers::pi;
 constexpr double kUsualEnd = 0.06;       // [s] of a usual case: fall, strike, bounce
 constexpr double kFirstBending = 816.9;  // [rad/s] of the free default beam
 
-// The default system, the beam 0.03 rad above the cam and coming down.
+// The angle of a straight beam that touches the cam.
 double lying_angle(const Problem& p) {
     const Vec2 disc = disc_centre(*p.cam, 0);
     return std::atan2(disc.y, disc.x) + std::asin(std::min(1.0, (p.cam->radius + contact_offset(p)) / norm(disc)));
@@ -26,13 +26,14 @@ void approach(Problem& p, double lead = 0.03, double speed = -2) {
     p.initial.angle = lying_angle(p) + lead;
     p.initial.angular_velocity = speed;
 }
+// The default system, with the beam 0.03 rad above the cam and approaching it.
 Problem base() {
     Problem p;
     approach(p);
     return p;
 }
 
-// What a case may cost. The number of right-hand sides a second differs a thousandfold between models.
+// The budget of steps of a case. The cost of a step differs a thousandfold between models.
 int budget(const Problem& p) {
     const double n = p.beam.modes;
     switch (p.beam.model) {
@@ -51,18 +52,17 @@ int budget(const Problem& p) {
 
 class Builder {
   public:
-    std::size_t plate(std::string title, std::string rows, std::string columns) {
-        campaign_.plates.push_back({std::move(title), std::move(rows), std::move(columns), {}, {}});
-        return campaign_.plates.size() - 1;
+    void grid(std::string title, std::string rows, std::string columns) {
+        campaign_.grids.push_back({std::move(title), std::move(rows), std::move(columns), {}, {}});
     }
-    // Adds a case; its row and column appear on the plate in the order of their first use.
+    // Adds a case to the last grid. Rows and columns are in the order of their first use.
     void add(const std::string& row, const std::string& column, const std::string& variant, const Problem& problem,
              double end = kUsualEnd) {
-        Plate& plate = campaign_.plates.back();
+        CaseGrid& grid = campaign_.grids.back();
         StressCase one;
-        one.plate = campaign_.plates.size() - 1;
-        one.row = index(plate.rows, row);
-        one.column = index(plate.columns, column);
+        one.grid = campaign_.grids.size() - 1;
+        one.row = index(grid.rows, row);
+        one.column = index(grid.columns, column);
         one.variant = variant;
         one.problem = problem;
         one.end = end;
@@ -86,10 +86,10 @@ class Builder {
 
 std::string power(double exponent) { return fmt::format("1e{:g}", exponent); }
 
-// ---- the plates ------------------------------------------------------------------------------------
+// ---- the grids -------------------------------------------------------------------------------------
 
 void stiffness_and_modes(Builder& out) {
-    out.plate("contact stiffness and modes", "modes", "contact stiffness [N/m^1.5]");
+    out.grid("contact stiffness and modes", "modes", "contact stiffness [N/m^1.5]");
     for (int modes : {1, 2, 3, 5, 8, 12, 20, 30, 40})
         for (int k = 2; k <= 12; ++k) {
             Problem p = base();
@@ -106,7 +106,7 @@ void stiffness_and_modes(Builder& out) {
 }
 
 void cam_speed_and_eccentricity(Builder& out) {
-    out.plate("cam speed and eccentricity", "cam speed [rad/s]", "e/R");
+    out.grid("cam speed and eccentricity", "cam speed [rad/s]", "e/R");
     for (double speed : {-1000.0, -300.0, -100.0, -10.0, -1.0, 0.0, 1.0, 10.0, 100.0, 300.0, 1000.0})
         for (double share : {0.0, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 0.999999}) {
             Problem p = base();
@@ -130,7 +130,7 @@ void cam_speed_and_eccentricity(Builder& out) {
 }
 
 void tolerance_and_method(Builder& out) {
-    out.plate("tolerance and method", "method", "rtol");
+    out.grid("tolerance and method", "method", "rtol");
     for (const Method method :
          {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf, Method::arkode_erk})
         for (int k = 2; k <= 13; ++k) {
@@ -154,7 +154,7 @@ void tolerance_and_method(Builder& out) {
 }
 
 void restitution_and_law(Builder& out) {
-    out.plate("restitution and its law", "law", "pre-set restitution");
+    out.grid("restitution and its law", "law", "pre-set restitution");
     for (double c : {0.0, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0}) {
         const std::string column = fmt::format("{:g}", c);
         for (const auto& law : names(DampingLaw{}))
@@ -183,12 +183,12 @@ void restitution_and_law(Builder& out) {
 }
 
 void friction(Builder& out) {
-    out.plate("friction", "kind", "coefficient");
+    out.grid("friction", "kind", "coefficient");
     using Make = std::function<Friction(double mu)>;
     const auto coulomb = [](double slip_speed) -> Make {
         return [=](double mu) { return CoulombFriction{mu, slip_speed}; };
     };
-    // `ratio`: of the static to the kinetic coefficient.
+    // `ratio`: static over kinetic coefficient.
     const auto bristle = [](double ratio, double stiffness, std::optional<double> damping) -> Make {
         return [=](double mu) { return StickSlipFriction{mu, ratio * mu, stiffness, damping}; };
     };
@@ -239,10 +239,10 @@ void friction(Builder& out) {
 }
 
 void size_and_softness(Builder& out) {
-    out.plate("size and softness", "length [m]", "Young's modulus [Pa]");
+    out.grid("size and softness", "length [m]", "Young's modulus [Pa]");
     for (double length : {1e-3, 1e-2, 0.1, 1.0, 10.0, 100.0})
         for (int k = 6; k <= 13; ++k) {
-            // Every length of the default system in proportion; densities, moduli and gravity stay.
+            // All lengths of the default system in proportion; density and gravity are unchanged.
             Problem p;
             p.beam.length = length;
             p.beam.area *= length * length;
@@ -272,13 +272,13 @@ void size_and_softness(Builder& out) {
 }
 
 void hubs(Builder& out) {
-    out.plate("hub", "radius a [m]", "inertia [kg m²]");
+    out.grid("hub", "radius a [m]", "inertia [kg m²]");
     for (double radius : {-0.9, -0.5, -0.1, 0.0, 0.1, 1.0, 10.0})
         for (double inertia : {0.0, 1e-9, 1e-6, 1e-3, 1.0, 1e3, 1e6}) {
             Problem p = base();
             p.hub.radius = radius;
             p.hub.inertia = inertia;
-            // The cam under the middle of what reaches beyond the axis.
+            // The cam is under the middle of the part of the beam beyond the axis.
             const double from = std::max(0.0, radius), to = radius + p.beam.length;
             p.cam->centre = {0.5 * (from + to), 0};
             p.cam->radius = 0.2 * (to - from);
@@ -298,7 +298,7 @@ void hubs(Builder& out) {
 }
 
 void starts_and_drives(Builder& out) {
-    out.plate("start and drive", "start", "drive");
+    out.grid("start and drive", "start", "drive");
     struct Start {
         const char* row;
         std::function<void(Problem&)> set;
@@ -423,7 +423,7 @@ void slender_beams_and_needles(Builder& out) {
         out.add("hair pulled over the cam", p, 0.3);
     }
     {
-        Problem p = base();  // a stop as small as a needle
+        Problem p = base();  // a very small cam
         p.cam->radius = 1e-6;
         p.cam->eccentricity = 0;
         p.cam->speed = 0;
@@ -465,7 +465,7 @@ void loads_and_models(Builder& out) {
 }
 
 void single_cases(Builder& out, bool full) {
-    out.plate("single cases", "case", "model");
+    out.grid("single cases", "case", "model");
     long_runs(out, full);
     chatter_and_resonance(out);
     slender_beams_and_needles(out);
@@ -528,7 +528,7 @@ Problem mixture(Dice& dice) {
 }
 
 void mixtures(Builder& out) {
-    out.plate("random mixtures of everything", "seed, tens", "seed, ones");
+    out.grid("random mixtures of everything", "seed, tens", "seed, ones");
     for (unsigned seed = 0; seed < 500; ++seed) {
         Dice dice(seed);
         out.add(fmt::format("{}", 25 * (seed / 25)), fmt::format("{}", seed % 25), fmt::format("seed {}", seed),
@@ -552,12 +552,12 @@ Campaign stress_campaign(bool full) {
     single_cases(out, full);
     Campaign campaign = out.take();
     for (StressCase& one : campaign.cases)
-        if (one.plate + 1 != campaign.plates.size()) one.problem.solver.max_steps = budget(one.problem);
+        if (one.grid + 1 != campaign.grids.size()) one.problem.solver.max_steps = budget(one.problem);
     if (!full) {
-        // Eleven shares no factor with the sides of the plates: every row and column is met.
+        // Eleven has no common factor with the sizes of the grids, so that every row and column is included.
         std::vector<StressCase> some;
         for (std::size_t i = 0; i < campaign.cases.size(); ++i)
-            if (i % 11 == 0 || campaign.cases[i].plate + 1 == campaign.plates.size())
+            if (i % 11 == 0 || campaign.cases[i].grid + 1 == campaign.grids.size())
                 some.push_back(std::move(campaign.cases[i]));
         campaign.cases = std::move(some);
     }

@@ -15,7 +15,7 @@ namespace {
 
 using Strobes = std::span<const Strobe>;
 
-// The distance of states by the cam's lift and its rate.
+// Scale of differences between states: the cam's lift and its rate.
 struct Scale {
     double angle, rate;
     double between(const Strobe& a, const Strobe& b) const {
@@ -30,7 +30,7 @@ Scale scale_of(const Problem& problem, const SampledMotion& motion) {
     return {lift, lift / cam_period(problem)};
 }
 
-// The largest distance of the states from those of the last n turns, so that slow drifts add up.
+// The largest distance between the states and the corresponding ones of the last n turns, which reveals slow drifts.
 double mismatch(const Scale& scale, Strobes s, std::size_t n) {
     double most = 0;
     for (std::size_t k = 0; k + n < s.size(); ++k)
@@ -38,15 +38,15 @@ double mismatch(const Scale& scale, Strobes s, std::size_t n) {
     return most;
 }
 
-// The smallest period of the states; 0: none fits kPeriodRepeats times. (S87)
+// The smallest period that the states repeat at least kPeriodRepeats times; 0: none. (S87)
 std::size_t period_of(const Scale& scale, Strobes s) {
     for (std::size_t n = 1; n * kPeriodRepeats < s.size(); ++n)
         if (mismatch(scale, s, n) < kSameState) return n;
     return 0;
 }
 
-// States n turns apart are equal, but those of a shorter period draw together, or apart, and it cannot be told whether
-// a difference stays: three of them, equally far apart, lead to a limit (Aitken) that is not near the last one.
+// True if states n turns apart agree, but differences at a shorter period d | n still change: extrapolation of three
+// equally spaced ones (Aitken) has a limit that is not near the last one.
 bool period_changes(const Scale& scale, Strobes s, std::size_t n) {
     for (std::size_t d = 1; d <= n / 2; ++d) {
         const std::size_t apart = n * ((s.size() - 1 - d) / (2 * n));
@@ -63,7 +63,7 @@ bool period_changes(const Scale& scale, Strobes s, std::size_t n) {
     return false;
 }
 
-// They stay near some period without having it.                                                            (S88)
+// The later half stays near a period, although not within the tolerance.                                   (S88)
 bool is_near_period(const Scale& scale, Strobes s) {
     const Strobes late = s.last(s.size() / 2);
     for (std::size_t n = 1; n * kPeriodRepeats < late.size(); ++n)
@@ -96,24 +96,24 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
     return out;
 }
 
-// By impacts, contact damping or friction. Flexible beams may lose more.
+// By impacts, contact damping or friction; structural damping is not considered.
 bool loses_energy(const Contact& contact) {
     const bool damped = contact.model == ContactModel::restitution || contact.damping != DampingLaw::none;
     return (damped && contact.restitution < 1) || !std::holds_alternative<NoFriction>(contact.friction);
 }
 
-// Where no period is found. Without an exponent: aperiodic.                                                  (S89)
+// For a motion without a period.                                                                             (S89)
 AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool near_period) {
     const bool positive = exponent.value > kSureErrors * exponent.error;
     if (std::isfinite(exponent.value) && positive && exponent.late_growth > kLateGrowth) return AttractorClass::chaotic;
     if (near_period) return AttractorClass::unsettled;
     if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
-    if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // it forgets, so it has a period
-    // A map of the plane that contracts areas keeps no closed curve: a rigid beam that loses energy has no torus.
+    if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // −∞ implies a period not yet found
+    // A contracting map of the plane has no invariant closed curve: a rigid beam that loses energy has no torus.
     const bool rigid = problem.beam.model == ModelKind::rigid;
     if (rigid && loses_energy(problem.contact)) return AttractorClass::unsettled;
     const bool zero = std::fabs(exponent.value) < kSureErrors * exponent.error || exponent.value == 0;
-    // Neighbouring tori of a beam that loses nothing turn at other rates: their distance grows like the time.
+    // On neighbouring tori of a conservative beam the frequencies differ, so differences grow linearly with time.
     const bool linear = rigid && positive && exponent.late_growth < kLinearGrowth;
     const bool known = exponent.error * cam_period(problem) < kSmallError;
     return (zero || linear) && known ? AttractorClass::quasi_periodic : AttractorClass::unsettled;
@@ -178,7 +178,7 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
         return static_cast<double>(s[to].impacts - s[from].impacts);
     };
     out.exponent = exponent_of(problem, s);
-    // The period of the last third must be that of all of them.
+    // The period of the last third must hold for all states.
     std::size_t n = period_of(scale, s.last(s.size() / 3 + 1));
     if (n == 0) n = period_of(scale, s);
     if (n > 0) {

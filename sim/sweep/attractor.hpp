@@ -1,4 +1,4 @@
-// What a motion does after its transient, by stated criteria. MODEL.md §18.
+// Classification of a motion after its transient. MODEL.md (S86)–(S89b).
 #pragma once
 
 #include <span>
@@ -12,31 +12,32 @@ enum class AttractorClass {
     rest,            // nothing moves
     following,       // the beam never leaves the cam
     periodic,        // (n, m): n turns of the cam, m impacts
-    quasi_periodic,  // no period, and the largest exponent is zero within its error
-    chaotic,         // the largest exponent is positive beyond its error
-    aperiodic,       // no period within the samples; the exponent is not known, or doubtful
+    quasi_periodic,  // no period, and a largest exponent of zero within its error
+    chaotic,         // a largest exponent that is positive beyond its error
+    aperiodic,       // no period within the samples, and an unknown or doubtful exponent
     over_the_top,    // the beam leaves the half plane of the cam
-    unsettled        // the transient is not over, or the motion could not be followed
+    unsettled        // the transient is not over, or the integration failed
 };
 std::span<const Named<AttractorClass>> names(AttractorClass);
 const char* name(AttractorClass);
-// Whether samples of such a motion are a section of its attractor.
+// True if samples of a motion of this class form a section of its attractor.
 bool has_section(AttractorClass kind);
 
-// The largest Lyapunov exponent over the samples, per second, with the standard error of its mean over blocks.
+// The largest Lyapunov exponent over the samples [1/s], with the standard error from blocks. NaN: unknown; −∞:
+// sustained contact annihilates all differences.
 struct LargestExponent {
     double value = kNan, error = kNan;
-    double late_growth = kNan;  // logarithm of what the later half of the turns alone multiplies differences by
+    double late_growth = kNan;  // logarithm of the growth of differences in the later half of the turns
 };
 
 struct Attractor {
     AttractorClass kind = AttractorClass::unsettled;
     int period = 0;                    // turns of the cam; 0: none
-    double impacts_per_period = kNan;  // of an attractor without period: per turn
-    LargestExponent exponent;  // NaN where it is not known; −∞ where lasting contact forgets every difference
+    double impacts_per_period = kNan;  // without a period: per turn
+    LargestExponent exponent;
 };
 
-// The class of a motion without period when its exponent has become known.                                     (S89)
+// The class of a motion without period, given its exponent.                                                    (S89)
 Attractor with_exponent(const Problem& problem, Attractor attractor, const LargestExponent& exponent);
 
 // (S86)–(S89)

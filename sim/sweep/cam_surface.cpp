@@ -19,10 +19,6 @@ CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
       k_(k),
       alpha_(alpha),
       period_(cam.speed != 0 ? 2 * std::numbers::pi / std::fabs(cam.speed) : 1) {
-    const double away = norm(centre_);
-    const auto lever = [&](double far) { return std::sqrt(std::max(0.0, far * far - reach_ * reach_)); };
-    shortest_ = lever(away - eccentricity_);
-    longest_ = lever(away + eccentricity_);
     highest_ = -std::numeric_limits<double>::infinity();
     lowest_ = -highest_;
     std::vector<double> pushes;
@@ -65,21 +61,21 @@ void CamSurface::find_lifts(const std::vector<double>& pushes) {
         return;
     }
     const auto f = [&](double s) { return push(at(s)); };
-    std::vector<double> passes;  // f changes its sign
+    std::vector<double> zeros;  // of f
     for (int i = 1; i <= kSurfacePlaces; ++i) {
         const double before = pushes[static_cast<std::size_t>(i - 1)];
         const double now = pushes[static_cast<std::size_t>(i % kSurfacePlaces)];
         if ((before < 0) != (now < 0))
-            passes.push_back(
+            zeros.push_back(
                 find_root(f, period_ * (i - 1) / kSurfacePlaces, period_ * i / kSurfacePlaces, before, now));
     }
-    if (passes.empty()) {
+    if (zeros.empty()) {
         always_pulls_ = starts_pulled;
         return;
     }
-    if (starts_pulled) std::ranges::rotate(passes, passes.begin() + 1);
-    for (std::size_t i = 0; i + 1 < passes.size(); i += 2) {
-        const double from = passes[i], to = passes[i + 1];
+    if (starts_pulled) std::ranges::rotate(zeros, zeros.begin() + 1);
+    for (std::size_t i = 0; i + 1 < zeros.size(); i += 2) {
+        const double from = zeros[i], to = zeros[i + 1];
         lifts_.push_back({from, to < from ? to + period_ : to});
     }
     std::ranges::sort(lifts_, {}, &Lift::from);

@@ -1,5 +1,5 @@
-// The angle at which a straight beam lies on the cam, and where the cam pushes such a beam. MODEL.md §18, (S81), (S82).
-// The beam lies on the counter-clockwise side of the disc; RigidMotion mirrors the other one.
+// The angle at which a straight beam touches the cam, and the intervals in which the cam presses against it. MODEL.md
+// (S81), (S82). The beam is on the counter-clockwise side of the disc; RigidMotion mirrors the other side.
 #pragma once
 
 #include <vector>
@@ -8,7 +8,7 @@
 
 namespace beamcam::sim {
 
-// Of θ_c over the cam's angle ψ.
+// θ_c and its derivatives by the cam's angle ψ.
 struct SurfaceAngle {
     double angle = 0, slope = 0, bend = 0;  // θ_c, dθ_c/dψ, d²θ_c/dψ²
     double lever = 0;                       // ℓ, from the axis to the contact [m]
@@ -23,17 +23,15 @@ class CamSurface {
     SurfaceAngle at(double s) const { return at_angle(phase_ - speed_ * s); }  // s: time within the turn [s]
     double rate(const SurfaceAngle& c) const { return -speed_ * c.slope; }     // θ̇_c [rad/s]
     double acceleration(const SurfaceAngle& c) const { return speed_ * speed_ * c.bend; }  // θ̈_c [rad/s²]
-    // f = θ̈_c + k cos θ_c − α: the cam pushes a beam that lies on it where f > 0 [rad/s²].
+    // f = θ̈_c + k cos θ_c − α [rad/s²], positive where a beam that follows the cam needs a contact force.
     double push(const SurfaceAngle& c) const;
 
-    double period() const { return period_; }  // of the turn; 1 s at rest
+    double period() const { return period_; }  // of one turn; 1 s at rest
     double highest_acceleration() const { return highest_; }
     double lowest_acceleration() const { return lowest_; }
-    double shortest_lever() const { return shortest_; }
-    double longest_lever() const { return longest_; }
 
-    // Where f < 0: a following beam lifts off at `from`, and the cam would push again at `to`. Within the turn, in
-    // order; `to` may lie beyond its end.
+    // Intervals with f < 0: a following beam lifts off at `from`, and f > 0 again from `to` on. In the order of `from`,
+    // which lies within the turn; `to` may lie beyond its end.
     struct Lift {
         double from, to;
     };
@@ -41,13 +39,13 @@ class CamSurface {
     bool always_pulls() const { return always_pulls_; }
 
   private:
-    void find_lifts(const std::vector<double>& pushes);  // of the cam on a beam that lies on it, around the turn
+    void find_lifts(const std::vector<double>& pushes);  // f at equal intervals around the turn
 
     Vec2 centre_;
     double eccentricity_, phase_, speed_, reach_, k_, alpha_, period_;
-    double highest_ = 0, lowest_ = 0, shortest_ = 0, longest_ = 0;
+    double highest_ = 0, lowest_ = 0;
     std::vector<Lift> lifts_;
-    bool always_pulls_ = false;  // f < 0 all the time: nothing lies on this cam
+    bool always_pulls_ = false;  // f < 0 at every angle: no beam follows this cam
 };
 
 }  // namespace beamcam::sim

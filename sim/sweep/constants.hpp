@@ -1,41 +1,47 @@
-// Numerical constants of sweeps, each with its reason: what a motion settles to, and the rigid beam's closed forms.
+// Numerical constants of sweeps, each with its reason: classification of motions, closed forms of the rigid beam.
 #pragma once
 
 #include <cstddef>
 
 namespace beamcam::sim {
 
-// ---- what a motion settles to ----
-inline constexpr double kSameState = 1e-5;        // of the cam's lift and of its rate: states closer than this are one
-inline constexpr double kUsualLift = 1e-3;        // [rad] where the cam does not lift the beam
-inline constexpr int kPeriodRepeats = 3;          // a period must fit so often into the turns that are compared
-inline constexpr std::size_t kFewestTurns = 12;   // in which a motion without a period is told from one that settles
-inline constexpr double kDifferenceNoise = 1e-7;  // of the lift: changes of a difference that mean nothing
-inline constexpr double kSettledShare = 0.1;      // of a difference: its limit is no farther
-inline constexpr double kVanishingMismatch = 0.02;  // of the lift: differences from a period that may still vanish
-inline constexpr std::size_t kExponentBlocks = 10;  // of the exponent
+// ---- classification ----
+// Of a turn of the cam after the start: instant of the state that is compared. Not zero, because a motion that starts
+// on its orbit may have an impact there, at which the rate jumps.
+inline constexpr double kStrobePhase = 0.381966;
+inline constexpr double kSameState = 1e-5;          // of the cam's lift and its rate: closer states are equal
+inline constexpr double kUsualLift = 1e-3;          // [rad] in place of a lift of zero
+inline constexpr int kPeriodRepeats = 3;            // least number of repetitions of a period in the compared turns
+inline constexpr std::size_t kFewestTurns = 12;     // least number of turns for the classes without a period
+inline constexpr double kDifferenceNoise = 1e-7;    // of the lift: smaller changes of a difference are ignored
+inline constexpr double kSettledShare = 0.1;        // of a difference: largest distance of its extrapolated limit
+inline constexpr double kVanishingMismatch = 0.02;  // of the lift: a smaller distance from a period may still vanish
+inline constexpr std::size_t kExponentBlocks = 10;  // blocks of the average
 inline constexpr double kSureErrors = 3;            // standard errors
-inline constexpr double kSmallError = 0.02;         // per turn, of an exponent that is zero
-// In the later half: differences that grow like the time double, ln 2 and some.
+inline constexpr double kSmallError = 0.02;         // per turn: largest error of an exponent of zero
+// Largest logarithmic growth in the later half if differences grow linearly: ln 2 and a margin.
 inline constexpr double kLinearGrowth = 1.2;
-inline constexpr double kSettledTolerances = 10;  // of the tolerance: errors of a settled motion
-inline constexpr long kLaterTurns = 1000;         // in which a chaotic motion may settle: milliseconds by closed forms
+inline constexpr double kSettledTolerances = 10;  // error of a settled motion, in units of rtol
+inline constexpr long kLaterTurns = 1000;    // least continuation of a chaotic motion: milliseconds by the closed forms
+inline constexpr int kCarriedRounds = 8;     // Newton iterations that move a carried state to the surface
+inline constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding of a time in turns
 
 // ---- the rigid beam between impacts ----
-inline constexpr int kSurfacePlaces = 720;       // around the turn: a few for each degree of what e < R can bend
-inline constexpr double kLiftMargin = 0.01;      // of the range of θ̈_c, for what lies between two places
-inline constexpr double kInsideBeam = 1e-3;      // of the length: the contact keeps this distance from the beam's ends
-inline constexpr double kRigidAccuracy = 1e-13;  // [rad] of a settled motion: some hundred roundings
-inline constexpr double kOpeningDepth = 1e-13;   // [rad] below the surface while it opens: rounding
-inline constexpr double kAngleRounding = 2e-16;  // [rad] of an angle, and of the last terms of its series
+inline constexpr int kSurfacePlaces = 720;         // samples around the turn: half a degree
+inline constexpr double kLiftMargin = 0.01;        // of the range of θ̈_c: margin for extrema between two samples
+inline constexpr double kInsideBeam = 1e-3;        // of the length: least distance of the contact from the beam's ends
+inline constexpr double kRigidAccuracy = 1e-13;    // [rad] error of a settled motion: some hundred rounding errors
+inline constexpr double kOpeningDepth = 1e-13;     // [rad] below the surface while the gap opens: rounding
+inline constexpr double kAngleRounding = 2e-16;    // [rad] rounding of an angle; limit of the last terms of its series
 inline constexpr double kShortestAdvance = 1e-15;  // [s]
-inline constexpr double kTouchInstant = 1e-16;     // of the cam's turn: the touch is known no better
-// Turns before the samples in which the difference turns into the direction that grows most.
+inline constexpr double kTouchInstant = 1e-16;     // of the cam's turn: rounding of the touch's instant
+inline constexpr int kMaxSurfaceIterations = 60;   // Newton's method with bisection
+// Turns before the samples in which the tangent aligns with the direction of largest growth.
 inline constexpr long kWarmUp = 20;
-inline constexpr double kFarFromAway = 1.5;         // [rad] from the cam's axis; a little less than π/2
-inline constexpr long kStretchesPerReport = 4096;   // between two calls of `progress`
-inline constexpr double kLargestDifference = 1e50;  // and the smallest is its inverse: far from overflow
-inline constexpr double kSeriesReach = 0.9;         // of the length of a stretch that the last terms allow
-inline constexpr double kLongestTurn = 1;           // [rad] of a stretch without gravity, whose series ends by itself
+inline constexpr double kFarFromAway = 1.5;         // [rad] from the cam's axis: a little less than π/2
+inline constexpr long kIntervalsPerReport = 4096;   // series between two calls of `progress`
+inline constexpr double kLargestDifference = 1e50;  // tangents are rescaled beyond this and below its inverse
+inline constexpr double kSeriesReach = 0.9;         // of the length that the last terms of the series allow
+inline constexpr double kLongestTurn = 1;           // [rad] of a series without gravity, which is a polynomial
 
 }  // namespace beamcam::sim

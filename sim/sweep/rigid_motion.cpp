@@ -48,7 +48,7 @@ RigidMotion::Mirrored RigidMotion::mirrored(const Problem& p, double theta) {
     return m;
 }
 
-// A straight beam needs no search for its state.
+// Without contact the initial state of a rigid beam is given directly.
 InitialState RigidMotion::start_of(const Problem& problem, const InitialState* start) {
     if (start) return *start;
     if (problem.initial.shape == InitialShape::resting) return initial_state(problem);
@@ -89,9 +89,9 @@ void RigidMotion::begin(const InitialState& start) {
 SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
     for (long count = 1; turn_ < span_.to && !motion_.over_the_top; ++count) {
         if (until_return && returned_) break;
-        if (count % kStretchesPerReport == 0 && progress && !progress(static_cast<double>(turn_) * period_))
+        if (count % kIntervalsPerReport == 0 && progress && !progress(static_cast<double>(turn_) * period_))
             throw Interrupted();
-        follows_difference_ = turn_ >= span_.from - kWarmUp;
+        with_tangent_ = turn_ >= span_.from - kWarmUp;
         lying_ ? lie() : fly();
     }
     motion_.end.y = {mirrored_.side * swing_.theta, mirrored_.side * swing_.rate};
@@ -100,15 +100,15 @@ SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
     return std::move(motion_);
 }
 
-// One series, or up to the touch in it.
+// One Taylor series, or its part up to a touch.
 void RigidMotion::fly() {
     left_ = true;
-    if (follows_difference_ && swing_.d_theta == 0 && swing_.d_rate == 0) {  // at first, and after lasting contact
-        forgot_ = true;
+    if (with_tangent_ && swing_.d_theta == 0 && swing_.d_rate == 0) {  // first flight, or after sustained contact
+        annihilated_ = true;
         swing_.d_theta = 1;
         swing_.d_rate = 1 / period_;
     }
-    series_.expand(swing_, follows_difference_);
+    series_.expand(swing_, with_tangent_);
     const double rest = end() - s_, h = std::min(series_.length(), rest);
     const std::optional<double> touch = first_touch(h);
     const double dt = touch.value_or(h);
@@ -119,7 +119,7 @@ void RigidMotion::fly() {
     swing_ = series_.at(dt);
     touched_ = false;
     move_to(until);
-    if (touch) strike();
+    if (touch) impact();
     const double size = std::hypot(swing_.d_theta, swing_.d_rate * period_);
     if (size > kLargestDifference || (size > 0 && size < 1 / kLargestDifference)) {
         growth_ += std::log(size);
@@ -128,9 +128,9 @@ void RigidMotion::fly() {
     }
 }
 
-// The beam points away from the cam at an end of the stretch, or where it turns back.                       (S80)
+// The beam points away from the cam at an end of the interval, or at a turning point in it.                 (S80)
 bool RigidMotion::leaves(double dt) const {
-    // Within a stretch θ moves by less than |θ̇|t + (|k| + |α|)t²/2: mostly the beam stays far from pointing away.
+    // θ changes by less than |θ̇|t + (|k| + |α|)t²/2, which usually excludes this.
     const double moves =
         (std::fabs(swing_.rate) + 0.5 * (std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha)) * dt) * dt;
     if (std::fabs(swing_.theta - centre_direction_) + moves < kFarFromAway) return false;
@@ -141,11 +141,11 @@ bool RigidMotion::leaves(double dt) const {
 }
 
 SurfaceAngle RigidMotion::surface_at(double s) {
-    if (s != seen_at_) {
-        seen_at_ = s;
-        seen_ = surface_.at(s);
+    if (s != cached_at_) {
+        cached_at_ = s;
+        cached_ = surface_.at(s);
     }
-    return seen_;
+    return cached_;
 }
 
 // By advancement as in (S56), on the angle above the surface G = θ − θ_c: G̈ lies between −(max θ̈_c + |k| − α) and
@@ -172,18 +172,18 @@ std::optional<double> RigidMotion::first_touch(double h) {
     return {};
 }
 
-// The angle above the surface falls from t on and vanishes before `latest`: Newton's method, kept in bounds. Beyond h
-// nothing is evaluated.
+// The angle above the surface falls from t on and vanishes before `latest`: Newton's method with bisection. The series
+// is not evaluated beyond h.
 double RigidMotion::falling(double t, double latest, double h) {
     double low = t, high = std::min(latest, h);
-    for (int i = 0; i < 60; ++i) {
+    for (int i = 0; i < kMaxSurfaceIterations; ++i) {
         const SurfaceAngle c = surface_at(s_ + t);
         const double g = series_.theta(t) - c.angle, v = series_.rate(t) - surface_.rate(c);
         if (std::fabs(g) <= kAngleRounding) return t;
         (g > 0 ? low : high) = t;
         double next = t - g / v;
         if (!(next >= low && next <= high)) {
-            if (next > high && t < high && g > 0 && high == h) {  // does it touch in this stretch at all?
+            if (next > high && t < high && g > 0 && high == h) {  // possibly no touch before h
                 const SurfaceAngle last = surface_.at(s_ + h);
                 if (series_.theta(h) - last.angle > 0) return h;
             }
@@ -195,15 +195,15 @@ double RigidMotion::falling(double t, double latest, double h) {
     return t;
 }
 
-void RigidMotion::strike() {
+void RigidMotion::impact() {
     const SurfaceAngle c = surface_at(s_);
     const double w = swing_.rate - surface_.rate(c), approach = -c.lever * w;
     const double rebound = problem_.contact.restitution * approach, pull = c.lever * surface_.push(c);
     swing_.theta = c.angle;
     touched_ = true;
-    if (!(approach > 0)) {  // it only just reaches the surface
+    if (!(approach > 0)) {  // the beam reaches the surface without approach speed
         if (pull > 0) return rest_on(c);
-        return start_of_lift();
+        return lift_after_impact();
     }
     ++motion_.impacts;
     if (sums_up_chatter(c, approach, rebound)) {
@@ -215,7 +215,7 @@ void RigidMotion::strike() {
     last_rebound_ = rebound;
     const double kept = slow ? 0 : problem_.contact.restitution, after = surface_.rate(c) - kept * w;
     if (slow && pull > 0) {
-        sample_impact(c, kNan);  // it lasts
+        sample_impact(c, kNan);
         return rest_on(c);
     }
     sample_impact(c, after);
@@ -224,10 +224,10 @@ void RigidMotion::strike() {
     swing_.d_rate = (1 + kept) * fall / w * swing_.d_theta - kept * swing_.d_rate;
     swing_.d_theta *= -kept;
     swing_.rate = after;
-    if (slow) start_of_lift();
+    if (slow) lift_after_impact();
 }
 
-// As Transitions::sum_up_chatter (S57): the contact counts as sustained from now on.
+// The conditions of Transitions::sum_up_chatter (S57).
 bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const {
     if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * floor_)) return false;
     const double pull = c.lever * surface_.push(c), lasts = 2 * rebound / (pull * (1 - rebound / approach));
@@ -237,14 +237,14 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double
     return std::fabs(last.lever * surface_.push(last) - pull) < kSteadyPull * pull;
 }
 
-// Lasting contact: no difference of the state outlives it.
+// Sustained contact begins, which annihilates the tangent.
 void RigidMotion::rest_on(const SurfaceAngle& c) {
     lying_ = true;
     rested_ = true;
     swing_ = {c.angle, surface_.rate(c), 0, 0};
 }
 
-// Lies on the cam until it falls away faster than the beam.
+// Sustained contact until the cam falls away faster than the beam.
 void RigidMotion::lie() {
     const auto at = [&](double s) {
         const SurfaceAngle c = surface_.at(s);
@@ -252,7 +252,7 @@ void RigidMotion::lie() {
     };
     if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
     double from = end(), to = from;
-    std::optional<std::size_t> window;  // none: it lies where the cam falls away already
+    std::optional<std::size_t> window;  // none: the cam already falls away
     for (std::size_t i = 0; i < surface_.lifts().size(); ++i)
         for (const double turn : {-period_, 0.0, period_}) {
             const CamSurface::Lift& lift = surface_.lifts()[i];
@@ -261,7 +261,6 @@ void RigidMotion::lie() {
             to = lift.to + turn;
             window = lift.from + turn > s_ ? std::optional(i) : std::nullopt;
         }
-    motion_.all_following = surface_.lifts().empty();
     observe(from, at);
     swing_ = at(from);
     const bool ends = from == end();
@@ -269,19 +268,19 @@ void RigidMotion::lie() {
     move_to(from);
     if (ends) return;
     end_lasting();
-    if (window) note_lift(*window);
+    if (window) record_lift(*window);
     lift(s_ + stays);
 }
 
-// From the same state, at the same phase of the cam, the same motion follows.                               (S89b)
-void RigidMotion::note_lift(std::size_t window) {
+// Two lifts at the same phase have the same state, so the motion between them repeats.                      (S89b)
+void RigidMotion::record_lift(std::size_t window) {
     last_lifts_.resize(surface_.lifts().size());
     std::optional<Return>& last = last_lifts_[window];
     if (last && !returned_) returned_ = Return{turn_ - last->turns, motion_.impacts - last->impacts};
     last = Return{turn_, motion_.impacts};
 }
 
-// Flight begins on the surface and leaves it at least until the middle of the time in which the cam would pull.
+// Flight begins on the surface. No touch is possible in the first half of the interval with f < 0.
 void RigidMotion::lift(double until) {
     const double swing_time = 1 / std::sqrt(std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha) + 1e-300);
     lying_ = false;
@@ -289,13 +288,13 @@ void RigidMotion::lift(double until) {
     clear_until_ = s_ + std::min(0.5 * (until - s_), 0.5 * swing_time);
 }
 
-// The same from an impact without a rebound.
-void RigidMotion::start_of_lift() {
+// Lift from an impact without a rebound.
+void RigidMotion::lift_after_impact() {
     if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
     for (const CamSurface::Lift& window : surface_.lifts())
         for (const double turn : {-period_, 0.0, period_})
             if (window.from + turn <= s_ && s_ < window.to + turn) return lift(window.to + turn);
-    rest_on(surface_.at(s_));  // at the very edge of such a window
+    rest_on(surface_.at(s_));  // at the edge of an interval, by rounding
 }
 
 void RigidMotion::move_to(double s) {
@@ -307,7 +306,7 @@ void RigidMotion::move_to(double s) {
     }
 }
 
-// Strobes and sections after s_ and up to `until`, where the state is at(s).
+// Samples strobes and sections after s_ and up to `until`; at(s) is the state.
 template <class At>
 void RigidMotion::observe(double until, At&& at) {
     if (static_cast<double>(turn_) + until / period_ < static_cast<double>(span_.from)) return;
@@ -315,7 +314,7 @@ void RigidMotion::observe(double until, At&& at) {
         for (long k = 0; (static_cast<double>(k) + phase) * period_ <= until; ++k) {
             const double s = (static_cast<double>(k) + phase) * period_;
             const long turn = turn_ + k;
-            const bool first = turn == 0 && s == 0 && s_ == 0;  // of the motion
+            const bool first = turn == 0 && s == 0 && s_ == 0;  // the initial state
             if ((s > s_ || first) && turn >= span_.from && turn < span_.to) visit(turn, s);
         }
     };
@@ -328,10 +327,11 @@ void RigidMotion::strobe(long turn, const Swing& state) {
     Strobe out{mirrored_.side * state.theta, mirrored_.side * state.rate, kept_impacts_, lying_, left_};
     const double size = std::hypot(state.d_theta, state.d_rate * period_);
     const double growth = size > 0 ? growth_ + std::log(size) : 0;
-    forgot_ = forgot_ || !(size > 0);
-    if (turn > span_.from) out.growth = forgot_ ? -std::numeric_limits<double>::infinity() : growth - growth_at_strobe_;
+    annihilated_ = annihilated_ || !(size > 0);
+    if (turn > span_.from)
+        out.growth = annihilated_ ? -std::numeric_limits<double>::infinity() : growth - growth_at_strobe_;
     growth_at_strobe_ = growth;
-    forgot_ = false;
+    annihilated_ = false;
     left_ = !lying_;
     motion_.strobes.push_back(out);
 }
@@ -366,7 +366,7 @@ void RigidMotion::sample_impact(const SurfaceAngle& c, double rate_after) {
     motion_.samples.push_back(out);
 }
 
-// The impact that lasted ends where the beam lifts off.
+// The sampled contact that became sustained ends at the lift.
 void RigidMotion::end_lasting() {
     if (!lasting_) return;
     lasting_ = false;
@@ -376,7 +376,7 @@ void RigidMotion::end_lasting() {
     last[kDuration] = static_cast<double>(turn_) * period_ + s_ - last[kSampleTime];
 }
 
-// v_t (S27): along the beam, the disc's centre moves and its surface turns.
+// v_t (S27).
 double RigidMotion::slip(const SurfaceAngle& c, double rate) const {
     const CamPose pose = cam_pose(mirrored_.cam, s_);
     const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * reach_;

@@ -1,6 +1,6 @@
-// The motion of a rigid beam with impulsive contact and without friction, followed for thousands of cam turns: flight
-// as a Taylor series, impacts by bounds on the closed form of the cam's surface, sustained contact by the sign of the
-// contact force. The same impacts as Run's, to rounding and its tolerance. MODEL.md §18.
+// The motion of a rigid beam with frictionless impulsive contact over thousands of cam turns: flight as a Taylor
+// series, impacts by bounds on the closed form of the cam's surface, sustained contact by the sign of the contact
+// force. The impacts agree with those of a Run within its tolerance. MODEL.md (S80)–(S85).
 #pragma once
 
 #include <optional>
@@ -15,25 +15,24 @@ namespace beamcam::sim {
 
 class RigidMotion {
   public:
-    // Whether this class follows such a motion: the model and its contact; a hub that is free or has a constant torque;
-    // a contact that stays between the ends of the beam; method `auto`; samples at impacts or cam angles.
+    // Conditions: rigid beam, frictionless impulsive contact, a free hub or one with a constant torque, a contact that
+    // stays between the ends of the beam, method `auto`, samples at impacts or cam angles.
     static bool applies(const Problem& problem, const Sampling& sampling);
 
-    // `start`: a state to begin with instead of the problem's.
+    // `start`: initial state; null: that of the problem.
     RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start);
-    // Once; `until_return`: no farther than to where the motion is known to repeat itself. Throws Interrupted.
+    // To be called once. `until_return`: stop once the motion is known to be periodic. Throws Interrupted.
     SampledMotion follow(const Progress& progress, bool until_return = false);
-    // Lasting contact ended every difference of the state at least once.
+    // Sustained contact, which annihilates all differences of the state, has occurred.
     bool rested() const { return rested_; }
-    // The turns and impacts between two lifts from lasting contact at the same phase, that is in the same state: the
-    // period from then on.
+    // Turns and impacts between two lifts at the same phase, and therefore in the same state: the period (S89b).
     struct Return {
         long turns = 0, impacts = 0;
     };
     const std::optional<Return>& returned() const { return returned_; }
 
   private:
-    // The problem with the beam on the counter-clockwise side of the disc: itself, or mirrored in the X axis.
+    // The problem with the beam on the counter-clockwise side of the disc, mirrored in the X axis if necessary.
     struct Mirrored {
         Cam cam;
         double side, k, alpha;  // θ̈ = α − k cos θ
@@ -44,25 +43,27 @@ class RigidMotion {
     void begin(const InitialState& start);
     void fly();
     void lie();
-    SurfaceAngle surface_at(double s);  // asked for the same place twice in a row, it answers once
+    SurfaceAngle surface_at(double s);  // caches the last result
     std::optional<double> first_touch(double h);
     double falling(double t, double latest, double h);
     bool leaves(double dt) const;
-    void strike();
+    void impact();
     bool sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const;
     void rest_on(const SurfaceAngle& c);
     void lift(double until);
-    void note_lift(std::size_t window);
-    void start_of_lift();
+    void record_lift(std::size_t window);
+    void lift_after_impact();
     void move_to(double s);
     template <class At>
     void observe(double until, At&& at);
     void strobe(long turn, const Swing& state);
     MotionSample sample(double s, const Swing& state) const;
-    void sample_impact(const SurfaceAngle& c, double rate_after);  // NaN: it lasts
+    void sample_impact(const SurfaceAngle& c, double rate_after);  // NaN: sustained contact follows
     void end_lasting();
     double slip(const SurfaceAngle& c, double rate) const;
-    double end() const { return static_cast<double>(span_.to - turn_) * period_; }  // from the start of this turn
+    double end() const {
+        return static_cast<double>(span_.to - turn_) * period_;
+    }  // of the motion, within this turn [s]
 
     const Problem& problem_;
     const Sampling& sampling_;
@@ -73,25 +74,25 @@ class RigidMotion {
     CamSurface surface_;
     SwingSeries series_;
     double reach_, floor_;
-    double centre_direction_;  // from the hub to the cam's axis, on the side of `mirrored_` [rad]
-    double seen_at_ = kNan;
-    SurfaceAngle seen_;
+    double centre_direction_;  // of the cam's axis as seen from the hub, mirrored [rad]
+    double cached_at_ = kNan;
+    SurfaceAngle cached_;
 
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
     Swing swing_;
     bool lying_ = false;  // in sustained contact
     bool rested_ = false;
-    std::vector<std::optional<Return>> last_lifts_;  // by the windows of the surface: turn and impacts so far
+    std::vector<std::optional<Return>> last_lifts_;  // for each lift interval of the surface: turn and impacts
     std::optional<Return> returned_;
-    bool lasting_ = false;    // since the last sample
+    bool lasting_ = false;    // sustained contact follows the last sample
     bool touched_ = false;    // the flight starts on the surface
-    double clear_until_ = 0;  // after a lift nothing touches before this time
+    double clear_until_ = 0;  // no touch is possible before this time, after a lift
     double last_rebound_ = 0;
-    double section_phase_;  // of a section, in turns: 0 … 1
-    bool follows_difference_ = false, left_ = false;
-    bool forgot_ = false;                       // the difference began anew since the last strobe
-    double growth_ = 0, growth_at_strobe_ = 0;  // logarithms of the difference's size
+    double section_phase_;  // fraction of a turn: 0 … 1
+    bool with_tangent_ = false, left_ = false;
+    bool annihilated_ = false;                  // the tangent was restarted since the last strobe
+    double growth_ = 0, growth_at_strobe_ = 0;  // logarithms of the tangent's length
     long kept_impacts_ = 0;
     SampledMotion motion_;
 };

@@ -40,7 +40,7 @@ void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
 MotionSample Sampler::sample(double t, const double* y) {
     MotionSample out;
     out.fill(kNan);
-    system_.place(t, y);
+    system_.set_state(t, y);
     out[kSampleTime] = t;
     out[kTheta] = system_.model().hub_angle();
     out[kThetaDot] = system_.model().hub_rate();
@@ -62,12 +62,12 @@ void Sampler::segment(const SegmentInterval& s) {
     motion_.end.y = y_;
 }
 
-// The beam points away from the cam at an end of the step, or where it turns back.                         (S80)
+// The beam points away from the cam at an end of the step, or at a turning point in it.                    (S80)
 bool Sampler::leaves(const SegmentInterval& s) {
     if (!system_.has_cam() || is_prescribed(system_.problem().hub.drive)) return false;
     const auto model = [&](double t) -> const Model& {
         evaluate(s, t);
-        system_.place(t, y_.data());
+        system_.set_state(t, y_.data());
         return system_.model();
     };
     const auto away = [&](double t) { return points_away(system_.problem(), model(t).hub_angle()); };
@@ -89,7 +89,7 @@ void Sampler::strobes(const SegmentInterval& s) {
 }
 
 void Sampler::strobe(double t, const double* y) {
-    system_.place(t, y);
+    system_.set_state(t, y);
     motion_.strobes.push_back(
         {system_.model().hub_angle(), system_.model().hub_rate(), kept_impacts_, phase_.touching, left_});
     left_ = !phase_.touching;
@@ -124,7 +124,7 @@ void Sampler::events(const SegmentInterval& s) {
     }
 }
 
-// Chatter that was summed up ends in contact without an approach, and a motion may start in contact: no impacts.
+// The end of summed-up chatter and a start in contact are touches without an approach: no impacts.
 void Sampler::touch(double t, const std::vector<double>& y, const ContactState& contact) {
     impact_.reset();
     if (!(contact.gap_rate < 0) || t == 0) return;
@@ -180,7 +180,7 @@ InitialState carried(const Problem& problem, const InitialState& end) {
     system.set_phase({});
     double* y = start.y.data();
     const auto rate = static_cast<std::size_t>(system.coordinates());
-    for (int round = 0; round < 8; ++round) {  // Newton's method for the angle; the lever hardly changes
+    for (int round = 0; round < kCarriedRounds; ++round) {  // Newton's method for the angle
         const ContactState c = system.contact(0, y, true);
         if (!start.phase.held && c.gap >= 0) return start;
         const double lever = std::copysign(problem.hub.radius + c.x, cross(unit(y[0]), c.normal));

@@ -1,4 +1,4 @@
-// Samples of one motion, taken while it is integrated: nothing of the motion is kept but these.
+// Samples of one motion, taken during the integration. The trajectory is not stored.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,6 @@ namespace beamcam::sim {
 
 class ExtremaFinder;
 
-// Follows a run (run/run.hpp).
 class Sampler final : public MotionObserver {
   public:
     Sampler(const System& system, const Sampling& sampling);
@@ -42,23 +41,22 @@ class Sampler final : public MotionObserver {
     SampledMotion motion_;
     std::vector<double> y_;
     Phase phase_;
-    std::optional<MotionSample> impact_;  // the open one
-    double section_phase_;                // of a section, in turns since the start: 0 … 1
+    std::optional<MotionSample> impact_;  // of the present contact
+    double section_phase_;                // fraction of a turn after the start: 0 … 1
     long next_strobe_, next_section_;
     long kept_impacts_ = 0;
-    bool left_ = false;  // flight since the last strobe
+    bool left_ = false;  // the beam left the cam since the last strobe
 };
 
-// By the general integration, whatever the model. `start`: a state to begin with instead of the problem's. What fails
-// is told in the result.
+// Samples by a Run, for any model. `start`: initial state; null: that of the problem. The result reports failures.
 SampledMotion sample_by_run(const Problem& problem, const Sampling& sampling, const InitialState* start,
                             const Progress& progress);
 
-// The state at which another motion ended as the start of this one: the beam is moved out of the cam if it would be
-// inside, and to its surface if it lasts on it.
+// The end of another motion as the initial state of this problem: a beam inside the cam is moved out of it, and one in
+// sustained impulsive contact onto its surface.
 InitialState carried(const Problem& problem, const InitialState& end);
 
-// The beam points away from the cam: no contact until it comes back.                                        (S80)
+// The beam points away from the cam.                                                                        (S80)
 bool points_away(const Problem& problem, double theta);
 
 }  // namespace beamcam::sim

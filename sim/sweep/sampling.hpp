@@ -1,5 +1,5 @@
-// What a sweep keeps of each motion: samples after a transient, and the states by which its attractor is judged.
-// MODEL.md §18.
+// The data that a sweep keeps of each motion: samples after a transient, and the states by which the motion is
+// classified. MODEL.md §18.
 #pragma once
 
 #include <array>
@@ -14,8 +14,8 @@
 namespace beamcam::sim {
 
 enum class SampleKind {
-    impacts,   // each touch, but not the end of chatter
-    section,   // stroboscopic: the cam's angle ψ is `level` up to whole turns
+    impacts,   // each touch, except the end of chatter
+    section,   // stroboscopic: the cam's angle ψ equals `level`, modulo 2π
     apexes,    // maxima of θ
     crossings  // `channel` passes `level` in the given direction
 };
@@ -23,7 +23,7 @@ enum class SampleKind {
 // A number of cam turns, or a time that is rounded up to whole cam turns.
 struct CamSpan {
     double turns = 0;            // >= 0, whole
-    std::optional<double> time;  // [s], >= 0; takes the place of the turns
+    std::optional<double> time;  // [s], >= 0; replaces the turns
     bool operator==(const CamSpan&) const = default;
 };
 
@@ -33,12 +33,12 @@ struct Sampling {
     double level = 0;
     bool rising = true;
     CamSpan transient{200, {}}, keep{50, {}};
-    double end_time = std::numeric_limits<double>::infinity();  // [s], beyond which no motion is followed
+    double end_time = std::numeric_limits<double>::infinity();  // latest end of a motion [s]
 
     bool operator==(const Sampling&) const = default;
 };
 
-// When the samples begin and the motion ends, in whole turns of the cam.
+// Start of the samples and end of the motion, in whole turns of the cam.
 struct SampleSpan {
     long from = 0, to = 0;  // turns, from < to
     double period = 1;      // [s]
@@ -48,10 +48,10 @@ struct SampleSpan {
 };
 SampleSpan sample_span(const Problem& problem, const Sampling& sampling);
 
-// One sample; what does not apply is NaN. The columns of the files, in this order.
+// The columns of a sample, in the order of the files. NaN: does not apply.
 enum SampleColumn : std::size_t {
     kSampleTime,
-    kCamPhase,  // turns of the cam since the start, without the whole ones: 0 … 1
+    kCamPhase,  // fraction of a turn of the cam since the start: 0 … 1
     kTheta,
     kThetaDot,
     kContactX,
@@ -70,26 +70,23 @@ struct SampleColumnInfo {
 };
 const std::array<SampleColumnInfo, kSampleColumns>& sample_columns();
 
-// The state once a turn of the cam. Not at the angle of the start, at which a motion that begins on its orbit may have
-// an impact, before and after which rates differ: so many turns later.
-inline constexpr double kStrobePhase = 0.381966;
+// The state once in each turn of the cam, kStrobePhase after its start.
 struct Strobe {
     double theta = 0, theta_dot = 0;
-    long impacts = 0;       // so far, from the start of the samples
-    bool touching = false;  // in lasting contact
-    bool left = false;      // flight since the strobe before
-    double growth = kNan;   // of the largest tangent vector since the strobe before: its logarithm; NaN: not followed
+    long impacts = 0;       // since the start of the samples
+    bool touching = false;  // in sustained contact
+    bool left = false;      // the beam left the cam since the previous strobe
+    double growth = kNan;   // logarithmic growth of the tangent since the previous strobe; NaN: unknown
 };
 
 struct SampledMotion {
     std::vector<MotionSample> samples;
-    std::vector<Strobe> strobes;  // one in each turn of the samples
-    bool over_the_top = false;    // the beam pointed away from the cam; the motion ended there
-    bool all_following = false;   // it follows the cam for ever, by the sign of the contact force over a whole turn
-    InitialState end;             // to go on from at another parameter; its ledger is that of a start
-    long impacts = 0;             // all, with those of the transient
-    double accuracy = 0;          // of its angles, about [rad]
-    std::string failure;          // why the motion could not be followed to its end
+    std::vector<Strobe> strobes;  // one for each turn of the samples
+    bool over_the_top = false;    // the motion ended because the beam pointed away from the cam
+    InitialState end;             // initial state of the motion at the next parameter
+    long impacts = 0;             // including the transient
+    double accuracy = 0;          // approximate error of angles [rad]
+    std::string failure;          // reason of a failed integration
 };
 
 }  // namespace beamcam::sim

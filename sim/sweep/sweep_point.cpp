@@ -13,8 +13,8 @@
 namespace beamcam::sim {
 namespace {
 
-// The motion goes on for as long as its samples were taken, with its largest exponent. The cam stands then where it
-// stood at the start: samples are taken over whole turns.
+// Continues the motion for the duration of its samples, with tangents, and classifies it by its largest exponent.
+// Samples cover whole turns, so the cam has its initial phase again.
 Attractor by_tangents(const Problem& problem, const Sampling& sampling, const SweepPoint& point,
                       const Progress& progress) {
     const SampleSpan span = sample_span(problem, sampling);
@@ -23,17 +23,17 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
     request.start = carried(problem, point.motion.end);
     try {
         const Exponents found = lyapunov_exponents(problem, request, progress);
-        if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no neighbours
+        if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no tangents
         const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
         Attractor judged = with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late});
         if (found.chaos() == Chaos::doubtful) judged.kind = AttractorClass::aperiodic;
         return judged;
     } catch (const SolverError&) {
-        return point.attractor;  // its exponent stays unknown
+        return point.attractor;  // the exponent remains unknown
     }
 }
 
-// The sampling of a motion that goes on for as long again, by closed forms for kLaterTurns at least.
+// The sampling of a continuation of the same duration, with the closed forms of at least kLaterTurns.
 Sampling later(const Problem& problem, Sampling sampling) {
     const SampleSpan span = sample_span(problem, sampling);
     const long least = RigidMotion::applies(problem, sampling) ? kLaterTurns : 0;
@@ -42,15 +42,15 @@ Sampling later(const Problem& problem, Sampling sampling) {
     return sampling;
 }
 
-// What a chaotic motion did later has no period.                                                           (S89a)
+// The continuation of a chaotic motion has no period.                                                      (S89a)
 bool stays_chaotic(const Problem& problem, SampledMotion motion) {
     if (classify(problem, motion).kind == AttractorClass::chaotic) return true;
-    // The exponent of other turns may be less sure: what counts is that nothing returns.
+    // The exponent of these turns may be less certain; only the absence of a period matters here.
     for (Strobe& strobe : motion.strobes) strobe.growth = kNan;
     return classify(problem, motion).kind == AttractorClass::aperiodic;
 }
 
-// Lasting contact ends at a few phases of the cam: a motion that comes to it twice repeats itself.           (S89b)
+// Sustained contact ends at a few phases of the cam: a motion that reaches the same one twice is periodic.   (S89b)
 Attractor returning(const RigidMotion::Return& period) {
     Attractor out;
     out.kind = AttractorClass::periodic;
@@ -89,7 +89,7 @@ SweepPoint point_by_run(const Problem& problem, const Sampling& sampling, const 
     if (start) moved = carried(problem, *start);
     point.motion = sample_by_run(problem, sampling, moved ? &*moved : nullptr, progress);
     point.attractor = classify(problem, point.motion);
-    if (point.attractor.kind == AttractorClass::aperiodic && !exponents_refusal(problem))
+    if (point.attractor.kind == AttractorClass::aperiodic && !tangent_refusal(problem))
         point.attractor = by_tangents(problem, sampling, point, progress);
     if (point.attractor.kind != AttractorClass::chaotic) return point;
     const InitialState end = carried(problem, point.motion.end);
@@ -102,7 +102,7 @@ SweepPoint point_by_run(const Problem& problem, const Sampling& sampling, const 
 
 SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const InitialState* start,
                        const Progress& progress) {
-    for (const Finding& finding : validate(problem))
+    for (const Issue& finding : validate(problem))
         if (finding.fatal && !(start && finding.path.starts_with("initial")))
             throw std::invalid_argument(finding.path + ": " + finding.message);
     SweepPoint point = RigidMotion::applies(problem, sampling)

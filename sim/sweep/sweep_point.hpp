@@ -11,14 +11,13 @@ struct SweepPoint {
     Attractor attractor;
 };
 
-// `start`: the end of another motion to go on from; null: the problem's own start. The fast path where it applies
-// (rigid_motion.hpp), else the general integration. Throws Interrupted; std::invalid_argument when the problem is not
-// valid.
+// `start`: the end of another motion; null: the problem's own start. Uses the closed forms where they apply
+// (rigid_motion.hpp), else a Run. Throws Interrupted; std::invalid_argument for an invalid problem.
 SweepPoint sweep_point(const Problem& problem, const Sampling& sampling, const InitialState* start,
                        const Progress& progress);
 
-// The motion that goes on from the end of another, of this or a neighbouring problem: at t = 0 the cam stands as it
-// does at the problem's start, as it did at that end. Throws SolverError, Interrupted.
+// The motion that continues another one of this or a neighbouring problem from its end, at which the cam has completed
+// whole turns. Throws SolverError, Interrupted.
 Result motion_from(const Problem& problem, const InitialState& end, const Request& request, const Progress& progress);
 
 }  // namespace beamcam::sim

@@ -9,9 +9,9 @@
 namespace beamcam::sim {
 
 // With s = sin θ, c = cos θ: j s_j = Σ i a_i c_{j−i}, j c_j = −Σ i a_i s_{j−i}, (j+1)(j+2) a_{j+2} = −k c_j + α δ_{j0};
-// a difference obeys δ̈ = k s δ.                                                                              (S83)
-void SwingSeries::expand(const Swing& from, bool difference) {
-    difference_ = difference;
+// a tangent obeys δ̈ = k s δ.                                                                                 (S83)
+void SwingSeries::expand(const Swing& from, bool tangent) {
+    tangent_ = tangent;
     double s[kOrder], c[kOrder], turn[kOrder + 1];  // turn[i] = i a_i
     a_[0] = from.theta;
     a_[1] = turn[1] = from.rate;
@@ -31,7 +31,7 @@ void SwingSeries::expand(const Swing& from, bool difference) {
         turn[j + 2] = (-k_ * c[j] + (j == 0 ? alpha_ : 0)) / (j + 1);
         a_[j + 2] = turn[j + 2] / (j + 2);
     }
-    if (difference) {
+    if (tangent) {
         d_[0] = from.d_theta;
         d_[1] = from.d_rate;
         for (int j = 0; j + 2 <= kOrder; ++j) {
@@ -68,7 +68,7 @@ double SwingSeries::rate(double dt) const {
 
 Swing SwingSeries::at(double dt) const {
     Swing out{theta(dt), rate(dt), 0, 0};
-    if (!difference_) return out;
+    if (!tangent_) return out;
     for (int j = kOrder; j >= 0; --j) out.d_theta = out.d_theta * dt + d_[j];
     for (int j = kOrder; j >= 1; --j) out.d_rate = out.d_rate * dt + j * d_[j];
     return out;

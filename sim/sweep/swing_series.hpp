@@ -1,13 +1,13 @@
-// A stretch of the rigid beam's flight, θ̈ = α − k cos θ, as its Taylor series: exact to rounding over `length`, known
-// everywhere inside. Also the motion of a small difference beside it. MODEL.md §18, (S83).
+// The Taylor series of the rigid beam's flight, θ̈ = α − k cos θ, which is exact to rounding over its `length`, and of a
+// tangent along it. MODEL.md (S83).
 #pragma once
 
 namespace beamcam::sim {
 
-// A state and, if it is followed, a small difference of it.
+// A state and, optionally, a tangent.
 struct Swing {
     double theta = 0, rate = 0;      // [rad], [rad/s]
-    double d_theta = 0, d_rate = 0;  // of the difference
+    double d_theta = 0, d_rate = 0;  // of the tangent
     bool operator==(const Swing&) const = default;
 };
 
@@ -15,9 +15,9 @@ class SwingSeries {
   public:
     SwingSeries(double k, double alpha) : k_(k), alpha_(alpha) {}
 
-    // From the state on; `difference`: it is followed, too.
-    void expand(const Swing& from, bool difference);
-    double length() const { return length_; }  // [s] for which the series holds
+    // Expands the motion from a state; `tangent`: also that of the tangent.
+    void expand(const Swing& from, bool tangent);
+    double length() const { return length_; }  // [s]
     double theta(double dt) const;
     double rate(double dt) const;
     Swing at(double dt) const;
@@ -29,7 +29,7 @@ class SwingSeries {
     double k_, alpha_;
     double a_[kOrder + 1], d_[kOrder + 1];
     double length_ = 0;
-    bool difference_ = false;
+    bool tangent_ = false;
 };
 
 }  // namespace beamcam::sim

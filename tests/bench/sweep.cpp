@@ -1,4 +1,4 @@
-// What a sweep costs: points of the fast path and of general integrations, on one thread and on two; then its tables.
+// The cost of a sweep: points by closed forms and by general integration, on one thread and on two; then its tables.
 // bench_sweep [ROWS [FOLDER]]: rows of the tables (default 10⁷; 0: none), written to the folder (default: that of
 // temporary files). Prints CSV: case,threads,points,turns,impacts,cpu_s,wall_s,us_per_impact,ms_per_second,peak_MiB,
 // and table,rows,columns,cpu_s,wall_s,MB,peak_MiB. The peak is that of the program so far.
@@ -55,7 +55,7 @@ void points(const char* name, const std::string& text, int threads, const fs::pa
         const sim::SampleSpan span = sample_span(grid.problem(k), grid.sampling());
         turns += static_cast<double>(span.to);
         seconds += span.t_to();
-        // As many in a turn of the transient as in a kept one.
+        // Impacts per turn of the transient as in a kept one.
         const double samples = static_cast<double>(store.numbers(k)) / sim::kSampleColumns;
         impacts += samples * static_cast<double>(span.to) / static_cast<double>(span.kept());
     }
@@ -65,7 +65,7 @@ void points(const char* name, const std::string& text, int threads, const fs::pa
     std::fflush(stdout);
 }
 
-// Numbers that compress like those of a motion: hardly.
+// Numbers that compress as badly as those of a motion.
 output::SweepData made_up(std::uint64_t rows) {
     constexpr std::uint64_t kRows = 1000;  // of a point
     output::SweepData data;
@@ -117,8 +117,8 @@ int main(int argc, char** argv) {
     for (const int threads : {1, 2}) points("rigid with restitution", rigid, threads, folder);
     points("the same with 20 000 values", swept(kRigid, kNewton, R"("from": 38, "to": 60, "count": 20000)", "15", "10"),
            1, folder);
-    // Few kept turns are motion alone; from twelve on motions without a period get their exponents, and what is chaotic
-    // goes on for as long again.
+    // With few kept turns only the motion is computed. From twelve on, motions without a period get their exponents,
+    // and chaotic ones are continued for as long again.
     const char* range = R"("from": 44, "to": 52, "count": 17)";
     for (const int threads : {1, 2})
         points("first order 2 modes compliant", swept(kTwoModes, kCompliant, range, "60", "10"), threads, folder);

@@ -1,9 +1,9 @@
-// Is the requested tolerance kept? Random scenes (modes, cam speed and phase, law and friction of contact, stiffness,
-// damping) at random tolerances by `auto`, each against the Runge–Kutta method at 1e-12. Prints, for the fall up to the
-// first impact and for the first second with its impacts, how many times rtol the largest error was, as quantiles: of
-// the hub's angle, and of the state, which is the worst of hub angle and rate, tip deflection and its rate. Each error
-// is in units of the largest value in that time (of the angle, 1 rad at least). Scenes whose impacts differ in number
-// are named.
+// Compares errors with the requested tolerance. Random scenes (modes, cam speed and phase, law and friction of contact,
+// stiffness, damping) at random tolerances by `auto`, each against the Runge–Kutta method at 1e-12. Prints, for the
+// fall up to the first impact and for the first second with its impacts, how many times rtol the largest error was, as
+// quantiles: of the hub's angle, and of the state, which is the worst of hub angle and rate, tip deflection and its
+// rate. Each error is in units of the largest value in that time (of the angle, 1 rad at least). Scenes whose impacts
+// differ in number are named.
 //
 //   bench_tolerance [--scenes 300] [--seed 1] [--csv FILE]
 #include <fmt/format.h>

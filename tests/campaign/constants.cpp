@@ -3,9 +3,9 @@
 //
 //   campaign_constants [--verbose] [NAME...]
 //
-// It is linked with a build of sim/ whose constants are variables (campaign/constants.py). What the tolerance allows is
-// measured: a problem whose numbers differ by kPerturbation may change a result by as much, times kReserve. Prints the
-// constants that change a result by more, with --verbose also what the others change. Ends with 1 if there are any.
+// It is linked with a build of sim/ whose constants are variables (campaign/constants.py). The allowed change of a
+// result is its change in a problem whose numbers differ by kPerturbation, times kReserve. Prints the constants that
+// change a result by more, with --verbose also the others. The exit code is 1 if there are any.
 #include "sim/beam/constants.hpp"
 
 #include <fmt/format.h>
@@ -18,15 +18,18 @@
 #include <variant>
 #include <vector>
 
+#include "sim/contact/constants.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/integrate/constants.hpp"
 #include "sim/observe/constants.hpp"
 #include "sim/orbit/constants.hpp"
 #include "sim/orbit/exponents.hpp"
 #include "sim/orbit/periodic_orbit.hpp"
-#include "sim/problem/derived.hpp"
+#include "sim/problem/constants.hpp"
+#include "sim/problem/problem.hpp"
 #include "sim/run/constants.hpp"
 #include "sim/run/simulate.hpp"
+#include "sim/studies/constants.hpp"
 #include "sim/sweep/constants.hpp"
 #include "sim/sweep/sweep_point.hpp"
 #include "tests/sim/orbit/pressed_beam.hpp"
@@ -47,7 +50,7 @@ const Constant kConstants[] = {
 #include "constants.inc"
 };
 
-// They say what a result is, not how it is found: it changes with them. Each with what it defines.
+// Constants that define a result and not only the way to compute it, with what they define.
 const std::map<std::string, const char*> kDefinitions{
     {"kShapePlaces", "how many points of a natural mode are given"},
     {"kSummedShare", "which bounces are listed"},
@@ -56,6 +59,7 @@ const std::map<std::string, const char*> kDefinitions{
     {"kComparedRate", "the instants at which motions are compared"},
     {"kBriefAgreement", "which agreements are crossings"},
     {"kSettledShare", "which motions are settled"},
+    {"kStrobePhase", "at which instants the states of a sweep are compared"},
 };
 
 // ---- results ---------------------------------------------------------------------------------------
@@ -86,7 +90,7 @@ Results of_motion(const Problem& p, double end) {
     Results out;
     for (const std::vector<double>& column : r.tables[0].values) out.insert(out.end(), column.begin(), column.end());
     for (const Extremum& e : r.extrema) out.insert(out.end(), {e.min, e.max});
-    // The first: of chatter the last bounces are as many as rounding leaves.
+    // Only the first ones: the number of the last bounces of chatter depends on rounding.
     for (std::size_t i = 0; i < std::min<std::size_t>(6, r.impacts.size()); ++i)
         out.insert(out.end(), {r.impacts[i].t_start, r.impacts[i].impulse_n, r.impacts[i].energy_lost,
                                r.impacts[i].force_peak.value_or(0)});
@@ -102,7 +106,7 @@ Results of_orbits(const Problem& p) {
     for (const PeriodicOrbit& orbit : find_orbits(p, request)) {
         out.insert(out.end(), {orbit.period, orbit.initial.angle, orbit.initial.angular_velocity});
         for (const std::complex<double>& mu : orbit.multipliers) out.push_back(std::abs(mu));
-        break;  // the one to which the motion tends
+        break;  // only the orbit to which the motion tends
     }
     return out;
 }
@@ -171,7 +175,7 @@ Problem perturbed(Problem p) {
 
 // ---- comparison ------------------------------------------------------------------------------------
 
-// The largest change of a result, in units of what is allowed.
+// The largest change of a result, in units of the allowed change.
 double change(const Results& before, const Results& after, const Results& allowed) {
     if (before.size() != after.size()) return std::numeric_limits<double>::infinity();
     double most = 0;
@@ -205,12 +209,12 @@ T moved(T value, bool up) {
 int main(int argc, char** argv) {
     using namespace beamcam::sim::testing;
     bool verbose = false;
-    std::vector<std::string> wanted;
+    std::vector<std::string> names;
     for (int i = 1; i < argc; ++i)
         if (std::strcmp(argv[i], "--verbose") == 0)
             verbose = true;
         else
-            wanted.emplace_back(argv[i]);
+            names.emplace_back(argv[i]);
     const std::vector<Case> all = cases();
     std::vector<Results> before, limits;
     for (const Case& c : all) {
@@ -221,7 +225,7 @@ int main(int argc, char** argv) {
     int depends = 0, idle = 0, count = 0;
     for (const Constant& constant : kConstants) {
         if (kDefinitions.contains(constant.name)) continue;
-        if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), constant.name) == wanted.end()) continue;
+        if (!names.empty() && std::find(names.begin(), names.end(), constant.name) == names.end()) continue;
         ++count;
         double most = 0;
         const char* where = "";

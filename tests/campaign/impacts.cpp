@@ -1,12 +1,11 @@
-// Compares random contacts impact by impact between `auto`, `rk8` and `cvode-adams`, which share nothing but the
-// equations.
+// Compares random contacts impact by impact between `auto`, `rk8` and `cvode-adams`, which share only the equations.
 //
 //   campaign_impacts [--count N] [--seed N] [--range usual|brief] [--seconds S] [--verbose]
 //
-// Scene N of a range is the same on every machine. An impact is judged while the motion is reproducible: a run by rk8
-// of a problem whose numbers differ by kPerturbation must show the same impacts, and what it changes times kReserve is
-// what two methods at rtol 1e-11 may differ by. `--seed N --count 1 --verbose` prints one scene and its impacts. Ends
-// with 1 when methods disagree.
+// Scene N of a range is the same on every machine. An impact is compared as long as the motion is reproducible: a run
+// by rk8 of a problem whose numbers differ by kPerturbation must have the same impacts. The effect of that
+// perturbation, times kReserve, is the largest allowed difference between two methods at rtol 1e-11. `--seed N --count
+// 1 --verbose` prints one scene and its impacts. The exit code is 1 if methods disagree.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -25,7 +24,7 @@ constexpr double kRtol = 1e-11;
 constexpr double kPerturbation = 10 * kRtol;  // of every number
 // Local errors of all steps add up; those of Adams's method, with its variable order, add up to more.
 constexpr double kReserve = 10, kReserveOfAdams = 300;
-// No two methods agree to less: times [s], speeds [m/s], impulses as a share of the momentum.
+// Smallest allowed differences: times [s]; speeds [m/s] and impulses relative to the momentum.
 constexpr double kLeastTime = 1e-11, kLeastShare = 1e-9;
 constexpr double kLost = 1e-5;  // [s] A motion whose impacts move by more is not judged.
 
@@ -73,14 +72,14 @@ Scene usual(unsigned seed) {
         if (dice.one_of(6) == 0) p.gravity = dice.about_zero(20);
         if (validate(p).empty() || p.beam.model == ModelKind::paper) {
             bool sound = true;
-            for (const Finding& finding : validate(p)) sound = sound && !finding.fatal;
+            for (const Issue& finding : validate(p)) sound = sound && !finding.fatal;
             if (sound) return {p, 0.5};
         }
     }
 }
 
-// Events shorter than any step: contacts that hardly close or open, forces that clamp and come back, many modes,
-// long contacts, hubs that press the beam on the cam.
+// Events shorter than any step: contacts that barely close or open, forces that are clamped for a short time, many
+// modes, long contacts, hubs that press the beam on the cam.
 Scene brief(unsigned seed) {
     Dice dice(seed + 104729);
     for (unsigned tries = 0;; ++tries) {
@@ -123,7 +122,7 @@ Scene brief(unsigned seed) {
     }
 }
 
-// Every number of the problem a little different.
+// The problem with slightly different numbers.
 Problem perturbed(Problem p) {
     const double s = kPerturbation;
     p.initial.angle += s;
@@ -163,7 +162,7 @@ Motion solve(Problem p, double end, Method method, double patience, double rtol 
         if (!error.partials.empty()) motion.impacts = error.partials.front().impacts;
     }
     motion.seconds = cpu_seconds() - start;
-    // Which of the slowest bounces of chatter are listed, and which summed up, hangs on a threshold of their duration.
+    // A threshold of their duration decides which of the slowest bounces are listed and which are summed up.
     std::erase_if(motion.impacts, [&](const Impact& i) {
         return i.v_n_before < 0 && i.v_n_before > -0.1 * p.contact.approach_floor.value &&
                p.contact.model == ContactModel::restitution;
@@ -173,7 +172,7 @@ Motion solve(Problem p, double end, Method method, double patience, double rtol 
 
 // ---- comparison ------------------------------------------------------------------------------------
 
-// How far two runs of one impact are apart.
+// The differences of one impact between two runs.
 struct Difference {
     double time = 0, speed = 0, impulse = 0;
     void widen(const Difference& d) {
@@ -191,7 +190,7 @@ Difference between(const Impact& a, const Impact& b) {
     return d;
 }
 
-// What the methods may differ by at each impact, as far as the motion is reproducible.
+// The allowed differences at each impact, as long as the motion is reproducible.
 struct Judged {
     std::vector<Difference> growth;
     bool to_the_end = false;
@@ -219,7 +218,7 @@ Judged judged(const Motion& plain, const Motion& other) {
     return out;
 }
 
-// What two methods disagree about; empty: nothing.
+// The disagreement of two methods; empty if there is none.
 std::string disagreement(const Problem& p, const Judged& limits, const Motion& a, const Motion& b, double reserve) {
     const double momentum = p.beam.line_density() * p.beam.length;
     for (std::size_t i = 0; i < limits.growth.size(); ++i) {

@@ -251,7 +251,7 @@ TEST(Films, AHubOverTheCamIsRefused) {
     const Reading over = testing::read(R"({"hub": {"radius": 0.3}})"),
                   beside = testing::read(R"({"hub": {"radius": 0.1}})");
     EXPECT_FALSE(over.scene);
-    EXPECT_THAT(testing::messages(over).front(), HasSubstr("the circle that the cam sweeps"));
+    EXPECT_THAT(testing::messages(over).front(), HasSubstr("but the cam comes as near as"));
     EXPECT_TRUE(beside.scene);
 }
 

@@ -49,7 +49,7 @@ TEST(Drive, AngleTablePassesThroughItsPointsSmoothly) {
         EXPECT_NEAR(before.rate, after.rate, 1e-9);
         EXPECT_NEAR(before.acceleration, after.acceleration, 1e-8);
     }
-    // Outside it goes straight on: no jump of angle, speed or acceleration at the ends.
+    // Outside the table the speed is constant: no jump of angle, speed or acceleration at the ends.
     for (double t : {0.0, 2.0}) {
         const HubMotion before = law.motion(t - 1e-12), after = law.motion(t + 1e-12);
         EXPECT_NEAR(before.rate, after.rate, 1e-9);
@@ -69,7 +69,7 @@ TEST(Drive, AngleTableOfAStraightLineIsAConstantSpeed) {
     }
 }
 
-TEST(Drive, TorqueLawsAreWhatTheySay) {
+TEST(Drive, TorqueLawsHaveTheirClosedForms) {
     const DriveLaw constant(ConstantTorque{-3}, 0);
     EXPECT_TRUE(constant.has_torque());
     EXPECT_FALSE(constant.prescribed());

@@ -72,7 +72,7 @@ TEST(ModalMatrices, AreEmptyForTheRigidRod) {
     EXPECT_NEAR(m.J, 1.0 / 3, 1e-16);
 }
 
-// ω√(ρAL⁴/EI) of the linearized equations, hub free or turning at the rate γ.
+// ω√(ρAL⁴/EI) of the linearized equations, with a free hub or rotating at γ.
 std::vector<double> frequencies(const Problem& p, double speed, bool held) {
     const std::unique_ptr<Model> model = make_model(p);
     const int n = model->size();
@@ -118,7 +118,7 @@ TEST(Linearization, OfEveryModelConvergesToTheHingedFreeBeam) {
 
 TEST(Linearization, OfTheTurningBeamGivesThePublishedChordwiseFrequencies) {
     SKIP_UNDER_SANITIZERS();
-    // Wright et al. 1982: flapwise; turning in the plane, ω² is less by γ².
+    // Wright et al. 1982, flapwise; in the plane of rotation ω² is smaller by γ².
     const double flapwise[3][3] = {{3.681646817, 22.18101121, 61.841762588},
                                    {4.137319576, 22.614922015, 62.273184108},
                                    {5.585001421, 24.273349392, 63.966760493}};

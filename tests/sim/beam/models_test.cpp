@@ -1,4 +1,4 @@
-// The rungs of the model ladder against what their energies and their kinematics imply.
+// The beam models against Lagrange's equations of their energies and against their kinematics.
 #include <algorithm>
 #include <cmath>
 #include <complex>
@@ -28,7 +28,7 @@ std::string case_name(const ::testing::TestParamInfo<ModelCase>& info) {
            (c.inertia > 0 ? "Inertia" : "");
 }
 
-// A soft beam, so that elastic, inertial and gravity terms are of one size.
+// A soft beam, so that elastic, inertial and gravity terms are of similar size.
 Problem soft_beam(const ModelCase& c) {
     Problem p;
     p.cam.reset();
@@ -55,7 +55,7 @@ class Ladder : public ::testing::TestWithParam<ModelCase> {
 };
 
 class ConservativeLadder : public Ladder {};
-// The frame of the coordinates is the hub; with hub-beam shapes it turns inside the hub.
+// The frame is fixed to the hub; with hub-beam shapes it rotates relative to the hub.
 class HubFrameLadder : public Ladder {};
 
 TEST_P(ConservativeLadder, InertiaIsTheSecondDerivativeOfTheKineticEnergy) {
@@ -104,7 +104,7 @@ TEST_P(HubFrameLadder, HeldHubTorqueIsTheReactionOfTheFullEquations) {
     const double spin_up = 1.7;
     const double torque = model->solve_held(held.data(), spin_up);
     EXPECT_EQ(held[0], spin_up);
-    // With that torque on the free hub, the hub accelerates just so.
+    // With this torque on a free hub, the hub has the same acceleration.
     f[0] += torque;
     model->solve(f.data());
     EXPECT_LT((f - held).cwiseAbs().maxCoeff(), 1e-9 * held.cwiseAbs().maxCoeff());
@@ -238,7 +238,7 @@ INSTANTIATE_TEST_SUITE_P(Paper, Ladder,
                          ::testing::Values(ModelCase{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0.05}),
                          case_name);
 
-// ---- relations between rungs -------------------------------------------------------------------
+// ---- relations between models ------------------------------------------------------------------
 
 // The largest difference of accelerations between two models at a deflection scale.
 double difference(ModelKind a, ModelKind b, Basis basis, double scale, double radius) {
@@ -266,7 +266,7 @@ TEST(LadderRelations, ZerothOrderDiffersFromFirstOrderLinearlyInTheDeflection) {
 }
 
 TEST(LadderRelations, PaperIsFirstOrderWithoutGravityOfTheForeshorteningAtTheHorizontal) {
-    // l = L cos θ is L at θ = 0, and u_f weighs nothing there: the two differ by ½ cos θ qᵀGq only.
+    // l = L cos θ is L at θ = 0, and u_f has no weight there: the two differ only by ½ cos θ qᵀGq.
     const ModelCase c{ModelKind::paper, Basis::cantilever, 3, 0.2, 0.1, 0};
     Problem p = soft_beam(c);
     p.gravity = 0;

@@ -41,7 +41,7 @@ TEST(NormalLaw, ForceIsTheDerivativeOfTheStoredEnergy) {
     }
 }
 
-// ---- what a mass on such a spring does: one-dimensional impact by the library's integrator ----------
+// ---- one-dimensional impact of a mass, by an integrator of the library --------------------------------
 
 struct Impact1 : Ode {
     NormalLaw law;
@@ -83,7 +83,7 @@ Rebound bounce(const NormalLaw& law, double mass, double speed) {
             r.strongest = law.force(y[0], 0, speed);
         }
         if (end[0] < 0 || (r.deepest > 0 && law.force(end[0], end[1], speed) == 0)) {
-            // Out, or the force has let go: the speed is final at the zero of the gap in the first case.
+            // The gap is open, or the force is zero: in the first case the speed at zero gap is the final one.
             if (end[0] < 0) {
                 r.duration = find_root(
                     [&](double at) {

@@ -42,7 +42,7 @@ TEST(Impact, FrictionObeysItsConeAndStrongeNeverGainsEnergy) {
                      nt = (2 * unit(random) - 1) * 0.99 * std::sqrt(nn * tt);
         const double v_n = -unit(random) - 1e-3, v_t = 4 * unit(random) - 2, mu = 2 * unit(random), e = unit(random);
         for (const ImpactLaw law : kLaws) {
-            const ImpactResult r = resolve_impact({nn, nt, tt}, v_n, v_t, mu, e, law);
+            const ImpactResult r = resolve_impact(Compliance{nn, nt, tt}, v_n, v_t, mu, e, law);
             EXPECT_GT(r.impulse_n, 0);
             EXPECT_LE(std::fabs(r.impulse_t), mu * r.impulse_n * (1 + 1e-12));
             EXPECT_GE(r.v_n, -1e-12);
@@ -82,21 +82,21 @@ TEST(Impact, BouncingBallAsPublished) {
     ASSERT_EQ(result.impacts.size(), published.size());
     for (std::size_t i = 0; i < published.size(); ++i)
         EXPECT_NEAR(result.impacts[i].t_start / scale, published[i], 2e-8);
-    // Zeno's end, 4.0637 for e = 0.8: rest is reached, and no touch comes after it.
+    // The end of the Zeno sequence, 4.0637 for e = 0.8: then rest without further touches.
     Request longer;
     longer.end_time = 5 * scale;
     const Result rest = simulate(problem, longer);
     EXPECT_FALSE(rest.impacts.back().t_end.has_value());
-    // A pure impulse has no finite force; holding has: the weight that the disc bears.
+    // A pure impulse has no finite force; sustained contact has: the weight that the disc carries.
     EXPECT_FALSE(rest.impacts.front().force_peak.has_value());
     const double borne = pull * problem.beam.line_density() / 3 / (lever * lever);
     EXPECT_NEAR(rest.impacts.back().force_peak.value(), borne, 1e-6 * borne);
     EXPECT_NEAR(rest.impacts.back().t_start / scale, 4.063712768871579, 3e-3);
 }
 
-// Bounces of a beam pressed on by its vibration: what is left of them once they are brief is summed up, so that their
-// number and the instant of rest are the problem's and not the method's.
-TEST(Impact, ChatterOfAFlexibleBeamEndsAlikeWhateverTheMethod) {
+// Chatter of a vibrating beam: the brief last bounces are summed up, so that their number and the instant of rest do
+// not depend on the method.
+TEST(Impact, ChatterOfAFlexibleBeamEndsAlikeWithEveryMethod) {
     Problem problem;
     problem.contact.model = ContactModel::restitution;
     problem.contact.friction = CoulombFriction{0.2, 1e-3};
@@ -119,8 +119,8 @@ TEST(Impact, ChatterOfAFlexibleBeamEndsAlikeWhateverTheMethod) {
     }
 }
 
-// Where the pull is steady the sum is exact: longer chatter that is followed down to a thousandth of the speed agrees.
-TEST(Impact, ASumOfBouncesIsWhatFollowingThemGives) {
+// With a constant acceleration the sum is exact: chatter that is integrated down to a thousandth of the speed agrees.
+TEST(Impact, SummedUpChatterEqualsTheIntegratedBounces) {
     Problem problem;
     problem.contact.model = ContactModel::restitution;
     Request request;

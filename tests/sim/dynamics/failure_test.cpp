@@ -1,4 +1,4 @@
-// A run that cannot go on says why, with the numbers that made it stop, and what to change; what it advises works.
+// The message of a failed run names the cause, the numbers and a remedy, and the remedy works.
 #include "sim/dynamics/failure.hpp"
 
 #include <gmock/gmock.h>
@@ -16,8 +16,8 @@ using ::testing::AnyOf;
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-// What the run says as it stops; empty when it ends.
-std::string words(const Problem& p, double end) {
+// The message of the failed run; empty if it succeeds.
+std::string message_of(const Problem& p, double end) {
     try {
         run(p, end);
     } catch (const SolverError& error) {
@@ -28,85 +28,86 @@ std::string words(const Problem& p, double end) {
     return "";
 }
 
-TEST(Failure, ABeamBentBeyondItsModelIsToldTheModelThatTakesIt) {
+TEST(Failure, LargeDeflectionsOfAModalModelNameTheModelExact) {
     Problem p;
     p.gravity = 1e6;
-    const std::string told = words(p, 0.01);
-    EXPECT_THAT(told, AllOf(HasSubstr("has bent through"), HasSubstr("gravity 1e+06"), HasSubstr("\"exact\"")));
-    EXPECT_THAT(told, Not(HasSubstr("hub-beam\"")));
-    // Also on its way to the cam, where the inertia is lost first.
+    const std::string message = message_of(p, 0.01);
+    EXPECT_THAT(message, AllOf(HasSubstr("has bent through"), HasSubstr("gravity 1e+06"), HasSubstr("\"exact\"")));
+    EXPECT_THAT(message, Not(HasSubstr("hub-beam\"")));
+    // Also before the contact, where the inertia is lost first.
     p.initial.angle = 0.44;
     p.initial.angular_velocity = -2;
-    EXPECT_THAT(words(p, 0.01), AllOf(HasSubstr("has bent through"), HasSubstr("\"exact\"")));
+    EXPECT_THAT(message_of(p, 0.01), AllOf(HasSubstr("has bent through"), HasSubstr("\"exact\"")));
 }
 
-TEST(Failure, ALightHubIsToldItsShapes) {
+TEST(Failure, ALightHubWithManyShapesNamesTheRemedies) {
     SKIP_UNDER_SANITIZERS();
     Problem p;
     p.beam.basis = Basis::cantilever;
     p.beam.modes = 12;
-    EXPECT_THAT(words(p, 0.6), AllOf(HasSubstr("positive inertia"), HasSubstr("hub-beam"), HasSubstr("hub.inertia")));
+    EXPECT_THAT(message_of(p, 0.6),
+                AllOf(HasSubstr("positive inertia"), HasSubstr("hub-beam"), HasSubstr("hub.inertia")));
 }
 
-TEST(Failure, ANeedleIsToldTheStiffnessThatItTakes) {
+TEST(Failure, AVerySmallCamNamesASufficientStiffness) {
     Problem p;
     p.cam->radius = 1e-6;
     p.cam->eccentricity = p.cam->speed = 0;
-    const std::string told = words(p, 0.4);
-    EXPECT_THAT(told, AllOf(HasSubstr("cam's radius 1e-06 m"), HasSubstr("m deep"), HasSubstr("restitution")));
+    const std::string message = message_of(p, 0.4);
+    EXPECT_THAT(message, AllOf(HasSubstr("cam's radius 1e-06 m"), HasSubstr("m deep"), HasSubstr("restitution")));
     const std::string before = "contact.stiffness of ";
-    const std::size_t at = told.find(before);
-    ASSERT_NE(at, std::string::npos) << told;
-    p.contact.stiffness = std::strtod(told.c_str() + at + before.size(), nullptr);
+    const std::size_t at = message.find(before);
+    ASSERT_NE(at, std::string::npos) << message;
+    p.contact.stiffness = std::strtod(message.c_str() + at + before.size(), nullptr);
     EXPECT_GT(*p.contact.stiffness, 1e12);
-    EXPECT_EQ(words(p, 0.4), "");
+    EXPECT_EQ(message_of(p, 0.4), "");
 }
 
-TEST(Failure, APrescribedAngleThatLeavesNoWayIsToldSo) {
+TEST(Failure, ABeamPressedThroughTheCamByItsDriveNamesTheDrive) {
     Problem p;
     p.hub.drive = ConstantSpeed{-50};
     p.beam.modes = 1;
     p.beam.youngs_modulus = 1e14;
-    EXPECT_THAT(words(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive")));
+    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive")));
 }
 
-TEST(Failure, AModelWhoseTurningTakesStiffnessAwayIsToldSo) {
+TEST(Failure, RotationThatDestabilizesAModelIsNamed) {
     Problem p;
     p.cam.reset();
     p.beam.youngs_modulus = 1e9;
     p.hub.drive = ConstantSpeed{-30};
     p.beam.model = ModelKind::paper;
-    EXPECT_THAT(words(p, 100),
+    EXPECT_THAT(message_of(p, 100),
                 AllOf(HasSubstr("L cos θ"), HasSubstr("30 rad/s"), HasSubstr("22.4 rad/s"), HasSubstr("first-order")));
     p.beam.model = ModelKind::zeroth_order;
-    EXPECT_THAT(words(p, 100), AllOf(HasSubstr("no centrifugal stiffening"), HasSubstr("first-order")));
+    EXPECT_THAT(message_of(p, 100), AllOf(HasSubstr("no centrifugal stiffening"), HasSubstr("first-order")));
     p.beam.model = ModelKind::first_order;
-    EXPECT_EQ(words(p, 1), "");
+    EXPECT_EQ(message_of(p, 1), "");
 }
 
-TEST(Failure, StepsThatVanishWithTheInertiaAreToldSo) {
+TEST(Failure, VanishingStepsWithoutInertiaNameTheInertia) {
     Problem p;  // hardly any inertia left beside these shapes: the torque turns them fast at once
     p.beam.model = ModelKind::paper;
     p.beam.modes = 8;
     p.hub.drive = ConstantTorque{-100};
     p.solver.rtol = 1e-6;
-    EXPECT_THAT(words(p, 0.2), AllOf(HasSubstr("positive inertia"), HasSubstr("fewer modes")));
+    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("positive inertia"), HasSubstr("fewer modes")));
 }
 
-TEST(Failure, ASpentBudgetNamesWhatKeepsTheStepsShort) {
+TEST(Failure, AnExhaustedBudgetNamesTheLimitsOfTheStepSize) {
     Problem p;
     p.beam.modes = 40;
     p.contact.stiffness = 1e12;
     p.solver.max_steps = 3000;
     p.solver.method = Method::rk8;
-    EXPECT_THAT(words(p, 0.5), AllOf(HasSubstr("budget of 3000 steps"), HasSubstr("40 modes"),
-                                     HasSubstr("1e+12 N/m^1.5"), HasSubstr("solver.max_steps")));
+    EXPECT_THAT(message_of(p, 0.5), AllOf(HasSubstr("budget of 3000 steps"), HasSubstr("40 modes"),
+                                          HasSubstr("1e+12 N/m^1.5"), HasSubstr("solver.max_steps")));
     p.beam.modes = 2;
     p.beam.damping_ratio = {1000};
-    EXPECT_THAT(words(p, 0.5), AllOf(HasSubstr("damping 1e+03 times the critical"), HasSubstr("cvode-bdf")));
+    EXPECT_THAT(message_of(p, 0.5), AllOf(HasSubstr("damping 1e+03 times the critical"), HasSubstr("cvode-bdf")));
 }
 
-TEST(Failure, APaceThatTheBudgetCannotMeetEndsTheRunEarly) {
+TEST(Failure, AProjectedExcessOfTheBudgetStopsTheRunEarly) {
     SKIP_UNDER_SANITIZERS();
     Problem p;
     p.cam.reset();
@@ -115,11 +116,11 @@ TEST(Failure, APaceThatTheBudgetCannotMeetEndsTheRunEarly) {
     p.beam.youngs_modulus = 1e25;
     p.solver.method = Method::rk8;
     p.solver.max_steps = 1'000'000;
-    EXPECT_THAT(words(p, 1e3),
-                AllOf(HasSubstr("at the pace of late"), HasSubstr("its budget of 1000000"), HasSubstr("1 mode up to")));
+    EXPECT_THAT(message_of(p, 1e3), AllOf(HasSubstr("at the current step size"), HasSubstr("its budget of 1000000"),
+                                          HasSubstr("1 mode up to")));
 }
 
-TEST(Failure, NoStepThatKeepsToTheToleranceIsToldInWords) {
+TEST(Failure, AToleranceThatNoStepMeetsHasAClearMessage) {
     for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams, Method::arkode_erk}) {
         Problem p;
         p.cam.reset();
@@ -136,14 +137,14 @@ TEST(Failure, NoStepThatKeepsToTheToleranceIsToldInWords) {
     }
 }
 
-// y′ = 1 up to t = 1, and no number beyond.
+// y′ = 1 up to t = 1, NaN after it.
 struct Wall final : Ode {
     Wall() { size = controlled = 1; }
     void rhs(double t, const double*, double* dy) override { dy[0] = t < 1 ? 1 : std::nan(""); }
 };
 
 TEST(Failure, OfSundialsKeepsItsFlagAndItsCause) {
-    const auto told = [](Method method, double from, double tolerance) -> std::string {
+    const auto message = [](Method method, double from, double tolerance) -> std::string {
         Wall wall;
         const std::unique_ptr<Integrator> integrator = make_sundials(method, wall, tolerance, tolerance);
         const double start[] = {1};
@@ -156,12 +157,12 @@ TEST(Failure, OfSundialsKeepsItsFlagAndItsCause) {
         return "";
     };
     for (const Method method : {Method::cvode_adams, Method::cvode_bdf})
-        EXPECT_THAT(told(method, 2, 1e-8),
+        EXPECT_THAT(message(method, 2, 1e-8),
                     AllOf(HasSubstr("beyond all numbers"), HasSubstr("CVODE: CV_"), HasSubstr("RHSFUNC")))
             << name(method);
-    EXPECT_THAT(told(Method::arkode_erk, 2, 1e-8),
+    EXPECT_THAT(message(Method::arkode_erk, 2, 1e-8),
                 AllOf(HasSubstr("beyond all numbers"), HasSubstr("ARKODE: ARK_"), HasSubstr("RHSFUNC")));
-    EXPECT_THAT(told(Method::cvode_adams, 0, 1e-18),
+    EXPECT_THAT(message(Method::cvode_adams, 0, 1e-18),
                 AllOf(HasSubstr("more digits"), HasSubstr("CVODE: CV_TOO_MUCH_ACC")));
 }
 
@@ -170,9 +171,9 @@ TEST(Failure, InOtherTermsKeepsTheIntegratorsWords) {
     System system(p);
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
     y[1] = 0.5;  // far beyond small deflections
-    const std::string told =
+    const std::string message =
         explain({Stop::method, "the integrator gave up (CVODE: CV_ERR_FAILURE)", 0.1, 1e-3, 0}, system, y.data());
-    EXPECT_THAT(told, AllOf(HasSubstr("has bent through"), HasSubstr("CVODE: CV_ERR_FAILURE")));
+    EXPECT_THAT(message, AllOf(HasSubstr("has bent through"), HasSubstr("CVODE: CV_ERR_FAILURE")));
 }
 
 TEST(Failure, OfTheInertiaInAHeldContactIsNotAVanishedForce) {
@@ -191,7 +192,7 @@ TEST(Failure, OfTheInertiaInAHeldContactIsNotAVanishedForce) {
     EXPECT_THROW(system.contact(0, y.data(), true), InertiaLost);
     EXPECT_THROW(system.free_gap_acceleration(0, y.data()), InertiaLost);
     EXPECT_THROW(system.compliance(0, y.data(), c), InertiaLost);
-    EXPECT_THROW(system.strike(0, y.data(), c, {}), InertiaLost);
+    EXPECT_THROW(system.apply_impact(0, y.data(), c, {}), InertiaLost);
 }
 
 TEST(Failure, NoLawIsBlamedForRoundingOfAHeldContact) {

@@ -1,4 +1,4 @@
-// The equilibria and the given states that a run may start from.
+// Initial states: equilibria and given coordinates.
 #include "sim/dynamics/initial.hpp"
 
 #include <gtest/gtest.h>
@@ -30,7 +30,7 @@ Problem scaled(ModelKind kind, InitialShape shape, double softer, double size) {
     return p;
 }
 
-// Hub angle and coordinates without units; nothing when no equilibrium is found.
+// Dimensionless hub angle and coordinates; nothing if no equilibrium is found.
 std::optional<Vector> equilibrium(ModelKind kind, InitialShape shape, double softer, double size) {
     const Problem p = scaled(kind, shape, softer, size);
     System system(p);
@@ -40,7 +40,7 @@ std::optional<Vector> equilibrium(ModelKind kind, InitialShape shape, double sof
     } catch (const StepFailure&) {
         return std::nullopt;
     }
-    system.place(0, state->y.data());
+    system.set_state(0, state->y.data());
     Vector out(system.coordinates());
     out[0] = system.model().hub_angle();
     for (int i = 1; i < out.size(); ++i)
@@ -70,7 +70,7 @@ TEST(Equilibrium, IsTheSameForABeamOfAMillimetreAndOfAHundredMetres) {
 }
 
 TEST(Equilibrium, ThatDoesNotExistIsNotFoundInABeamOfAMillimetre) {
-    // Far too soft to lie on the cam.
+    // Too soft to rest on the cam.
     for (const double size : {1.0, 1e-3, 1e2})
         EXPECT_FALSE(equilibrium(ModelKind::first_order, InitialShape::resting, 1e5, size).has_value()) << size;
 }

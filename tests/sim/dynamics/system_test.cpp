@@ -120,7 +120,7 @@ TEST_P(Contact_, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
         const std::vector<double> y = pressed_state(system, dice, 2e-3, 0.1);
         phase.touching = true;
         phase.approach = 5;  // the force is not clamped
-        phase.grip = static_cast<Grip>(repeat % 3);
+        phase.friction = static_cast<FrictionState>(repeat % 3);
         system.set_phase(phase);
         const int n = system.coordinates();
         std::vector<double> dy(y.size());
@@ -142,7 +142,7 @@ TEST_P(Contact_, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
     }
 }
 
-// The ledger's total along the flow: its rate is zero while state and integrals advance together.
+// The total of the energy balance along the flow has a zero rate.
 TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
     const Problem p = contact_problem(GetParam());
     System system(p);
@@ -153,7 +153,7 @@ TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
         std::vector<double> y = pressed_state(system, dice, 2e-3, 0.1);
         phase.touching = repeat < 5;
         phase.approach = 5;  // the force is not clamped
-        phase.grip = static_cast<Grip>(repeat % 3);
+        phase.friction = static_cast<FrictionState>(repeat % 3);
         system.set_phase(phase);
         std::vector<double> dy(y.size());
         system.rhs(0.1, y.data(), dy.data());

@@ -449,7 +449,7 @@ struct FlightSample {
 FlightSample flight_sample(System& system, const Segment& segment, double t) {
     std::vector<double> y(static_cast<std::size_t>(system.size));
     segment.value(t, y.data());
-    system.place(t, y.data());
+    system.set_state(t, y.data());
     const Model& model = system.model();
     const auto n = static_cast<std::size_t>(system.coordinates());
     FlightSample s{t, y[n], model.hub_angle(), model.hub_rate(), {}};
@@ -564,7 +564,7 @@ TEST(ExponentialFlight, KeepsTheBoundsOfOtherModels) {
             for (int k = 0; k <= kSamples; ++k) {
                 const double dt = (segment.t1 - segment.t0) / kSamples, t = segment.t0 + k * dt;
                 segment.value(t, y.data());
-                system.place(t, y.data());
+                system.set_state(t, y.data());
                 const Model& model = system.model();
                 EXPECT_GE(model.hub_angle(), b->angle_low - 1e-13) << repeat;
                 EXPECT_LE(model.hub_angle(), b->angle_high + 1e-13) << repeat;

@@ -411,8 +411,9 @@ TEST(Fallback, EachIsReportedWithItsCount) {
         const std::vector<std::string> all = warnings(p, Result{}, statistics, 0);
         return all.size() == 1 && all.front().find(words) != std::string::npos;
     };
-    EXPECT_TRUE(reported({.grips = 1}, "in 1 step the friction changed between stick and slip again and again"));
-    EXPECT_TRUE(reported({.grips = 3}, "in 3 steps the friction"));
+    EXPECT_TRUE(
+        reported({.friction_changes = 1}, "in 1 step the friction changed between stick and slip again and again"));
+    EXPECT_TRUE(reported({.friction_changes = 3}, "in 3 steps the friction"));
     EXPECT_TRUE(reported({.strikes = 1}, "1 strike taken as plastic"));
     EXPECT_TRUE(reported({.strikes = 2}, "2 strikes taken as plastic"));
     EXPECT_TRUE(reported({.coarse = 2}, "in 2 steps the beam vibrates faster than the looks for a touch"));

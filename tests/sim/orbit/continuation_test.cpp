@@ -71,7 +71,7 @@ TEST(Continuation_, FoldAndPeriodDoublingOfOtherBeamsAreThoseOfTheClosedForm) {
     }
 }
 
-// The same cam turning the other way: its profile is no mirror image of itself. The values are roots of the closed form
+// The same cam in the opposite direction; its profile is not symmetric. The values are roots of the closed form
 // in 25 digits.
 TEST(Continuation_, ACamThatTurnsTheOtherWayHasItsOwnFoldAndPeriodDoubling) {
     const PressedBeam b;
@@ -130,7 +130,7 @@ TEST(Continuation_, DoubledBranchesDoubleAgain) {
     EXPECT_NEAR((second - first) / (third - second), 4.669, 0.3);  // on the way to Feigenbaum's number
 }
 
-// A map that keeps the area: with μ, 1/μ is a multiplier, too.
+// An area-preserving map has reciprocal multipliers μ and 1/μ.
 TEST(Continuation_, ConservativeContactHasReciprocalMultipliers) {
     PressedBeam b;
     b.restitution = 1;
@@ -147,7 +147,7 @@ TEST(Continuation_, ConservativeContactHasReciprocalMultipliers) {
     EXPECT_LT(std::abs(multipliers[0] * multipliers[1] - 1.0), 1e-9);
 }
 
-// Without losses the multipliers of a stable orbit stay on the unit circle, which is no crossing of it.
+// The multipliers of a stable conservative orbit remain on the unit circle, which is not a crossing.
 TEST(Continuation_, ConservativeImpactsHaveNoNeimarkSackerPoint) {
     PressedBeam b;
     b.restitution = 1;
@@ -161,7 +161,7 @@ TEST(Continuation_, ConservativeImpactsHaveNoNeimarkSackerPoint) {
     EXPECT_FALSE(first_of(branches.front(), OrbitChange::neimark_sacker));
 }
 
-// The period doubling of ever stiffer contact tends to Newton's like K^(−2/5).
+// The period doubling of compliant contact converges to Newton's like K^(−2/5).
 TEST(LongContinuation, StiffContactTendsToNewtonsPeriodDoubling) {
     const PressedBeam b;
     const auto doubling = [&](double stiffness) {
@@ -193,7 +193,7 @@ TEST(Orbits_, ChatteringAttractorComesWithTheOrbitsBesideIt) {
     EXPECT_LT(found[1].residual, 1e-10);
 }
 
-TEST(Orbits_, WhatHasNoPeriodIsRefusedInWords) {
+TEST(Orbits_, ProblemsWithoutAPeriodAreRejectedWithAMessage) {
     Problem p;
     p.cam->speed = 0;
     EXPECT_TRUE(orbit_refusal(p).has_value());

@@ -15,7 +15,7 @@ namespace {
 double sum(const Exponents& e) { return std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0); }
 
 TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
-    // Between fold and period doubling: a stable orbit of one impact a turn.
+    // Between fold and period doubling: a stable orbit with one impact per turn.
     const Exponents e = lyapunov_exponents(PressedBeam().on_orbit(45), {0, 20, 50, 10});
     ASSERT_EQ(e.lambda.size(), 2u);
     EXPECT_LT(e.lambda[0], 0);
@@ -34,7 +34,7 @@ TEST(Exponents_, LinearGrowthIsNoChaos) {
     EXPECT_FALSE(e.chaotic());
 }
 
-// Σλ = 2ν ln r − 2Σζω, exactly, with the impacts of this very run.                                            (S73)
+// Σλ = 2ν ln r − 2Σζω, exactly, with the impacts of the same run.                                            (S73)
 TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
     SKIP_UNDER_SANITIZERS();
     struct Case {
@@ -85,7 +85,7 @@ TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     EXPECT_NEAR(e.lambda[0], longer.lambda[0], 3 * e.error[0]);
 }
 
-TEST(Exponents_, WhatNearGrazingImpactsAddIsNoProofOfChaos) {
+TEST(Exponents_, TheContributionOfNearGrazingImpactsIsNoProofOfChaos) {
     Exponents e;
     e.lambda = {1}, e.error = {0.1}, e.duration = 100;
     EXPECT_EQ(e.chaos(), Chaos::shown);
@@ -108,7 +108,7 @@ TEST(Exponents_, ASensitiveTransientIsNoChaos) {
     EXPECT_THAT(e.warnings.back(), ::testing::HasSubstr("transient"));
 }
 
-TEST(Exponents_, AnAverageThatBeginsBeforeTheMotionHasSettledIsTold) {
+TEST(Exponents_, AnAverageThatStartsBeforeTheMotionHasSettledIsReported) {
     EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(45), {1, 20, 50, 10}).settled);
     EXPECT_TRUE(lyapunov_exponents(PressedBeam().on_orbit(54), {1, 20, 200, 20}).settled);
     // Started on the unstable orbit beyond the period doubling, it takes some seconds to leave for the doubled one.
@@ -124,7 +124,7 @@ TEST(Exponents_, SustainedContactForgetsAtOnce) {
     EXPECT_FALSE(e.warnings.empty());
 }
 
-// A rest on the cam during the transient makes all neighbours one; the orbit that follows has its own exponents.
+// Sustained contact in the transient annihilates all tangents; the later orbit has its own exponents.
 TEST(Exponents_, RestDuringTheTransientIsForgotten) {
     const PressedBeam b{0.002, 0.85};
     const Exponents e = lyapunov_exponents(b.on_orbit(52), {0, 20, 100, 10});
@@ -133,7 +133,7 @@ TEST(Exponents_, RestDuringTheTransientIsForgotten) {
     EXPECT_NEAR(sum(e), expected, 0.01 * std::fabs(expected));
 }
 
-// The slowest of the impacts at the end of a chatter are no base for a linearization.
+// The slowest impacts at the end of chatter cannot be linearized.
 TEST(Exponents_, NearGrazingImpactsAreCountedAndWarnedOf) {
     const Exponents regular = lyapunov_exponents(PressedBeam().on_orbit(45), {1, 5, 20, 5});
     EXPECT_EQ(regular.near_grazing, 0);
@@ -143,14 +143,14 @@ TEST(Exponents_, NearGrazingImpactsAreCountedAndWarnedOf) {
     EXPECT_THAT(chattering.warnings.front(), ::testing::HasSubstr("near grazing"));
 }
 
-TEST(Exponents_, ModelsWithoutTangentFlowAreRefusedInWords) {
+TEST(Exponents_, ModelsWithoutTangentFlowAreRejectedWithAMessage) {
     for (const ModelKind kind : {ModelKind::paper, ModelKind::second_order, ModelKind::exact}) {
         Problem p;
         p.beam.model = kind;
-        EXPECT_TRUE(exponents_refusal(p).has_value());
+        EXPECT_TRUE(tangent_refusal(p).has_value());
         EXPECT_THROW(lyapunov_exponents(p, {}), std::invalid_argument);
     }
-    EXPECT_FALSE(exponents_refusal(Problem{}).has_value());
+    EXPECT_FALSE(tangent_refusal(Problem{}).has_value());
 }
 
 }  // namespace

@@ -9,7 +9,7 @@
 namespace beamcam::sim::testing {
 namespace {
 
-// The default machine with a fast cam.
+// The default system with a fast cam.
 Problem machine(ModelKind model, int modes, ContactModel contact) {
     Problem p;
     p.beam.model = model;
@@ -46,14 +46,14 @@ struct MapCase {
 
 class FlowMap_ : public ::testing::TestWithParam<MapCase> {};
 
-// Each column, measured in the sizes of rows: a difference in one coordinate against the exact tangent.
+// Each column, in the units of its rows: a finite difference in one coordinate against the exact tangent.
 TEST_P(FlowMap_, DerivativeIsTheLimitOfDifferences) {
     const auto& [name, p, duration, tolerance] = GetParam();
     const InitialState start = initial_state(p);
     const FlowMap map = flow_map(p, start, duration, true);
     ASSERT_GE(map.touches.size(), 1u);
     const Matrix& exact = map.derivative;
-    // Under a sanitizer the first column has to do: differences are what takes long.
+    // Only the first column under a sanitizer, because the differences take long.
     for (Eigen::Index i = 0; i < (under_sanitizers() ? 1 : exact.cols()); ++i) {
         const double h = 1e-6 / std::max(1.0, exact.col(i).head(exact.rows() / 2).cwiseAbs().maxCoeff());
         const Vector column = slope_at_zero([&](double s) { return end_state(p, shifted(start, i, s), duration); }, h);
@@ -135,7 +135,7 @@ TEST(FlowMapLaw, DeterminantOfARigidBeamIsThatOfItsImpacts) {
     check(pressed, 5 * 2 * std::numbers::pi / 48, 5);
 }
 
-// Conservative compliant contact keeps the area.
+// Conservative compliant contact preserves areas.
 TEST(FlowMapLaw, DeterminantOfConservativeContactIsOne) {
     Problem p = machine(ModelKind::rigid, 2, ContactModel::compliant);
     p.contact.damping = DampingLaw::none;

@@ -85,7 +85,7 @@ TEST(OrbitChanges, ACornerIsWhereTheStrikePassesTheTip) {
     const auto corners = all_of(branches.front(), OrbitChange::corner);
     ASSERT_EQ(corners.size(), 1u);
     EXPECT_NEAR(corners.front()->at.parameter, kSpeed, 1e-8 * kSpeed);
-    // The branch goes on, with the tip.
+    // The branch continues, with contact at the tip.
     const std::vector<BranchPoint>& points = branches.front().points;
     EXPECT_LT(std::min(points.front().parameter, points.back().parameter), kSpeed - 2);
     EXPECT_GT(std::max(points.front().parameter, points.back().parameter), kSpeed + 2);
@@ -98,7 +98,7 @@ TEST(OrbitChanges, ACornerIsWhereTheStrikePassesTheTip) {
     }
 }
 
-// The beam lies on the cam until it falls faster than the pull: θ̈_c = −α.
+// The beam follows the cam until the cam falls faster than the torque accelerates the beam: θ̈_c = −α.
 TEST(OrbitChanges, FollowingIsReleasedWhereTheCamFallsFasterThanThePull) {
     const PressedBeam b;
     const double expected =
@@ -202,7 +202,7 @@ double growth(const Problem& problem, const PeriodicOrbit& orbit) {
     return std::log(late / early) / (kTurns - kFirst);
 }
 
-// There are two orbits of one impact; one is a saddle.
+// Two orbits with one impact exist; one is a saddle.
 std::optional<PeriodicOrbit> no_saddle(const Problem& problem) {
     OrbitRequest search;
     search.transient = 0;

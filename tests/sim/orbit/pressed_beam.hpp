@@ -18,7 +18,7 @@ struct PressedBeam {
         const Vec2 b{distance + eccentricity * std::cos(psi), eccentricity * std::sin(psi)};
         return std::atan2(b.y, b.x) + std::asin(radius / norm(b));
     }
-    // Its derivatives by ψ, by differences of sixth order.
+    // Its derivatives by ψ, from finite differences of sixth order.
     double slope(double psi) const {
         const double h = 0.01;
         const auto d = [&](double s) { return angle(psi + s) - angle(psi - s); };

@@ -37,7 +37,7 @@ TEST(NumberKeys, TakeEveryNumberAndGiveItBack) {
     }
 }
 
-// One number stands for all modes.
+// One number applies to all modes.
 TEST(NumberKeys, OneNumberStandsForAListOfModes) {
     Problem p;
     for (const std::vector<double>& before : {std::vector<double>{}, std::vector<double>{0.1, 0.2}}) {
@@ -47,7 +47,7 @@ TEST(NumberKeys, OneNumberStandsForAListOfModes) {
     }
 }
 
-TEST(NumberKeys, RefuseWhatIsNoKeyOrNoWholeNumber) {
+TEST(NumberKeys, RejectUnknownKeysAndFractionsOfIntegers) {
     Problem p;
     EXPECT_FALSE(set_number(p, "cam.spee", 1));
     EXPECT_FALSE(set_number(p, "cam.centre.2", 1));

@@ -160,7 +160,7 @@ const Refusal kRefusals[] = {
     {"solver.rtol", [](Problem& p) { p.solver.rtol = 0.1; }},
     {"solver.atol", [](Problem& p) { p.solver.atol = 0; }},
     {"solver.atol", [](Problem& p) { p.solver.atol = 5e-324; }},
-    // Beyond what numbers can hold, or what is left of them after rounding.
+    // Products that overflow, vanish or are lost in rounding.
     {"beam.length", [](Problem& p) { p.beam.length = 5e-324; }},
     {"beam.length", [](Problem& p) { p.beam.length = 1e-25; }},
     {"beam.length", [](Problem& p) { p.beam.length = 1e308; }},
@@ -182,15 +182,15 @@ const Refusal kRefusals[] = {
     {"gravity", [](Problem& p) { p.gravity = 1e300; }},
 };
 
-bool has(const std::vector<Finding>& findings, const std::string& path, bool fatal) {
-    for (const Finding& f : findings)
+bool has(const std::vector<Issue>& findings, const std::string& path, bool fatal) {
+    for (const Issue& f : findings)
         if (f.path == path && f.fatal == fatal) return true;
     return false;
 }
 
 TEST(Validate, AcceptsTheDefaultsSilently) { EXPECT_TRUE(validate(Problem{}).empty()); }
 
-TEST(Validate, RefusesEveryImpossibleValueByItsKey) {
+TEST(Validate, RejectsEveryImpossibleValueByItsKey) {
     int row = 0;
     for (const Refusal& refusal : kRefusals) {
         Problem p;
@@ -227,7 +227,7 @@ TEST(Validate, AcceptsTheEndsOfEveryRange) {
     EXPECT_TRUE(validate(p).empty());
 }
 
-// 20 ms, or what the scene says; "auto" follows the size of the motion.
+// 20 ms, the value of the scene, or for "auto" proportional to √(L/g).
 TEST(Derived, ImpactsAreOfOneCollisionWithinASixteenthOfTheTimeOfAFall) {
     Problem p;
     p.beam.length = 200e-6;
@@ -244,16 +244,16 @@ TEST(Derived, ImpactsAreOfOneCollisionWithinASixteenthOfTheTimeOfAFall) {
     EXPECT_EQ(collision_gap(p), 0);
 }
 
-TEST(Validate, TellsTheOneNumberThatMakesAScaleImpossible) {
+TEST(Validate, NamesTheNumberThatMakesAScaleImpossible) {
     Problem p;
     p.beam.length = 5e-324;
-    const std::vector<Finding> findings = validate(p);
+    const std::vector<Issue> findings = validate(p);
     ASSERT_EQ(findings.size(), 1u);  // not what follows from it
     EXPECT_NE(findings[0].message.find("the beam's mass smaller than 1e-60 kg"), std::string::npos)
         << findings[0].message;
     p.beam.length = 1;
     p.contact.stiffness = 5e-324;
-    for (const Finding& f : validate(p)) EXPECT_EQ(f.message.find("inf"), std::string::npos) << f.message;
+    for (const Issue& f : validate(p)) EXPECT_EQ(f.message.find("inf"), std::string::npos) << f.message;
 }
 
 TEST(Validate, TakesBeamsOfNanometresAndKilometres) {

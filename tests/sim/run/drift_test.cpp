@@ -44,7 +44,7 @@ TEST(LongDrift, OfAVibrationStaysBelowTheTolerance) {
     const Drift d = after(p, 0.011, 1e5);
     EXPECT_LT(std::fabs(d.residual), p.solver.rtol * d.scale);
     EXPECT_NEAR(d.residual, d.energies, 1e-13 * d.scale);
-    // It grows with time, not faster.
+    // It grows linearly with time.
     const Drift early = after(p, 0.011, 1e4);
     EXPECT_LT(std::fabs(d.residual), 12 * std::fabs(early.residual) + 1e-13 * d.scale);
 }

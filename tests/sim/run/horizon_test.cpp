@@ -1,4 +1,4 @@
-// During which intervals a motion is reproducible, and what that was found with.
+// The intervals in which a motion is reproducible, and the methods of the comparison.
 #include "sim/run/horizon.hpp"
 
 #include <gmock/gmock.h>
@@ -22,8 +22,8 @@ Result with_horizon(const Problem& problem, double end) {
     return simulate(problem, request);
 }
 
-// Made-up angles at 1 kHz: what two computations of one motion might give.
-Result told(const std::vector<double>& ours, const std::vector<double>& theirs, double end_time) {
+// From artificial angles of two computations at 1 kHz.
+Result reproducibility_of(const std::vector<double>& ours, const std::vector<double>& theirs, double end_time) {
     const Problem problem;
     const double end = static_cast<double>(ours.size() - 2) / 1000;
     const Request angle = horizon_request(problem, end);
@@ -31,43 +31,44 @@ Result told(const std::vector<double>& ours, const std::vector<double>& theirs, 
     a.tables.push_back({{}, {ours}});
     b.tables.push_back({{}, {theirs}});
     result.end_time = end_time;
-    tell_reproducibility(problem, angle, a, b, comparison(problem, end), result);
+    report_reproducibility(problem, angle, a, b, comparison(problem, end), result);
     return result;
 }
 
-TEST(Horizon, AgreementThatComesBackIsTold) {
+TEST(Horizon, AgreementThatReturnsIsReported) {
     std::vector<double> a(1002, 0.5), b = a;
     for (std::size_t k = 300; k < 400; ++k) b[k] += 2e-6;
     b[350] = a[350];  // two motions that cross
-    const Result r = told(a, b, 1);
+    const Result r = reproducibility_of(a, b, 1);
     EXPECT_EQ(r.reproducible_until, 0.299);
     ASSERT_EQ(r.not_reproducible.size(), 1u);
     EXPECT_EQ(r.not_reproducible[0].from, 0.299);
     EXPECT_EQ(r.not_reproducible[0].to, 0.4);
     EXPECT_EQ(r.reproducible_again_from, 0.4);
     EXPECT_THAT(r.reproducibility, HasSubstr("until 0.299 s, not from 0.299 s to 0.4 s, again from 0.4 s on"));
-    // As far as the result reaches.
-    EXPECT_TRUE(told(a, b, 0.2).not_reproducible.empty());
-    EXPECT_EQ(told(a, b, 0.2).reproducible_until, 0.2);
-    EXPECT_EQ(told(a, b, 0.35).not_reproducible.at(0).to, std::nullopt);
-    EXPECT_EQ(told(a, b, 0.45).not_reproducible.at(0).to, std::nullopt);  // too brief to be told from a crossing
-    EXPECT_EQ(told(a, b, 0.45).reproducible_again_from, std::nullopt);
+    // Only up to the end of the result.
+    EXPECT_TRUE(reproducibility_of(a, b, 0.2).not_reproducible.empty());
+    EXPECT_EQ(reproducibility_of(a, b, 0.2).reproducible_until, 0.2);
+    EXPECT_EQ(reproducibility_of(a, b, 0.35).not_reproducible.at(0).to, std::nullopt);
+    EXPECT_EQ(reproducibility_of(a, b, 0.45).not_reproducible.at(0).to,
+              std::nullopt);  // too brief to differ from a crossing
+    EXPECT_EQ(reproducibility_of(a, b, 0.45).reproducible_again_from, std::nullopt);
 }
 
 TEST(Horizon, LostAgreementThatComesBackTwiceIsTwoIntervals) {
     std::vector<double> a(1002, 0), b = a;
     for (std::size_t k = 100; k < 200; ++k) b[k] = 1, b[k + 500] = 1;
-    const Result r = told(a, b, 1);
+    const Result r = reproducibility_of(a, b, 1);
     ASSERT_EQ(r.not_reproducible.size(), 2u);
     EXPECT_EQ(r.not_reproducible[1].from, 0.599);
     EXPECT_EQ(r.not_reproducible[1].to, 0.7);
     EXPECT_EQ(r.reproducible_again_from, 0.7);
 }
 
-TEST(Horizon, WhatTheComparisonDidNotReachIsNotReproducible) {
+TEST(Horizon, InstantsBeyondTheComparisonAreNotReproducible) {
     std::vector<double> a(1002, 0), b = a;
     for (std::size_t k = 600; k < b.size(); ++k) b[k] = std::nan("");
-    const Result r = told(a, b, 1);
+    const Result r = reproducibility_of(a, b, 1);
     EXPECT_EQ(r.reproducible_until, 0.599);
     EXPECT_EQ(r.not_reproducible.at(0).to, std::nullopt);
 }
@@ -100,7 +101,7 @@ TEST(Horizon, LastingContactIsComparedForSixTurns) {
     EXPECT_NEAR(compared_until(p, settled, 40), settled.impacts.back().t_start + 12 * std::numbers::pi / 5, 1e-12);
     simulated(compared_until(p, settled, 40), compared);
     EXPECT_LT(whole, 2 * compared);
-    // Nothing of the sort where it may still leave the cam, or something else changes with time.
+    // Not if the beam may still leave the cam, or if anything else changes with time.
     EXPECT_EQ(compared_until(p, settled, 1), 1);  // the end
     Problem other = p;
     other.hub.drive = HarmonicTorque{0.1, 3, 0};
@@ -168,10 +169,10 @@ TEST(Horizon, NeedsTheOtherMethodOnlyWhereItMayTellMore) {
     EXPECT_NEAR(other_needed_until(p, angle, plain, tighter), 7 + 0.25 * 2 * std::numbers::pi / p.cam->speed, 1e-12);
     tighter.tables[0].values[0][3000] += 2e-6;
     EXPECT_EQ(other_needed_until(p, angle, plain, tighter), 3);
-    // The other's rows take the place of the first.
+    // The rows of the other replace the first ones.
     Result first;
     first.tables.push_back({{}, {{1, 2}}});
-    put_first(first, tighter);
+    replace_first_rows(first, tighter);
     EXPECT_EQ(tighter.tables[0].values[0][1], 2);
     EXPECT_EQ(tighter.tables[0].values[0][2], 0.5);
 }
@@ -187,7 +188,7 @@ TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
     request.horizon = true;
     const Result r = simulate(p, {&request, 1}, {}, nullptr, &both).front();
     EXPECT_LT(both.spent.rhs_evaluations, 4 * motion.spent.rhs_evaluations) << r.reproducibility;
-    // The motion, the tighter one, the other method; the last two once more to the end where the tail does not agree.
+    // The motion, the tighter run, the other method; the last two again up to the end if the final part does not agree.
     EXPECT_LE(both.integrations, 5);
 }
 

@@ -1,6 +1,6 @@
-// Properties that hold for every valid problem, tried on random ones: a few dozen in the quick run, hundreds in the
+// Properties that hold for every valid problem, tested with random ones: a few dozen in the quick run, hundreds in the
 // long one. A problem is drawn from a list of numbers in [0, 1); a list that fails is shrunk, number by number towards
-// 0 (the plainest choice), before it is told.
+// 0 (the simplest choice), before it is reported.
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
@@ -13,7 +13,7 @@
 
 #include "sim/dynamics/initial.hpp"
 #include "sim/integrate/exponential.hpp"
-#include "sim/problem/derived.hpp"
+#include "sim/problem/problem.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -22,7 +22,7 @@ namespace {
 using Draws = std::vector<double>;
 constexpr std::size_t kDraws = 32;
 
-// Reads a list of draws in order; 0 is always the default system's choice or near it.
+// Reads a list of draws in order; 0 is the value of the default system, or close to it.
 class Reader {
   public:
     explicit Reader(const Draws& draws) : draws_(draws) {}
@@ -75,11 +75,11 @@ Problem drawn(const Draws& draws) {
 }
 
 bool usable(const Problem& p) {
-    const std::vector<Finding> findings = validate(p);
-    return std::none_of(findings.begin(), findings.end(), [](const Finding& f) { return f.fatal; });
+    const std::vector<Issue> findings = validate(p);
+    return std::none_of(findings.begin(), findings.end(), [](const Issue& f) { return f.fatal; });
 }
 
-// What is wrong with this problem, or nothing. A property changes the problem into one that it speaks of.
+// The violation of a property by this problem, or nothing. A property may change the problem to make itself applicable.
 using Verdict = std::optional<std::string>;
 using Property = std::function<Verdict(Problem)>;
 
@@ -118,7 +118,7 @@ struct Trial {
 
 class PropertyOfProblems : public ::testing::TestWithParam<Trial> {
   protected:
-    // `share` of the trial's problems, where a property is costly to look at.
+    // `share`: fraction of the trial's problems, for properties that are expensive to check.
     void hold_for_all(const Property& property, double share = 1) {
         Dice dice(GetParam().seed);
         const int count = static_cast<int>(share * GetParam().count);
@@ -138,12 +138,12 @@ class PropertyOfProblems : public ::testing::TestWithParam<Trial> {
 };
 
 constexpr double kEnd = 0.12;  // [s]: a few impacts, before sensitivity has made 1e-8 into 1e-5
-// Of θ [rad] after kEnd, for two ways to the same motion: what impacts make of rtol = 1e-8 by then.
+// Difference of θ [rad] after kEnd between two computations of one motion: rtol = 1e-8, amplified by impacts.
 constexpr double kSame = 2e-6;
 
 double theta_at(const Problem& p, double t) { return series(p, "theta", {t})[0]; }
 
-// An impact that just happens or just does not, a start just inside the cam's reach: two ways may differ in it.
+// Two computations may differ in an impact at grazing, and in a start close to the cam.
 bool grazing(const Result& r) {
     return std::any_of(r.impacts.begin(), r.impacts.end(), [](const Impact& i) { return i.v_n_before > -0.02; });
 }
@@ -154,7 +154,7 @@ TEST_P(PropertyOfProblems, TheLedgerClosesOrSaysSo) {
         const bool told = std::any_of(r.warnings.begin(), r.warnings.end(),
                                       [](const auto& w) { return w.find("energy ledger") != std::string::npos; });
         if (!told && r.energy_residual_max > 10 * p.solver.rtol * r.energy_scale) return "open and not told";
-        // Told or not, it is never far off.
+        // Reported or not, it is small.
         return differ("ledger", r.energy_residual_max / r.energy_scale, 0, 1e-5);
     });
 }
@@ -250,10 +250,10 @@ TEST_P(PropertyOfProblems, ARigidRodNeverRisesAboveItsLastPeakOnACamAtRest) {
         const std::vector<double>&theta = table.values[0], &force = table.values[1];
         double peak = INFINITY;
         for (std::size_t k = 1; k + 1 < times.size(); ++k) {
-            // In flight: pressed on the cam it has energy to rise with.
+            // In flight: pressed on the cam the beam stores energy.
             if (force[k - 1] != 0 || force[k] != 0 || force[k + 1] != 0) continue;
             if (theta[k] < theta[k - 1] || theta[k] < theta[k + 1]) continue;
-            // What may be hidden between the samples, at the pendulum's acceleration.
+            // The largest possible excess between the samples, from the pendulum's acceleration.
             if (theta[k] > peak + 1e-6) return fmt::format("a peak of {:.9g} rad after one of {:.9g}", theta[k], peak);
             peak = theta[k];
         }
@@ -348,7 +348,7 @@ TEST_P(PropertyOfProblems, ARigidRodStartedAgainInFlightGoesOnTheSame) {
             later.initial.angle = theta_at(p, middle);
             later.initial.angular_velocity = series(p, "theta_dot", {middle})[0];
             later.cam->phase = p.cam->phase - p.cam->speed * middle;
-            // The approach of a collision's first touch is forgotten by a new start.
+            // A new start drops the approach speed of the collision's first touch.
             if (p.contact.approach_floor.policy == ApproachFloorPolicy::first_touch) later.contact.approach_floor = {};
             return differ("theta", theta_at(later, kEnd - middle), theta_at(p, kEnd), kSame);
         },

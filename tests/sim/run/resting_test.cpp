@@ -88,7 +88,7 @@ TEST(Resting, CompliantContactStartsPressedByTheSameForceAndDoesNotRing) {
 }
 
 TEST(Resting, FlexibleBeamOnATurningCamDoesNotRing) {
-    // Without the inertia of the ride in its first shape the force would swing by 2e-3 of itself.
+    // Without inertia forces in the initial shape the force would oscillate by a relative 2e-3.
     for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact}) {
         Problem p = riding(kind, 5, 0);
         p.contact.damping = DampingLaw::none;
@@ -131,7 +131,7 @@ TEST(Resting, CarriesTheTorqueOfTheHub) {
     p.hub.drive = ConstantTorque{-0.3};
     const Following free = following(p, 0);
     EXPECT_NEAR(series(p, "contact_force", {0})[0], free.force + 0.3 / free.x, 1e-9);
-    // The other way round without weight, it lies on the other side of the cam.
+    // With an opposite torque and no weight the beam rests on the other side of the cam.
     p.hub.drive = ConstantTorque{+5};
     p.contact.model = ContactModel::compliant;
     p.cam->centre = {0, 0.25};

@@ -1,4 +1,4 @@
-// Whole runs: published times, what observing must not change, and the exact properties of the system.
+// Whole runs: published times, exact properties of the system, and independence of requests.
 #include "sim/run/simulate.hpp"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ TEST(FallingBeam, TendsToTheRigidRodAsItStiffens) {
 }
 
 TEST(Pendulum, KeepsThePublishedPositionAfterManySwings) {
-    // A uniform rod of length 1.5 seen at radius 1 is the simple pendulum of length 1.
+    // A point at radius 1 of a uniform rod of length 1.5 is a simple pendulum of length 1.
     Problem p = falling_beam(ModelKind::rigid);
     p.beam.length = 1.5;
     p.solver.rtol = 1e-13;
@@ -286,7 +286,7 @@ TEST(Impact, OfARigidRodHasTheEffectiveRestitutionOfItsLaw) {
         p.solver.atol = 1e-14;
         const Result r = run(p, 0.5);
         ASSERT_EQ(r.impacts.size(), 1u);
-        // The foot wanders by K's penetration over the distance: 1e-3 at most.
+        // The foot moves by the penetration over the distance: 1e-3 at most.
         EXPECT_NEAR(*r.impacts[0].restitution, effective_restitution(damping_factor(p.contact.damping, 0.7)), 2e-3)
             << law.name;
     }
@@ -336,7 +336,7 @@ TEST(Impacts, ShareOneCollisionWhenTheyAreClose) {
     EXPECT_NEAR(lost, together, 1e-15);
 }
 
-TEST(Impacts, LoseWhatTheLedgerSays) {
+TEST(Impacts, LoseTheEnergyOfTheBalance) {
     Problem p;
     p.contact.friction = CoulombFriction{0.3, 1e-3};
     Request request;
@@ -370,7 +370,7 @@ TEST(Start, OnTheCamAtRestTouchesAtOnce) {
     const Result r = run(p, 0.5);
     ASSERT_FALSE(r.impacts.empty());
     EXPECT_LT(r.impacts[0].t_start, 1e-3);
-    EXPECT_FALSE(r.warnings.empty());  // slower than the approach floor, and told
+    EXPECT_FALSE(r.warnings.empty());  // slower than the approach floor, which is reported
     EXPECT_LT(r.energy_residual_max, 1e-7 * r.energy_scale);
 }
 
@@ -435,7 +435,7 @@ TEST(Cam, OfEitherDirectionGivesTheMirroredWork) {
     EXPECT_GT(backward, 0);  // friction of a turning cam always costs the cam
 }
 
-TEST(Cam, PressedThroughIsToldInWords) {
+TEST(Cam, PressedThroughHasAClearMessage) {
     Problem p = fixed_cam(ModelKind::rigid);
     p.contact.stiffness = 10;
     try {
@@ -508,13 +508,13 @@ TEST(PrescribedDrive, BendsTheBeamOverTheCamAndKeepsTheLedger) {
 }
 
 TEST(PrescribedDrive, DoesNotAskForInertiaThatNothingUses) {
-    // Far beyond the first-order model's own inertia limit the driven beam still answers.
+    // A driven beam has no inertia limit.
     Problem p = fixed_cam(ModelKind::first_order, 2);
     p.hub.drive = ConstantSpeed{-1};
     EXPECT_NO_THROW(run(p, 0.62));
 }
 
-// ---- what is asked for changes nothing ------------------------------------------------------------
+// ---- requests do not change the motion ------------------------------------------------------------
 
 void expect_same_bits(const Result& a, const Result& b) {
     ASSERT_LE(a.impacts.size(), b.impacts.size());
@@ -558,7 +558,7 @@ TEST_P(EveryMethod, TablesThatShareInstantsHoldWhatEachHoldsAlone) {
     Problem p;
     p.solver.method = GetParam();
     const std::vector<Channel> channels = all_channels(p);
-    // Disordered, one instant twice, some of them the other's; within the first collision as well.
+    // Unordered, with one instant twice and some of the other request, also within the first collision.
     const TableRequest first{{0.31, 0.1, 0.2773, 0.2774, 0.1, 0.32, 0}, {channels.begin(), channels.begin() + 3}},
         second{{0, 0.05, 0.1, 0.2773, 0.29, 0.32}, channels};
     Request request;
@@ -667,7 +667,7 @@ TEST(Extrema, OfTheEnergyBalanceAreFoundWithinSteps) {
         for (int k = 0; k <= 50'000; ++k) times.push_back(1e-5 * k);
         double largest = 0;
         for (const double value : series(p, "energy_residual", times)) largest = std::max(largest, std::fabs(value));
-        // At nodes and samples of a step; it is flat where it is largest.
+        // At nodes and samples of a step; the residual is stationary at its maximum.
         EXPECT_GE(std::max(r.extrema[0].max, -r.extrema[0].min), 0.95 * largest) << name(method);
     }
 }
@@ -705,7 +705,7 @@ TEST(Runs, CanBeInterruptedWithinAStep) {
     EXPECT_TRUE(again);
 }
 
-TEST(Runs, RefuseImpossibleProblemsBeforeAnyWork) {
+TEST(Runs, RejectImpossibleProblemsBeforeAnyWork) {
     Problem p;
     p.initial.angle = 0.1;
     EXPECT_THROW(run(p, 1), std::invalid_argument);
@@ -726,7 +726,7 @@ TEST(FirstRebound, ConvergesToTheSameApexInBothBases) {
     }
 }
 
-TEST(Inertia, LostByManyCantileverModesIsToldWithItsRemedy) {
+TEST(Inertia, LostByManyCantileverModesIsReportedWithItsRemedy) {
     SKIP_UNDER_SANITIZERS();
     Problem p = fixed_cam(ModelKind::first_order, 12);
     p.beam.basis = Basis::cantilever;

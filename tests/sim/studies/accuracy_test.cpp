@@ -37,7 +37,7 @@ void methods_come_nearer_as_their_tolerances_tighten(const Accuracy& found) {
     }
 }
 
-// A beam that falls freely is a rigid rod to 1e-5: shapes and models hardly matter, and which matter more is known.
+// A freely falling beam is a rigid rod to 1e-5: shapes and models have small effects of a known order.
 void shapes_and_models_are_compared_with_the_best(const Accuracy& found) {
     EXPECT_EQ(found.most_modes, 8);
     ASSERT_EQ(found.modes.size(), 4u);  // the scene's own two as well
@@ -66,7 +66,7 @@ void the_recommendation_is_the_loosest_tolerance_that_serves(const Accuracy& fou
     EXPECT_GT(found.recommendation->seconds, 0);
 }
 
-// One assessment, looked at from several sides.
+// Several checks of one assessment.
 TEST(Accuracy, OfAFallingBeam) {
     SKIP_UNDER_SANITIZERS();
     AccuracyRequest request = quick(0.1);
@@ -79,7 +79,7 @@ TEST(Accuracy, OfAFallingBeam) {
     the_recommendation_is_the_loosest_tolerance_that_serves(found);
 }
 
-// The time of comparison is the reproducible horizon that the summary tells, found another way.
+// The time of comparison equals the reproducible horizon of the summary.
 TEST(Accuracy, ItEndsWhereTheMotionIsNoLongerReproducible) {
     Problem p;
     AccuracyRequest request = quick(1.8);
@@ -101,7 +101,7 @@ TEST(Accuracy, ItEndsWhereTheMotionIsNoLongerReproducible) {
     EXPECT_GT(*found.contact[0].error, 1e-3);  // 1 % of the stiffness is far more than rtol
 }
 
-// The angle of a driven hub has no error; the tip's has.
+// The angle of a driven hub has no error, but the tip's deflection has.
 TEST(Accuracy, OfADrivenHubIsTheTips) {
     Problem p;
     p.cam.reset();
@@ -125,7 +125,7 @@ TEST(Accuracy, OfADrivenHubIsTheTips) {
 
 TEST(Accuracy, HorizonOfADrivenHubIsTheTips) {
     SKIP_UNDER_SANITIZERS();
-    // A driven beam that beats on a fast cam is no more reproducible for its hub being so.
+    // A driven beam on a fast cam is not reproducible, although its hub is.
     Problem p;
     p.hub.drive = ConstantSpeed{-0.1};
     p.initial = {0.45, 0, InitialShape::straight};

@@ -38,7 +38,7 @@ TEST(Paper, DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot) {
     }
 }
 
-// At the paper's contact nearly all of the error of its eq. (5) is the horizontal in place of the rod.
+// At the paper's contact nearly all of the error of its eq. (5) is the missing factor 1/cos²θ.
 TEST(Paper, MissingTermsOfTheDeflectionAreSmall) {
     const Problem problem;
     const double angle = std::asin(problem.cam->radius / norm(problem.cam->centre));

@@ -10,29 +10,29 @@
 namespace beamcam::sim::testing {
 namespace {
 
-TEST(StressCampaign, HasTwoThousandCasesAndAQuickPartOnEveryPlate) {
+TEST(StressCampaign, HasTwoThousandCasesAndAQuickPartOfEveryGrid) {
     const Campaign full = stress_campaign(true), quick = stress_campaign(false);
     EXPECT_GE(full.cases.size(), 2000u);
-    std::set<std::size_t> plates;
-    for (const StressCase& one : quick.cases) plates.insert(one.plate);
-    EXPECT_EQ(plates.size(), full.plates.size());
+    std::set<std::size_t> grids;
+    for (const StressCase& one : quick.cases) grids.insert(one.grid);
+    EXPECT_EQ(grids.size(), full.grids.size());
     EXPECT_LT(quick.cases.size(), full.cases.size() / 8);
 }
 
-TEST(StressCampaign, TellsRefusalsAndFailuresApart) {
+TEST(StressCampaign, DistinguishesRejectionsFromFailures) {
     StressCase one;
     one.end = 0.01;
-    EXPECT_EQ(survive(one).outcome, Outcome::closed);
+    EXPECT_EQ(run_case(one).outcome, Outcome::closed);
     one.problem.cam->eccentricity = 1;
-    EXPECT_EQ(survive(one).outcome, Outcome::refused);
+    EXPECT_EQ(run_case(one).outcome, Outcome::refused);
     one.problem = Problem{};
     one.problem.solver.max_steps = 3;
-    const StressResult spent = survive(one);
+    const StressResult spent = run_case(one);
     EXPECT_EQ(spent.outcome, Outcome::stopped);
-    EXPECT_NE(spent.words.find("solver.max_steps"), std::string::npos) << spent.words;
+    EXPECT_NE(spent.message.find("solver.max_steps"), std::string::npos) << spent.message;
 }
 
-TEST(Budget, OfStepsEndsTheRunInWordsAndKeepsWhatWasReached) {
+TEST(Budget, OfStepsEndsTheRunWithAMessageAndPartialResults) {
     Problem p;
     p.solver.max_steps = 50;
     Request request;
@@ -51,15 +51,15 @@ TEST(Budget, OfStepsEndsTheRunInWordsAndKeepsWhatWasReached) {
     }
 }
 
-// Where not even a state to start from is found there is no partial trajectory, and no talk of steps.
-TEST(Starts, ThatDoNotExistAreToldAndLeaveNothing) {
+// Without an initial state there is no partial trajectory, and the message is not about steps.
+TEST(Starts, ThatDoNotExistAreReportedAndLeaveNothing) {
     int found = 0;
     for (const StressCase& one : stress_campaign(true).cases) {
         if (one.variant != "seed 91" && one.variant != "seed 300") continue;
         ++found;
-        const StressResult result = survive(one);
-        EXPECT_EQ(result.outcome, Outcome::stopped) << result.words;
-        EXPECT_THAT(result.words, ::testing::StartsWith("at the start: no equilibrium"));
+        const StressResult result = run_case(one);
+        EXPECT_EQ(result.outcome, Outcome::stopped) << result.message;
+        EXPECT_THAT(result.message, ::testing::StartsWith("at the start: no equilibrium"));
         Request request;
         request.end_time = one.end;
         try {
@@ -72,21 +72,21 @@ TEST(Starts, ThatDoNotExistAreToldAndLeaveNothing) {
     EXPECT_EQ(found, 2);
 }
 
-TEST(Starts, OfWhatCannotGiveWayToAnImpulseAreRefused) {
+TEST(Starts, OfBeamsThatCannotRespondToAnImpulseAreRejected) {
     Problem p;
     p.beam.model = ModelKind::rigid;
     p.beam.basis = Basis::cantilever;
     p.hub.drive = ConstantSpeed{-1};
     p.contact.model = ContactModel::restitution;
-    const std::vector<Finding> findings = validate(p);
-    ASSERT_EQ(findings.size(), 1u);
-    EXPECT_EQ(findings[0].path, "contact.model");
-    EXPECT_TRUE(findings[0].fatal);
+    const std::vector<Issue> issues = validate(p);
+    ASSERT_EQ(issues.size(), 1u);
+    EXPECT_EQ(issues[0].path, "contact.model");
+    EXPECT_TRUE(issues[0].fatal);
     p.contact.model = ContactModel::compliant;
     EXPECT_TRUE(validate(p).empty());
 }
 
-TEST(Flips, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
+TEST(RepeatedEvents, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
     for (const Method method : {Method::cvode_adams, Method::cvode_bdf}) {
         Problem p;
         p.solver.method = method;
@@ -100,7 +100,7 @@ TEST(Flips, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
     }
 }
 
-TEST(Flips, OfBouncesAsLowAsRoundingOfTheGapEnd) {
+TEST(RepeatedEvents, OfBouncesAsLowAsRoundingOfTheGapEnd) {
     Problem p;  // the cam comes back at 30 m/s: bounces are pressed together within microseconds
     p.cam->speed = -300;
     p.cam->eccentricity = 0.099;
@@ -113,7 +113,7 @@ TEST(Flips, OfBouncesAsLowAsRoundingOfTheGapEnd) {
     EXPECT_LT(r.impacts.size(), 1000u);
 }
 
-TEST(Flips, OfAGripThatCanNeitherHoldNorSlideEnd) {
+TEST(RepeatedEvents, OfABristleThatCanNeitherStickNorSlideEnd) {
     Problem p = fixed_cam(ModelKind::rigid);
     p.hub.radius = 0.1;
     p.contact.offset = 0.05;

@@ -1,4 +1,4 @@
-// Classes of motions made by hand, so that every criterion is met and missed.
+// Classes of artificial motions that meet and miss every criterion.
 #include "sim/sweep/attractor.hpp"
 
 #include <gtest/gtest.h>
@@ -43,7 +43,7 @@ TEST(Attractor, IsNotChaoticWhileTheExponentMayBeAnError) {
     SampledMotion motion = circle(5.3137, 0);
     for (std::size_t k = 0; k < motion.strobes.size(); ++k) motion.strobes[k].growth = k < 15 ? 3 : -0.7;
     EXPECT_EQ(kind(motion), AttractorClass::unsettled);
-    // A difference that grows like the time, as in regular motion without losses, is no chaos.
+    // Linear growth of differences, as in regular conservative motion, is not chaos.
     for (std::size_t k = 0; k < motion.strobes.size(); ++k)
         motion.strobes[k].growth = std::log((2.0 + static_cast<double>(k)) / (1.0 + static_cast<double>(k)));
     EXPECT_NE(kind(motion), AttractorClass::chaotic);
@@ -67,7 +67,7 @@ TEST(Attractor, IsATorusWhereNothingIsLostAndDifferencesGrowLikeTheTime) {
     EXPECT_EQ(classify(p, motion).kind, AttractorClass::unsettled);
     p.contact.damping = DampingLaw::none;
     EXPECT_EQ(classify(p, motion).kind, AttractorClass::quasi_periodic);
-    // Growth that goes on at a rate that is small but sure is not that of a torus, and not enough for chaos.
+    // A small but significant exponential growth is neither that of a torus nor enough for chaos.
     for (Strobe& strobe : motion.strobes) strobe.growth = 0.06;
     EXPECT_EQ(classify(p, motion).kind, AttractorClass::unsettled);
 }

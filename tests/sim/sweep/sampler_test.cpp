@@ -1,4 +1,4 @@
-// Samples taken along a run against what the recorders of the same run find.
+// Samples of a sweep against the recorders of the same run.
 #include "sim/sweep/sampler.hpp"
 
 #include <numbers>
@@ -118,7 +118,7 @@ TEST(Sampler, RoundsATimeUpToWholeTurns) {
     EXPECT_EQ(sample_span(p, s).period, 1);
 }
 
-// A motion that goes on from where another ended is the longer motion.
+// A motion that continues another one equals the longer motion.
 TEST(Sampler, GoesOnFromTheEndOfAnother) {
     for (const ModelKind model : {ModelKind::rigid, ModelKind::first_order}) {
         const Problem p = turning_cam(model, ContactModel::compliant);

@@ -1,0 +1,21 @@
+// Numerical constants of the studies, each with its reason: accuracy, stress campaign.
+#pragma once
+
+namespace beamcam::sim {
+
+// ---- accuracy ----
+inline constexpr int kInstants = 1000;           // at which motions are compared
+inline constexpr double kReferenceRtol = 1e-13;  // the tightest tolerance
+inline constexpr double kCheckRtol = 1e-12;      // of the run that estimates the error of the reference
+inline constexpr double kReferenceRuns = 50;     // time limit of the reference and of contact variants, in longest runs
+inline constexpr double kModesRuns = 5;          // the same of each number of shapes
+inline constexpr double kModelRuns = 10;         // the same of each model
+inline constexpr double kAllRuns = 20;           // after this time, in limits of one run, timings are not repeated
+inline constexpr int kModelShapes = 6;           // least number of shapes in the comparison of models
+inline constexpr double kAsFar = 0.98;           // of the longest time within the target: as good
+
+// ---- stress campaign ----
+inline constexpr double kCaseLimit = 120;  // [s] of CPU time: a case that takes longer hangs
+inline constexpr int kChannelSamples = 7;  // instants at which all channels are checked
+
+}  // namespace beamcam::sim
