@@ -124,45 +124,32 @@ struct FollowingState {
 };
 
 // Solves for `s.xi`, the beam on the cam at time t in equilibrium with gravity, torque, friction and the inertia of the
-// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, with N = Kδⁿ or, in impulsive contact, the N that keeps the gap at
-// zero. False if there is no solution, or none with N >= 0.                                                   (S40)
+// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈. N is an unknown, too; it is the force of the penetration or, in
+// impulsive contact, keeps the gap at zero. False if there is no solution, or none with N >= 0. (S40)
 bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     const int n = system.coordinates();
     const Problem& problem = system.problem();
-    const bool rigid_contact = problem.contact.model == ContactModel::restitution;
+    const bool compliant = problem.contact.model == ContactModel::compliant;
     const bool moves = !s.acceleration.isZero(0) || !s.rate.isZero(0);
-    Model& model = system.model();
+    const double approach = problem.contact.approach_floor.value;
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
     std::copy_n(s.rate.data(), n, y.begin() + n);
-    const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
-    const double weight = std::max(std::fabs(problem.gravity) * model.mass(), 1e-300);
-    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), size(x.size()), force(n);
-    x.head(n) = s.xi;
-    scale.head(n) = scales(problem, n);
-    size.head(n) = moves ? acceleration_sizes(system, n) : force_sizes(system, n);
-    if (rigid_contact) {
-        x[n] = 0.5 * weight;
-        scale[n] = weight;
-        size[n] = problem.beam.length;
-    }
+    Eigen::VectorXd x(n + 1), scale(n + 1), size(n + 1), force(n);
+    scale << scales(problem, n), force_size(system);
+    size << (moves ? acceleration_sizes(system, n) : force_sizes(system, n)), problem.beam.length;
+    x << s.xi, 0.5 * scale[n];
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
         const ContactState c = system.contact(t, y.data(), true);
-        // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
-        const double normal = rigid_contact ? at[n]
-                              : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
-                                            : -c.gap * stiffness * kSeparatedPull;
-        const bool solvable = system.generalized_force(t, c, normal, force.data());
-        if (moves && solvable) model.solve(force.data());
+        const bool solvable = system.generalized_force(t, c, at[n], force.data());
+        if (moves && solvable) system.model().solve(force.data());
         if (moves && !solvable) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // rejects the iterate
-        r.head(n) = force - s.acceleration;
-        if (rigid_contact) r[n] = c.gap;
+        const double depth = compliant ? system.normal_law().penetration(at[n], moves ? -c.gap_rate : 0, approach) : 0;
+        r << force - s.acceleration, c.gap + depth;
     };
     const bool found = newton(residual, x, scale, size);
     s.xi = x.head(n);
-    if (!found || rigid_contact) return found && x[n] >= 0;
-    std::copy_n(x.data(), n, y.begin());
-    return system.contact(t, y.data(), true).gap <= kEquilibriumGap * problem.beam.length;
+    return found && x[n] >= 0;
 }
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates

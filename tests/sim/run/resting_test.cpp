@@ -57,6 +57,42 @@ TEST(Resting, ForceOfAHeldRodIsThatOfWeightAndInertiaFromTheStart) {
         }
 }
 
+TEST(Resting, UnderATorqueWithoutGravityTheForceBalancesTheTorqueAndStaysConstant) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
+        for (const ContactModel contact : {ContactModel::restitution, ContactModel::compliant}) {
+            Problem p = riding(kind, 0, 0);
+            p.beam.modes = 3;
+            p.gravity = 0;
+            p.hub.drive = ConstantTorque{-2};
+            p.contact.model = contact;
+            const std::vector<double> force = series(p, "contact_force", {0, 0.001, 0.02});
+            const double lever = following(p, 0).x;  // of the straight beam
+            EXPECT_NEAR(force[0], 2 / lever, 0.01 * force[0]) << name(kind);
+            for (const double later : force) EXPECT_NEAR(later, force[0], 1e-7 * force[0]) << name(kind);
+        }
+}
+
+// N x_c = ½mgL cos θ, up to the rounding of the gap, n 10⁻¹⁵ m/δ of the force.
+TEST(Resting, EveryContactStiffnessHasItsEquilibrium) {
+    for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10, 1e12})
+        for (const double exponent : {1.0, 1.5, 2.0}) {
+            Problem p = riding(ModelKind::rigid, 0, 0);
+            p.contact.stiffness = stiffness;
+            p.contact.exponent = exponent;
+            p.contact.damping = DampingLaw::none;
+            Request request;
+            request.end_time = 0.01;
+            request.tables.push_back(
+                {{0, 0.01}, {channel("contact_force"), channel("contact_x"), channel("theta"), channel("gap")}});
+            const auto values = simulate(p, request).tables[0].values;
+            const double weight = p.beam.line_density() * p.beam.length * p.gravity, depth = -values[3][0];
+            for (const std::size_t row : {0, 1})
+                EXPECT_NEAR(values[0][row] * values[1][row], 0.5 * weight * p.beam.length * std::cos(values[2][row]),
+                            weight * (1e-8 + exponent * 1e-14 / depth))
+                    << stiffness << " " << exponent;
+        }
+}
+
 TEST(Resting, ACamThatLeavesTheBeamBehindIsReported) {
     for (const ContactModel contact : {ContactModel::restitution, ContactModel::compliant})
         for (const double speed : {5.0, 60.0})
