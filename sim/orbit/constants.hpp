@@ -11,7 +11,6 @@ inline constexpr double kTangentRounding = 1e-14;  // smallest tolerance of a st
 // Least order of convergence of a step. Step lengths of neighbouring levels differ by √2.
 inline constexpr int kTangentOrder = 8;
 inline constexpr double kSameLength = 1e-13;    // of a step: rounding of the time
-inline constexpr double kPlastic = 1e-9;        // of the approach speed: a slower rebound counts as plastic
 inline constexpr double kSameSpeed = 1e-9;      // relative difference in speed by rounding of the gap at a touch
 inline constexpr double kSlowestMotion = 1e-3;  // [1/s] rate of the hub's unit without cam speed and gravity
 

@@ -48,6 +48,7 @@ inline constexpr double kInstantRounding = 1e-14;  // of the time: closer instan
 // kMaxInstantEvents events at one instant the friction state is kept for one step, and an impact becomes plastic; after
 // kMaxIdleEvents the run stops.
 inline constexpr int kMaxInstantEvents = 10, kMaxIdleEvents = 50;
+inline constexpr double kPlastic = 1e-9;         // of the approach speed: a slower rebound is rounding
 inline constexpr double kFirstTouchStep = 0.05;  // of the time to maximum penetration, so that all stages see the force
 inline constexpr double kBounces = 4;            // largest number of bounces within the first step of a flight
 // Conditions of summed-up chatter (S57): its duration times the highest frequency, for an error of (10⁻³)²/6 of the

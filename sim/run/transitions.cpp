@@ -169,7 +169,8 @@ void Transitions::hold() {
 // False if the conditions do not hold and the bounces must be integrated.
 bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic) {
     const double approach = -c.gap_rate, rebound = impact.v_n;
-    if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * problem().contact.approach_floor.value))
+    const bool plastic_impact = !(rebound > kPlastic * approach);
+    if (plastic_impact || rebound >= approach || rebound >= kSummedShare * problem().contact.approach_floor.value)
         return false;
     std::vector<double> settled = state_.y;
     system_.apply_impact(state_.t, settled.data(), c, plastic);

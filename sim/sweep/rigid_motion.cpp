@@ -229,7 +229,7 @@ void RigidMotion::impact() {
 
 // The conditions of Transitions::sum_up_chatter (S57).
 bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const {
-    if (!(rebound > 0 && rebound < approach && rebound < kSummedShare * floor_)) return false;
+    if (!(rebound > kPlastic * approach && rebound < approach && rebound < kSummedShare * floor_)) return false;
     const double pull = c.lever * surface_.push(c), lasts = 2 * rebound / (pull * (1 - rebound / approach));
     const double turns = std::fabs(surface_.rate(c)) + std::fabs(problem_.cam->speed);
     if (!(pull > 0 && lasts * turns < kBriefChatter)) return false;

@@ -119,6 +119,28 @@ TEST(Impact, ChatterOfAFlexibleBeamEndsAlikeWithEveryMethod) {
     }
 }
 
+// Rounding of the rebound does not decide whether it is chatter.
+TEST(Impact, APlasticImpactThatSustainedContactFollowsIsListedOnce) {
+    for (const Method method : {Method::automatic, Method::rk8, Method::cvode_adams})
+        for (const ImpactLaw law : {ImpactLaw::newton, ImpactLaw::poisson, ImpactLaw::stronge})
+            for (const int modes : {2, 3}) {
+                Problem problem;
+                problem.beam.modes = modes;
+                problem.contact.model = ContactModel::restitution;
+                problem.contact.law = law;
+                problem.contact.restitution = 0;
+                problem.contact.friction = CoulombFriction{0.3, 1e-3};
+                problem.initial = {0.5, -3, InitialShape::straight};
+                problem.solver.method = method;
+                Request request;
+                request.end_time = 0.3;
+                const Result result = simulate(problem, request);
+                ASSERT_FALSE(result.impacts.empty());
+                for (const Impact& impact : result.impacts)
+                    EXPECT_LT(impact.v_n_before, 0) << name(method) << " " << name(law) << " " << modes;
+            }
+}
+
 // With a constant acceleration the sum is exact: chatter that is integrated down to a thousandth of the speed agrees.
 TEST(Impact, SummedUpChatterEqualsTheIntegratedBounces) {
     Problem problem;
