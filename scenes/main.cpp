@@ -8,8 +8,8 @@
 #include "scenes/commands/cli.hpp"
 
 int main(int argc, char** argv) {
-    // Pictures must not depend on these, nor standard output on what libraries tell of themselves.
+    // Pictures must not depend on these variables.
     for (const char* name : {"FREETYPE_PROPERTIES", "FC_DEBUG"}) unsetenv(name);
-    __fpurge(stdout);  // what they told before main: pixman of PIXMAN_DISABLE
+    __fpurge(stdout);  // pixman prints a message before main if PIXMAN_DISABLE is set
     return beamcam::scenes::command_line(argc, argv);
 }

@@ -20,11 +20,6 @@ class NameIndex {
         const auto found = positions_.find(name);
         return found == positions_.end() ? std::nullopt : std::optional(found->second);
     }
-    // Forgets the name if it stands at this position.
-    void remove(std::string_view name, std::size_t position) {
-        const auto found = positions_.find(name);
-        if (found != positions_.end() && found->second == position) positions_.erase(found);
-    }
 
   private:
     std::map<std::string, std::size_t, std::less<>> positions_;  // ordered: no input makes it slow

@@ -57,8 +57,8 @@ Node json_of(const KeyRow& row) {
     }
     add(out, "unit", key.unit.empty() ? Node{} : text_node(key.unit));
     add(out, "default", key.value && !key.required() ? *key.value : Node{});
-    add(out, "min", bound(key.range.least));
-    add(out, "max", bound(key.range.most));
+    add(out, "min", bound(key.range.min));
+    add(out, "max", bound(key.range.max));
     add(out, "required", boolean_node(key.required()));
     add(out, "meaning", text_node(key.meaning));
     return out;

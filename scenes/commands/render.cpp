@@ -120,10 +120,10 @@ void apply_span(const RenderArguments& args, FrameSpan& span) {
     }
     if (args.from) {
         std::optional<double> from;
-        take_bound(instant_argument("--from", *args.from), from, span.from_event);
+        set_bound(instant_argument("--from", *args.from), from, span.from_event);
         span.from = from.value_or(0);
     }
-    if (args.to) take_bound(instant_argument("--to", *args.to), span.to, span.to_event);
+    if (args.to) set_bound(instant_argument("--to", *args.to), span.to, span.to_event);
     if (args.speed) apply_speed(*args.speed, span.speed), span.duration.reset();
     if (args.speed && args.duration) throw UsageError("--speed and --duration exclude each other; keep one");
     if (args.duration) {
@@ -134,7 +134,7 @@ void apply_span(const RenderArguments& args, FrameSpan& span) {
 }
 
 void apply_view(const RenderArguments& args, render::View& view) {
-    if (args.background && !take_background(*args.background, view))
+    if (args.background && !set_background(*args.background, view))
         throw UsageError(
             fmt::format("--background {}: write paper, transparent or a colour such as #f4f1ea", *args.background));
     if (args.show) {

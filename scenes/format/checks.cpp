@@ -20,27 +20,19 @@ namespace beamcam::scenes {
 
 namespace {
 
-// Where a key path stands: its value, or else the key of its nearest ancestor in the file.
+// The position of a key path: its value, or the key of its nearest ancestor in the file. `exact`: it is the value.
 Place place_in_scene(const Node& root, std::string_view path, bool& exact) {
     const Node* node = &root;
     Place place = root.place;
+    const std::vector<std::string> names = split_path(path);
     exact = true;
-    while (!path.empty()) {
-        const std::size_t dot = std::min(path.find('.'), path.size());
-        const std::string_view key = path.substr(0, dot);
-        path.remove_prefix(std::min(dot + 1, path.size()));
-        if (const Member* member = node->find(key)) {
-            place = path.empty() ? member->value.place : member->key_place;
-            node = &member->value;
-            continue;
-        }
-        const auto index = output::number_in<std::size_t>(key);
-        if (node->kind != Node::Kind::array || !index || *index >= node->items.size()) {
-            exact = false;
-            break;
-        }
-        node = &node->items[*index];
-        place = node->place;
+    for (std::size_t i = 0; i < names.size() && exact; ++i) {
+        const Node* inner = child(*node, names[i]);
+        exact = inner != nullptr;
+        if (!inner) break;
+        const Member* member = node->find(names[i]);
+        place = member && i + 1 < names.size() ? member->key_place : inner->place;
+        node = inner;
     }
     return place;
 }
@@ -52,7 +44,7 @@ void check_physics(ObjectReader& r, const sim::Problem& problem) {
     for (const sim::Issue& finding : sim::validate(problem)) {
         bool exact = false;
         const Place place = place_in_scene(*r.node(), finding.path, exact);
-        // With unread values replaced by defaults, only what the user wrote himself can be judged.
+        // Some values could not be read and are defaults now: check only values that the file contains.
         if (partial && (!exact || !finding.fatal || r.diagnostics().failed(finding.path))) continue;
         const bool named = finding.message.starts_with(finding.path);
         r.diagnostics().add(
@@ -62,13 +54,12 @@ void check_physics(ObjectReader& r, const sim::Problem& problem) {
 
 void check_words(ObjectReader& r, const char* key, const std::string& text) {
     if (const std::string problem = render::problem_with_words(text); !problem.empty())
-        r.diagnostics().warning(r.place(key).place,
-                                fmt::format("{}: {}; it is shown as it is written", r.path(key), problem));
+        r.warn(key, fmt::format("{}: {}; the picture shows it unchanged", r.path(key), problem));
 }
 
 // ---- pictures ----------------------------------------------------------------------------------
 
-void take_written_units(ObjectReader& r, render::Units& units) {
+void infer_units(ObjectReader& r, render::Units& units) {
     const auto ends_in = [&](const char* object, const char* key, std::initializer_list<std::string_view> names) {
         const Member* inside = r.node()->find(object);
         const Member* value = inside ? inside->value.find(key) : nullptr;
@@ -87,39 +78,34 @@ static bool needs_cam(const render::Anchor& anchor) {
 void check_camera(ObjectReader& r, const View& view) {
     for (const char* key : {"yaw", "pitch", "swing"})
         if (r.has(key) && view.style != render::Style::solid)
-            r.diagnostics().warning(
-                r.place(key).place,
-                fmt::format("{} turns the solid view alone; \"style\": \"solid\" shows that", r.path(key)));
-    const auto judge = [&](const render::Anchor& follow, const std::string& key) {
+            r.warn(key, fmt::format("{} has an effect in the solid view only; add \"style\": \"solid\"", r.path(key)));
+    const auto check = [&](const render::Anchor& follow, const std::string& key) {
         if (needs_cam(follow) && !r.context().scene.problem.cam)
-            r.fail(r.place(key), key,
-                   fmt::format("{}: there is no cam to follow; follow the tip, the hub or a place", r.path(key)));
+            r.fail(key,
+                   fmt::format("{}: the scene has no cam to follow; follow the tip, the hub or a place", r.path(key)));
     };
-    judge(view.shot.follow, "follow");
+    check(view.shot.follow, "follow");
     for (std::size_t i = 0; i < view.keyframes.size(); ++i)
-        if (view.keyframes[i].follow) judge(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i));
+        if (view.keyframes[i].follow) check(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i));
 }
 
 void check_view(ObjectReader& r, const View& view) {
     if (r.has("exposures") && view.poses() == 1)
-        r.diagnostics().warning(
-            r.place("exposures").place,
-            fmt::format("{} needs a \"shutter\" or \"strobe\" to be exposed for", r.path("exposures")));
+        r.warn("exposures", fmt::format("{} has no effect without a \"shutter\" or \"strobe\"", r.path("exposures")));
 }
 
-// Beyond these shapes a logo as high as the clock's line, or a third of it wide, is a hairline.
+// A longer logo would be a hairline at the height of the clock.
 static constexpr int kWidestLogo = 10, kTallestLogo = 5;
 
 static void read_logo(ObjectReader& r, Picture& picture) {
     if (!r.has("logo") || r.diagnostics().failed(r.path("logo"))) return;
     if (picture.logo.empty())
-        return r.fail(r.place("logo"), "logo",
-                      fmt::format("{} is empty; name a .png file, or remove the key", r.path("logo")));
+        return r.fail("logo", fmt::format("{} is empty; name a .png file, or remove the key", r.path("logo")));
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / picture.logo;
     try {
         const output::Raster raster = output::read_png(path);
         if (raster.width > kWidestLogo * raster.height || raster.height > kTallestLogo * raster.width)
-            return r.fail(r.place("logo"), "logo",
+            return r.fail("logo",
                           fmt::format("{} = {} has {} × {} pixels; a logo is at most {} times as wide as high and {} "
                                       "times as high as wide",
                                       r.path("logo"), as_written(r.place("logo")), raster.width, raster.height,
@@ -127,29 +113,27 @@ static void read_logo(ObjectReader& r, Picture& picture) {
         picture.logo_digest = output::digest(raster);
         picture.logo_image = std::make_shared<const render::Image>(output::to_image(raster));
     } catch (const output::IoError& error) {
-        r.fail(r.place("logo"), "logo",
-               fmt::format("{} = {}: {}", r.path("logo"), as_written(r.place("logo")), error.what()));
+        r.fail("logo", fmt::format("{} = {}: {}", r.path("logo"), as_written(r.place("logo")), error.what()));
     }
 }
 
 void check_picture(ObjectReader& r, Picture& picture) {
     read_logo(r, picture);
-    if (const double memory = memory_of(picture); memory >= kMuchMemory)  // told before it is drawn
+    if (const double memory = memory_of(picture); memory >= kMuchMemory)
         r.diagnostics().warning(r.node()->place,
-                                fmt::format("{} of {} × {} pixels takes about {:.2g} GB of memory for each thread",
+                                fmt::format("{} of {} × {} pixels needs about {:.2g} GB of memory for each thread",
                                             r.object_name(), picture.size.width, picture.size.height, memory / 1e9));
     if (const auto paper = picture.view.paper) {
         const render::Color ink =
             picture.view.colors.ink ? render::rgb(*picture.view.colors.ink) : render::palette(picture.view.theme).ink;
         if (render::contrast(ink, render::rgb(*paper)) < 3)
-            r.diagnostics().warning(
-                r.place("background").place,
-                fmt::format("{} leaves the text hardly readable; choose another \"theme\"", r.path("background")));
+            r.warn("background",
+                   fmt::format("{} makes the text hardly readable; choose another \"theme\"", r.path("background")));
     }
     if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
         r.diagnostics().warning(
             r.node()->place,
-            fmt::format("{} = \"ghosts\" shows none without \"compare\", or more scenes given to `beamcam render`",
+            fmt::format("{} = \"ghosts\" has no effect without \"compare\", or several scenes for `beamcam render`",
                         r.path("comparison")));
     for (std::size_t i = 0; i < picture.compare.size(); ++i)
         if (std::string& label = picture.compare[i].label; label.empty()) label = std::to_string(i + 1);
@@ -162,19 +146,17 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     const double to = span.to.value_or(end_time), fps = span.fps.value();
     if (span.from_event || span.to_event) return {};
     if (!span.real_time()) {
-        if (to > span.from) return {};  // how many frames, only the motion tells
-        return fmt::format("the film ends at {:g} s and begins at {:g} s; \"to\" must be later than \"from\"", to,
+        if (to > span.from) return {};  // the number of frames depends on the motion
+        return fmt::format("the film begins at {1:g} s and ends at {0:g} s; \"to\" must be later than \"from\"", to,
                            span.from);
     }
     const double first = std::round(span.from * fps), last = std::round(to * fps);
     if (!(last > first))
-        return fmt::format(
-            "no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
-            to > span.from ? "let \"to\" be later, or raise \"fps\"" : "\"to\" must be later than \"from\"");
+        return fmt::format("no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
+                           to > span.from ? "increase \"to\" or \"fps\"" : "\"to\" must be later than \"from\"");
     if (last - first > kMostFrames)
         return fmt::format(
-            "{:.0f} frames are more than the {:.0f} that one output can have; use \"from\" and \"to\", or fewer frames "
-            "a second",
+            "{:.0f} frames are too many: an output has at most {:.0f}; use \"from\" and \"to\", or reduce \"fps\"",
             last - first, kMostFrames);
     return {};
 }
@@ -185,47 +167,46 @@ void check_speed(ObjectReader& r, const Speed& speed) {
         const Instant &before = speed.intervals[i - 1].to, &from = speed.intervals[i].from;
         const std::string key = fmt::format("intervals.{}.from", i);
         if (before.kind == Instant::Kind::time && from.kind == Instant::Kind::time && from.t < before.t)
-            r.fail(r.place(key), key,
-                   fmt::format("{} = {:g} s is before the end of the interval before it, {:g} s; list the intervals in "
-                               "their order, without overlap",
+            r.fail(key,
+                   fmt::format("{} = {:g} s is before the end of the previous interval, {:g} s; list the intervals in "
+                               "order of time, without overlap",
                                r.path(key), from.t, before.t));
     }
     for (std::size_t i = 0; speed.around && i < speed.around->collisions.size(); ++i)
         if (const double number = speed.around->collisions[i]; number != std::round(number)) {
             const std::string key = fmt::format("collisions.{}", i);
-            r.fail(r.place(key), key, fmt::format("{} = {:g} must be a whole number", r.path(key), number));
+            r.fail(key, fmt::format("{} = {:g} must be a whole number", r.path(key), number));
         }
 }
 
 namespace {
 
-// Instants that a film does not reach are warnings, so that films can be shortened.
+// Instants outside a film are only warnings, so that a film can be shortened.
 void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, double end) {
-    const auto judge = [&](const std::string& key, const Instant& at, const char* consequence) {
+    const auto check = [&](const std::string& key, const Instant& at, const char* consequence) {
         if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
-            r.diagnostics().warning(r.place(key).place,
-                                    fmt::format("{} = {:g} s is no instant of a film from {:g} s to {:g} s: {}",
-                                                r.path(key), at.t, span.from, end, consequence));
+            r.warn(key, fmt::format("{} = {:g} s is outside the film from {:g} s to {:g} s: {}", r.path(key), at.t,
+                                    span.from, end, consequence));
     };
     const auto readable = [&](const char* key) { return !r.diagnostics().failed(r.path(key)); };
     for (std::size_t i = 0; i < span.events.size() && readable("events"); ++i)
-        judge(fmt::format("events.{}.at", i), span.events[i].at, "it is not shown");
+        check(fmt::format("events.{}.at", i), span.events[i].at, "it is not shown");
     for (std::size_t i = 0; i < span.speed.intervals.size() && readable("speed"); ++i) {
         const SpeedInterval& each = span.speed.intervals[i];
-        judge(fmt::format("speed.intervals.{}.from", i), each.from, "the interval is cut there");
-        judge(fmt::format("speed.intervals.{}.to", i), each.to, "the interval is cut there");
+        check(fmt::format("speed.intervals.{}.from", i), each.from, "the interval is cut there");
+        check(fmt::format("speed.intervals.{}.to", i), each.to, "the interval is cut there");
     }
     for (std::size_t i = 0; i < view.keyframes.size() && readable("view"); ++i) {
         const Instant& at = view.keyframes[i].at;
         const std::string key = fmt::format("view.camera.keyframes.{}.at", i);
-        judge(key, at, "the camera is not seen to arrive");
+        check(key, at, "the film does not show the arrival of the camera");
         if (i == 0 || at.kind != Instant::Kind::time) continue;
         const Instant& before = view.keyframes[i - 1].at;
         if (before.kind == Instant::Kind::time && at.t <= before.t)
-            r.fail(r.place(key), key,
-                   fmt::format("{} = {:g} s is not after the keyframe before it, {:g} s; list the keyframes in the "
-                               "order of time",
-                               r.path(key), at.t, before.t));
+            r.fail(key,
+                   fmt::format(
+                       "{} = {:g} s is not after the previous keyframe, {:g} s; list the keyframes in order of time",
+                       r.path(key), at.t, before.t));
     }
 }
 
@@ -241,12 +222,12 @@ void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) 
     for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)
         if (const auto& anchor = span.events[i].anchor; anchor && needs_cam(*anchor)) {
             const std::string key = fmt::format("events.{}.anchor", i);
-            r.fail(r.place(key), key,
-                   fmt::format("{}: there is no cam; anchor the words to the tip, the hub or a place", r.path(key)));
+            r.fail(key, fmt::format("{}: the scene has no cam; anchor the text to the tip, the hub or a place",
+                                    r.path(key)));
         }
 }
 
-void take_usual_codec(ObjectReader& r, VideoOutput& video) {
+void set_default_codec(ObjectReader& r, VideoOutput& video) {
     name_after_scene(r, video.file, ".mp4");
     video.encoding.codec =
         output::default_codec(std::filesystem::path(video.file).extension().string()).value_or(output::Codec::h264);
@@ -254,33 +235,32 @@ void take_usual_codec(ObjectReader& r, VideoOutput& video) {
 
 namespace {
 
-// What the codec, the container and the picture ask of each other.
+// Rules between codec, container and picture.
 void check_format(ObjectReader& r, const VideoOutput& video) {
     const std::string ending = std::filesystem::path(video.file).extension().string();
     const output::Codec codec = video.encoding.codec;
-    const auto refuse = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.fail(r.place(key), key, fmt::format("{}: {}", r.path(key), problem));
+    const auto reject = [&](const char* key, const std::string& problem) {
+        if (!problem.empty()) r.fail(key, fmt::format("{}: {}", r.path(key), problem));
     };
     if (const std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
         return r.fail(r.place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
                       fmt::format("{}: {}", r.object_name(), problem));
-    refuse("size", output::size_problem(codec, video.size.width, video.size.height));
-    refuse("fps", output::rate_problem(codec, video.span.fps.value()));
+    reject("size", output::size_problem(codec, video.size.width, video.size.height));
+    reject("fps", output::rate_problem(codec, video.span.fps.value()));
     if (r.has("preset") && codec != output::Codec::h264)
-        refuse("preset", fmt::format("{} has no presets, H.264 alone has; remove it", title(codec)));
+        reject("preset", fmt::format("only H.264 has presets, {} has none; remove the key", title(codec)));
     const auto quality = output::quality_scale(codec);
     if (r.has("crf") && !quality)
-        refuse("crf", fmt::format("{} has no crf, it keeps what its format can; remove it", title(codec)));
+        reject("crf", fmt::format("{} has no crf; remove the key", title(codec)));
     else if (quality && video.encoding.crf.value_or(0) > quality->worst)
-        r.fail(r.place("crf"), "crf",
-               fmt::format("{} = {} is outside 0 … {} of {}", r.path("crf"), *video.encoding.crf, quality->worst,
-                           title(codec)));
+        r.fail("crf", fmt::format("{} = {} is outside 0 … {}, the range of {}", r.path("crf"), *video.encoding.crf,
+                                  quality->worst, title(codec)));
 }
 
 }  // namespace
 
 void check_video(ObjectReader& r, VideoOutput& video) {
-    constexpr FrameRate kGifRate{25, 1};  // what a GIF has by default
+    constexpr FrameRate kGifRate{25, 1};  // default of a GIF
     if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
     if (!video.encoding.crf)
         if (const auto quality = output::quality_scale(video.encoding.codec)) video.encoding.crf = quality->usual;
@@ -290,34 +270,12 @@ void check_video(ObjectReader& r, VideoOutput& video) {
 
 // ---- tables, files -----------------------------------------------------------------------------
 
-namespace {
-
-void refuse_many_rows(ObjectReader& r, double rate, double each) {
-    constexpr double kMostRows = 20'000'000;  // 160 MB a channel
-    const double rows = rate * r.context().scene.end_time * each;
+void limit_rows(ObjectReader& r, double rate, double rows_each) {
+    constexpr double kMostRows = 20'000'000;  // 160 MB for each channel
+    const double rows = rate * r.context().scene.end_time * rows_each;
     if (r.has("rate") && rows > kMostRows)
-        r.fail(r.place("rate"), "rate",
-               fmt::format("{} = {} would make {:.3g} rows, more than {:.3g}; lower it", r.path("rate"),
-                           as_written(r.place("rate")), rows, kMostRows));
-}
-
-}  // namespace
-
-void check_table(ObjectReader& r, TrajectoryOutput& table) {
-    name_after_scene(r, table.file, ".csv");
-    refuse_many_rows(r, table.rate, 1);
-}
-
-void check_shapes(ObjectReader& r, ShapesOutput& shapes) {
-    name_after_scene(r, shapes.file, "-shapes.csv");
-    refuse_many_rows(r, shapes.rate, shapes.stations);
-}
-
-void check_sweep(ObjectReader& r, SweepOutput& sweep) {
-    name_after_scene(r, sweep.file, "-sweep.nc");
-    if (!r.context().scene.sweep && !r.diagnostics().any())
-        r.fail(*r.node(), "type",
-               fmt::format("{}: the scene has no \"sweep\", whose points it would hold", r.object_name()));
+        r.fail("rate", fmt::format("{} = {} gives {:.3g} rows, but a table has at most {:.3g}; reduce the rate",
+                                   r.path("rate"), as_written(r.place("rate")), rows, kMostRows));
 }
 
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {
@@ -327,18 +285,18 @@ void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {
 namespace {
 
 // Two outputs must not write one file.
-void refuse_shared_files(ObjectReader& r, const Node& list, const std::vector<Output>& outputs) {
-    const auto nameless = [](const Output& output) { return file_of(output).empty(); };  // it could not be read
-    if (std::ranges::any_of(outputs, nameless)) return;
+void check_distinct_files(ObjectReader& r, const Node& list, const std::vector<Output>& outputs) {
     FileClaims claims;
-    for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (std::size_t i = 0; i < outputs.size(); ++i) {
+        if (file_of(outputs[i]).empty() || r.diagnostics().failed(fmt::format("outputs.{}", i))) continue;
         for (const std::string& file : written_by(outputs[i])) claims.add(file, i);
+    }
     for (const auto& [later, earlier] : claims.clashes()) {
         const Node& object = list.items[later.owner];
         const Member* file = object.find("file");
         r.fail(file ? file->value : object, fmt::format("outputs.{}.file", later.owner),
-               fmt::format("outputs.{} writes {}, which outputs.{} writes too ({}); give it a \"file\" of its own",
-                           later.owner, in_quotes(later.file), earlier.owner, in_quotes(earlier.file)));
+               fmt::format("outputs.{} and outputs.{} would write the same file {}; give one of them another \"file\"",
+                           later.owner, earlier.owner, in_quotes(later.file)));
     }
 }
 
@@ -355,7 +313,7 @@ void check_outputs(ObjectReader& r, Scene& scene) {
         const LineColumn at = locator.at(object.place.offset);
         place += fmt::format(":{}:{}", at.line, at.column);
     }
-    refuse_shared_files(r, list->value, scene.outputs);
+    check_distinct_files(r, list->value, scene.outputs);
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// What the keys of a scene ask of each other, beyond the range of each: judged by the reader after it has read them.
+// Rules between the keys of a scene, beyond the range of each key. The reader applies them after it has read the keys.
 #pragma once
 
 #include <optional>
@@ -10,38 +10,36 @@
 
 namespace beamcam::scenes {
 
-// More than eight motions neither colours nor eyes tell apart.
+// The colours distinguish at most eight motions.
 inline constexpr std::size_t kMostCompared = 8;
 
 ValueFormat layout_format(std::optional<render::LayoutNode>& layout);
 
-// Of words on pictures: a formula that cannot be read.
+// Warns about a formula in the text of a picture that cannot be parsed.
 void check_words(ObjectReader& r, const char* key, const std::string& text);
-// Labels and titles of figures are markup.
+// Labels and titles of figures contain markup.
 void check_markup(ObjectReader& r, const std::string& key, const std::string& text);
 void check_physics(ObjectReader& r, const sim::Problem& problem);
-// The units in which the scene writes its angle and its speed are those of its pictures.
-void take_written_units(ObjectReader& r, render::Units& units);
-void check_camera(ObjectReader& r, const View& view);  // `r`: of the camera
-void check_view(ObjectReader& r, const View& view);    // `r`: of the view
+// Pictures use the units in which the scene gives its angle and its speed.
+void infer_units(ObjectReader& r, render::Units& units);
+void check_camera(ObjectReader& r, const View& view);  // `r` reads "camera"
+void check_view(ObjectReader& r, const View& view);    // `r` reads "view"
 void check_picture(ObjectReader& r, Picture& picture);
 void check_layout(ObjectReader& r, const Picture& picture);
-void check_speed(ObjectReader& r, const Speed& speed);  // `r`: of the speed
+void check_speed(ObjectReader& r, const Speed& speed);  // `r` reads "speed"
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
-void take_usual_codec(ObjectReader& r, VideoOutput& video);
+void set_default_codec(ObjectReader& r, VideoOutput& video);
 void check_video(ObjectReader& r, VideoOutput& video);
 void check_figure(ObjectReader& r, FigureOutput& figure);
 void check_series_panel(ObjectReader& r, const SeriesPanel& panel);
-void check_table(ObjectReader& r, TrajectoryOutput& table);
-void check_shapes(ObjectReader& r, ShapesOutput& shapes);
-void check_sweep(ObjectReader& r, SweepOutput& sweep);
+void limit_rows(ObjectReader& r, double rate, double rows_each);  // `rows_each`: rows at each of the times k/rate
 void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
-void check_outputs(ObjectReader& r, Scene& scene);  // and remembers where each stands
+void check_outputs(ObjectReader& r, Scene& scene);  // also stores the position of each
 
-// Why a span has no frames, or too many; empty when it is fine.
+// Why a span has no frames, or too many; empty if it is valid.
 std::string problem_with_span(const FrameSpan& span, double end_time);
 
-// Why a diagram cannot show this of the points of the scene's sweep; empty: it can.
+// Why a diagram cannot show this value of the points of the scene's sweep; empty if it can.
 std::string problem_with_value(std::string_view diagram, const std::string& value, const Scene& scene);
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// The keys of a motion that a picture compares with others.
+// The keys of one motion of a comparison.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -12,7 +12,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// The mechanics of another scene file, beside this one.
+// The mechanics of another scene file, whose path is relative to this one.
 std::optional<Node> other_scene(ObjectReader& r, const Node& node, const std::string& key) {
     if (node.kind != Node::Kind::string) {
         r.fail(node, key, fmt::format("{} must be a file name in quotes, not {}", r.path(key), as_written(node)));
@@ -35,13 +35,14 @@ void set_values(ObjectReader& r, const Node& set, const std::string& key, Node& 
         if (is_mechanics(member.key.substr(0, member.key.find('.'))))
             set_value(out, member.key, member.value, wrong);
         else
-            r.diagnostics().error(member.key_place, r.path(key + "." + member.key),
-                                  fmt::format("{}: {} is no part of the mechanics; only {} can differ", r.path(key),
-                                              in_quotes(member.key), fmt::join(mechanics_sections(), ", ")));
+            r.diagnostics().error(
+                member.key_place, r.path(key + "." + member.key),
+                fmt::format("{}: {} is not part of the mechanics; a comparison can change {}", r.path(key),
+                            in_quotes(member.key), fmt::join(mechanics_sections(), ", ")));
     for (const Message& message : wrong) r.diagnostics().error(message.place, r.path(key), message.text);
 }
 
-// The problem of these mechanics; what is wrong with them is reported at the entry.
+// Reads the problem of these mechanics; errors are reported at the entry of the comparison.
 void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
     Diagnostics found;
     ObjectReader sections(found, &root, "");
@@ -59,9 +60,9 @@ void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
 }  // namespace
 
 void visit(SceneVisitor& v, Compared& motion) {
-    std::optional<Node> base;  // of a reader: what `set` changes
+    std::optional<Node> base;  // for the reader: the mechanics that `set` changes
     bool readable = true;
-    v.text("label", motion.label, "Its name in the picture; its number when left out.");
+    v.text("label", motion.label, "Its name in the picture; by default its number.");
     v.check([&motion](ObjectReader& r) { check_words(r, "label", motion.label); });
     v.check([&](ObjectReader& r) { base = mechanics_of(r.context().root); });
     const auto read_other = [&](ObjectReader& r, const Node& node, const std::string& key) {
@@ -72,7 +73,7 @@ void visit(SceneVisitor& v, Compared& motion) {
         move_to(*base, node.place);
     };
     v.value("scene", {"file name", R"({"type": "string"})", read_other, [] { return std::nullopt; }},
-            "Another scene's file, from this one's folder; this scene when left out.");
+            "File of another scene, relative to this scene's folder; by default this scene.");
     const auto read_set = [&](ObjectReader& r, const Node& node, const std::string& key) {
         if (readable) set_values(r, node, key, *base);
     };
@@ -81,7 +82,7 @@ void visit(SceneVisitor& v, Compared& motion) {
              fmt::format(R"-({{"type": "object", "propertyNames": {{"pattern": "^({})(\\.|$)"}}}})-",
                          fmt::join(mechanics_sections(), "|")),
              read_set, [&] { return to_tree(motion.problem); }},
-            "What differs, by key path: {\"cam.speed\": 5, \"beam.model\": \"rigid\"}.");
+            "The changed keys, by path: {\"cam.speed\": 5, \"beam.model\": \"rigid\"}.");
     v.check([&](ObjectReader& r) {
         if (readable) read_problem(r, *base, motion.problem);
     });

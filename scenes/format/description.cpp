@@ -15,10 +15,10 @@ using sim::Length, sim::Range, sim::Unit;
 Node bounded(const Range& range) {
     Node number = object_node();
     add(number, "type", text_node("number"));
-    if (std::isfinite(range.least))
-        add(number, range.without_least ? "exclusiveMinimum" : "minimum", number_node(range.least));
-    if (std::isfinite(range.most))
-        add(number, range.without_most ? "exclusiveMaximum" : "maximum", number_node(range.most));
+    if (std::isfinite(range.min))
+        add(number, range.exclusive_min ? "exclusiveMinimum" : "minimum", number_node(range.min));
+    if (std::isfinite(range.max))
+        add(number, range.exclusive_max ? "exclusiveMaximum" : "maximum", number_node(range.max));
     return number;
 }
 
@@ -43,7 +43,7 @@ class Describer final : public SceneVisitor {
   public:
     explicit Describer(std::string meaning) { common_.meaning = std::move(meaning); }
 
-    // The shapes that the object may have, each with the keys that all have.
+    // The shapes of the object, each with the common keys.
     std::vector<DescribedObject> take() {
         if (shapes_.empty()) return {std::move(common_)};
         for (DescribedObject& shape : shapes_) {
@@ -65,27 +65,25 @@ class Describer final : public SceneVisitor {
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
                  const Length& length, const char* meaning) override {
-        const bool fixed = length.least == length.most;
+        const bool fixed = length.min == length.max;
         DescribedKey& d = add_key(key,
                                   length.or_one_number ? "number or numbers"
-                                  : fixed              ? fmt::format("{} numbers", length.least)
+                                  : fixed              ? fmt::format("{} numbers", length.min)
                                                        : "numbers",
                                   meaning);
         d.unit = symbol(unit);
         d.range = range;
         Node item = any_of({bounded(range), with_text(unit)}), list = node_of(R"({"type": "array"})");
-        if (length.least > 0) add(list, "minItems", integer_node(static_cast<long>(length.least)));
-        if (fixed) add(list, "maxItems", integer_node(static_cast<long>(length.most)));
+        if (length.min > 0) add(list, "minItems", integer_node(static_cast<long>(length.min)));
+        if (fixed) add(list, "maxItems", integer_node(static_cast<long>(length.max)));
         add(list, "items", item);
         d.schema = length.or_one_number ? any_of({bounded(range), with_text(unit), std::move(list)}) : std::move(list);
-        if (values.empty()) return;
-        d.value = array_node();
-        for (const double value : values) d.value->items.push_back(number_node(value));
+        if (!values.empty()) d.value = numbers_node(values);
     }
-    void integer(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override {
+    void integer(const Key& key, std::optional<int>& value, int min, int max, const char* meaning) override {
         DescribedKey& d = add_key(key, "whole number", meaning);
-        d.range = sim::between(least, most);
-        d.schema = node_of(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", least, most));
+        d.range = sim::between(min, max);
+        d.schema = node_of(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", min, max));
         if (value) d.value = integer_node(*value);
     }
     void boolean(const Key& key, bool& value, const char* meaning) override {
@@ -124,18 +122,19 @@ class Describer final : public SceneVisitor {
             shapes_.push_back(std::move(shape));
         }
     }
-    void value(const Key& key, const ValueFormat& form, const char* meaning) override {
-        DescribedKey& d = add_key(key, form.type, meaning);
-        d.schema = node_of(form.schema);
-        if (!key.derived) d.value = form.write();
+    void value(const Key& key, const ValueFormat& format, const char* meaning) override {
+        DescribedKey& d = add_key(key, format.type, meaning);
+        d.schema = node_of(format.schema);
+        if (!key.derived) d.value = format.write();
     }
-    void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char* meaning) override {
-        const std::optional<Node> value = form.write();
+    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields,
+                         const char* meaning) override {
+        const std::optional<Node> value = format.write();
         Describer inside(meaning);
         fields(inside);
-        DescribedKey& d = add_key(key, form.type, meaning);
+        DescribedKey& d = add_key(key, format.type, meaning);
         d.shapes = inside.take();
-        d.schema = node_of(form.schema);
+        d.schema = node_of(format.schema);
         d.value = value;
     }
     void list(const Key& key, const List& list, const char* meaning) override {
@@ -149,14 +148,14 @@ class Describer final : public SceneVisitor {
         d.shapes = std::move(described.shapes);
         d.list = true;
         d.nested = list.nested ? list.nested : "";
-        if (list.form) d.item_schema = node_of(list.form->schema);
+        if (list.format) d.item_schema = node_of(list.format->schema);
         d.schema = node_of(R"({"type": "array"})");
-        if (list.least > 0) {
-            add(d.schema, "minItems", integer_node(static_cast<long>(list.least)));
-            add(d.schema, "maxItems", integer_node(static_cast<long>(list.most)));
+        if (list.min_size > 0) {
+            add(d.schema, "minItems", integer_node(static_cast<long>(list.min_size)));
+            add(d.schema, "maxItems", integer_node(static_cast<long>(list.max_size)));
         }
     }
-    void constrain_schema(const char* schema) override { common_.restrictions.push_back(node_of(schema)); }
+    void constrain_schema(const char* schema) override { common_.constraints.push_back(node_of(schema)); }
     void exclusive(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
 
   private:
@@ -190,8 +189,8 @@ const DescribedObject& scene_format() {
     static const DescribedObject kFormat = [] {
         Scene scene;
         Describer describer(
-            "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to make of it. Plain "
-            "numbers are SI; a text may carry a unit. Every key has a default: {} is a whole scene. Keys that begin "
+            "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to write. Plain numbers "
+            "are in SI units; a text may have a unit. Every key has a default: {} is a complete scene. Keys that begin "
             "with x- are ignored.");
         visit(describer, scene);
         return std::move(describer.take().front());

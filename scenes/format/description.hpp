@@ -1,5 +1,5 @@
-// The format of scenes as data: every key with its kind, unit, range, default and meaning, as a visitor finds them. The
-// JSON Schema, the reference and `beamcam keys` are made from it.
+// The scene format as data: every key with its kind, unit, range, default and meaning, collected by a visitor. The JSON
+// Schema, the reference and `beamcam keys` are written from it.
 #pragma once
 
 #include <optional>
@@ -14,25 +14,25 @@ namespace beamcam::scenes {
 
 struct DescribedKey;
 
-// An object with these keys. Tags are keys with a fixed word.
+// An object with these keys. Tags are keys with a fixed value.
 struct DescribedObject {
     std::vector<std::pair<std::string, std::string>> tags;
     std::string meaning;
     std::vector<DescribedKey> keys;
-    std::vector<std::pair<std::string, std::string>> exclusive;  // keys of which one may be given
-    std::vector<Node> restrictions;                              // more of the schema of the object
+    std::vector<std::pair<std::string, std::string>> exclusive;  // pairs of keys that exclude each other
+    std::vector<Node> constraints;                               // further schema of the object
 };
 
 struct DescribedKey {
     std::string name, type, unit, meaning;
     sim::Range range;
-    std::vector<std::string> words;       // that the value may be
-    std::optional<Node> value;            // the default; nothing: none, or other keys decide it
-    std::string example;                  // of a key that must be given
-    Node schema;                          // of the value, without what is said above
+    std::vector<std::string> words;       // allowed values
+    std::optional<Node> value;            // default; nullopt: none, or it depends on other keys
+    std::string example;                  // of a required key
+    Node schema;                          // of the value
     std::vector<DescribedObject> shapes;  // of an object, or of the objects in a list
     bool list = false, nullable = false;
-    std::optional<Node> item_schema;  // of a list's items that are no objects
+    std::optional<Node> item_schema;  // of items that are not objects
     std::string nested;               // the items of the list have the shapes of what contains it, by that name
 
     bool required() const { return !example.empty(); }
@@ -45,10 +45,10 @@ std::string one_line(const Node& node);  // as JSON
 std::string schema_text();               // the JSON Schema
 std::string reference_text();            // Markdown, scenes/FORMAT.md
 
-// A key by its path, "hub.drive.amplitude"; of a list's items, "outputs[].size".
+// A key by its path: "hub.drive.amplitude", "outputs[].size".
 struct KeyRow {
     std::string path;
-    std::string when;  // which tags the object must have, "type=torque"
+    std::string when;  // tags of its object: "type=torque"
     const DescribedKey* key;
 };
 std::vector<KeyRow> key_rows();

@@ -1,4 +1,4 @@
-// Texts that the program carries inside, so that it needs no files of its own to start a scene.
+// Texts inside the program, so that it works without installed files.
 #pragma once
 
 #include <span>
@@ -8,7 +8,7 @@ namespace beamcam::scenes {
 
 std::string_view baselines_schema_text();  // beamcam-baselines.schema.json
 
-// The scenes that come with the program, by name: those of this folder, then those of the paper's figures.
+// The scenes in the program, by name: those of this folder, then those of the paper's figures.
 struct EmbeddedScene {
     std::string_view name;  // "default", "paper/free-fall"
     std::string_view text;

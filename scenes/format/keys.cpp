@@ -24,7 +24,7 @@ void visit(SceneVisitor& v, Output& output) { v.alternatives(types_of(output)); 
 
 void visit_outputs(SceneVisitor& v, Scene& scene) {
     v.list("outputs", SceneVisitor::items_of(scene.outputs),
-           "The files that `beamcam run` makes. None: one film named after the scene.");
+           "The files that `beamcam run` writes. Without any: one film with the name of the scene.");
     v.check([&scene](ObjectReader& r) { check_outputs(r, scene); });
 }
 
@@ -32,39 +32,38 @@ void visit_outputs(SceneVisitor& v, Scene& scene) {
 
 void visit(SceneVisitor& v, Scene& scene) {
     std::string schema;
-    v.text(sim::written_if(false, "$schema"), schema, "Where an editor finds the schema.");
+    v.text(sim::written_if(false, "$schema"), schema, "Location of the JSON Schema, for editors.");
     v.text(sim::written_if(!scene.title.empty(), "title"), scene.title,
-           "Shown on pictures; mathematics stands between dollars: $\\omega_1 = \\frac{a}{b}$, $\\dot\\theta$.");
+           "Title of pictures; formulas are between dollar signs: $\\omega_1 = \\frac{a}{b}$, $\\dot\\theta$.");
     v.check([&scene](ObjectReader& r) { check_words(r, "title", scene.title); });
     v.problem(scene.problem);
-    // A step of a millisecond is 16 digits less than the latest end.
+    // At the latest end a double resolves a tenth of a millisecond.
     const auto time = [&scene](sim::Visitor& inside) {
-        inside.number("end", scene.end_time, sim::dimension::kTime,
-                      {0, 1e12, true, false, "must be positive and at most 1e12 s; write how many seconds to simulate"},
-                      "Time to simulate, from 0.");
+        inside.number(
+            "end", scene.end_time, sim::dimension::kTime,
+            {0, 1e12, true, false, "must be positive and at most 1e12 s; write the number of seconds to simulate"},
+            "End of the simulation, which starts at 0.");
     };
-    v.object("time", time, "How long.", nullptr);
-    v.check([&scene](ObjectReader& r) { take_written_units(r, scene.units); });
+    v.object("time", time, "Duration of the simulation.", nullptr);
+    v.check([&scene](ObjectReader& r) { infer_units(r, scene.units); });
     v.object(
         sim::written_if(scene.units != render::Units{}, "units"),
         [&scene](sim::Visitor& inside) {
             auto& s = static_cast<SceneVisitor&>(inside);
             s.choice(sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
-                     "As initial.angle is written when left out.");
+                     "By default the unit of initial.angle.");
             s.choice(sim::derived("speed"), scene.units.rpm, {{false, "rad/s"}, {true, "rpm"}},
-                     "Of rotation; as cam.speed is written when left out.");
+                     "Unit of angular speeds; by default that of cam.speed.");
         },
-        "In which units films tell angles and speeds.", nullptr);
+        "Units of angles and speeds in films.", nullptr);
     v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });
     Sweep sweep = scene.sweep.value_or(Sweep{});
     bool swept = scene.sweep.has_value();
-    v.object(
-        sim::written_if(swept, "sweep"),
-        [&sweep](sim::Visitor& inside) { visit(static_cast<SceneVisitor&>(inside), sweep); },
-        "Many motions over one or two keys, for `beamcam sweep`; null: none.", &swept);
+    v.object(sim::written_if(swept, "sweep"), SceneVisitor::keys_of(sweep),
+             "Many motions over one or two keys (`beamcam sweep`); null: none.", &swept);
     if (swept) scene.sweep = std::move(sweep);
     v.list("data", SceneVisitor::items_of(scene.data),
-           "Measured or foreign data of the motion: series show it, summaries tell how the motion agrees with it.");
+           "Measured data of the motion: series and films show them, summaries compare the motion with them.");
     visit_outputs(v, scene);
 }
 

@@ -1,6 +1,5 @@
-// Every key of a scene, once: those of the problem are visited in sim/problem/keys.cpp, those of each type of output in
-// its file (outputs/), the others in keys.cpp. What reads scenes, writes them or explains their format is a
-// SceneVisitor.
+// Every key of a scene, described once: the keys of the problem in sim/problem/keys.cpp, those of each output type in
+// its file in outputs/, the others in keys.cpp. The reader, the writer and the reference are SceneVisitors.
 #pragma once
 
 #include <algorithm>
@@ -22,37 +21,37 @@ class ObjectReader;
 class SceneVisitor;
 using sim::Key;
 
-// A value that scenes spell in a way of its own, such as "1280x720" or "impact:2".
+// A value with a notation of its own, such as "1280x720" or "impact:2".
 struct ValueFormat {
-    const char* type;    // for people: "[width, height]"
-    std::string schema;  // of JSON
+    const char* type;    // for the reference: "[width, height]"
+    std::string schema;  // JSON Schema
     std::function<void(ObjectReader& reader, const Node& node, const std::string& key)> read;
-    std::function<std::optional<Node>()> write;  // nothing: the key is left out
+    std::function<std::optional<Node>()> write;  // nullopt: the key is left out
 };
 
 struct List {
     std::size_t size;
-    std::function<void(SceneVisitor& v, std::size_t index)> item;  // an object; the one at `size` is added
-    std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
+    std::function<void(SceneVisitor& v, std::size_t index)> item;  // visits an object; adds one if index == size
+    std::size_t min_size = 0, max_size = std::numeric_limits<std::size_t>::max();
     const char* of = "objects";  // for messages: "2 to 8 motions"
     const char* example = nullptr;
-    std::optional<ValueFormat> form = {};  // of items that are no objects
-    const char* nested = nullptr;          // the items have the shape of what contains the list; its name in the schema
+    std::optional<ValueFormat> format = {};  // of items that are not objects
+    const char* nested = nullptr;            // name in the schema if items have the shape of the list's own object
 };
 
 class SceneVisitor : public sim::Visitor {
   public:
     using Fields = std::function<void(Visitor&)>;
 
-    virtual void value(const Key& key, const ValueFormat& form, const char* meaning) = 0;
-    virtual void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields,
-                                 const char* meaning) = 0;  // or object
+    virtual void value(const Key& key, const ValueFormat& format, const char* meaning) = 0;
+    virtual void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields,
+                                 const char* meaning) = 0;
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
     virtual void exclusive(const char* one, const char* other) = 0;
-    // JSON Schema of what the keys visited so far ask of each other; `check` judges it.
+    // JSON Schema of a rule between the keys visited so far; `check` applies the same rule.
     virtual void constrain_schema(const char*) {}
     virtual void problem(sim::Problem& problem) { visit(*this, problem); }
-    // What the keys visited so far ask of each other and of the scene; only a reader judges it.
+    // A rule between the keys visited so far, or between them and the scene. Only the reader applies it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}
 
     using Visitor::choice;
@@ -67,11 +66,14 @@ class SceneVisitor : public sim::Visitor {
         value = words[chosen];
     }
 
+    template <class Struct>
+    static Fields keys_of(Struct& value) {
+        return [&value](Visitor& v) { visit(static_cast<SceneVisitor&>(v), value); };
+    }
     using Visitor::object;
     template <class Struct>
     void object(const Key& key, Struct& value, const char* meaning) {
-        object(
-            key, [&value](Visitor& v) { visit(static_cast<SceneVisitor&>(v), value); }, meaning, nullptr);
+        object(key, keys_of(value), meaning, nullptr);
     }
     template <class Struct>
     static List items_of(std::vector<Struct>& values) {
@@ -90,7 +92,7 @@ void visit(SceneVisitor& v, Compared& motion);
 void visit(SceneVisitor& v, Measurement& data);
 void visit(SceneVisitor& v, Sweep& sweep);
 
-Node to_tree(const Scene& scene);  // every key, defaults too
+Node to_tree(const Scene& scene);  // all keys, with resolved defaults
 Node to_tree(const sim::Problem& problem);
 Node to_tree(const Output& output);
 

@@ -1,4 +1,4 @@
-// The keys of a layout: panels, and rows and columns of them.
+// The keys of a layout: panels in rows and columns.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/value_formats.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -14,45 +15,34 @@ using render::LayoutNode, render::PanelKind, render::PanelSpec, render::PanelTyp
 
 namespace {
 
-constexpr std::size_t kMostPanels = 24;  // a layout deeper or larger than this fits no picture
+constexpr std::size_t kMostPanels = 24;  // larger or deeper layouts do not fit into a picture
 constexpr int kDeepestLayout = 8;
 
 // ---- panels ------------------------------------------------------------------------------------
 
-std::vector<std::string> channel_names(const sim::Problem& problem) {
-    std::vector<std::string> names;
-    for (const sim::Channel& channel : all_channels(problem))
-        if (channel.kind != sim::ChannelKind::t) names.push_back(name(channel));
-    return names;
-}
-
-std::vector<std::string> panel_words(const sim::Problem& problem) {
-    std::vector<std::string> words;
-    for (const PanelType& type : render::panel_types()) words.emplace_back(type.name);
-    for (std::string& channel : channel_names(problem)) words.push_back(std::move(channel));
-    return words;
-}
-
-std::optional<sim::Channel> known_channel(const sim::Problem& problem, std::string_view text) {
-    for (const sim::Channel& channel : all_channels(problem))
-        if (channel.kind != sim::ChannelKind::t && name(channel) == text) return channel;
-    return std::nullopt;
+// The channels that a strip can show: all but the time.
+std::vector<sim::Channel> strip_channels(const sim::Problem& problem) {
+    std::vector<sim::Channel> channels = all_channels(problem);
+    std::erase_if(channels, [](const sim::Channel& channel) { return channel.kind == sim::ChannelKind::t; });
+    return channels;
 }
 
 void read_panel(ObjectReader& r, const Node& node, const std::string& key, PanelSpec& out) {
-    const sim::Problem& problem = r.context().scene.problem;
-    const bool is_text = node.kind == Node::Kind::string;
-    const auto& types = render::panel_types();
-    if (const auto type = std::ranges::find_if(types, [&](const auto& t) { return is_text && node.text == t.name; });
-        type != types.end()) {
-        out.kind = type->kind;
-    } else if (const auto channel = is_text ? known_channel(problem, node.text) : std::nullopt) {
-        out.kind = PanelKind::strip;
-        out.channels = {*channel};
-    } else {
+    const std::vector<sim::Channel> channels = strip_channels(r.context().scene.problem);
+    std::vector<std::string> names;
+    for (const PanelType& type : render::panel_types()) names.emplace_back(type.name);
+    const std::size_t panels = names.size();
+    std::ranges::move(channel_names(channels), std::back_inserter(names));
+    const auto found = static_cast<std::size_t>(std::ranges::find(names, node.text) - names.begin());
+    if (node.kind != Node::Kind::string || found == names.size()) {
         r.fail(node, key,
-               fmt::format("{} = {} is no panel{}", r.path(key), as_written(node),
-                           is_text ? suggestion_or_list(node.text, panel_words(problem)) : ""));
+               fmt::format("{} = {} is not a panel{}", r.path(key), as_written(node),
+                           node.kind == Node::Kind::string ? suggestion_or_list(node.text, names) : ""));
+    } else if (found < panels) {
+        out.kind = render::panel_types()[found].kind;
+    } else {
+        out.kind = PanelKind::strip;
+        out.channels = {channels[found - panels]};
     }
 }
 
@@ -62,57 +52,39 @@ ValueFormat panel_format(PanelSpec& panel) {
             [&panel] { return text_node(type_of(panel.kind).name); }};
 }
 
-void read_strip_channels(ObjectReader& r, const Node& node, const std::string& key, PanelSpec& panel) {
+void check_strip_units(ObjectReader& r, const std::string& key, const std::vector<sim::Channel>& channels) {
     const sim::Problem& problem = r.context().scene.problem;
-    if (node.kind != Node::Kind::array || node.items.empty())
-        return r.fail(
-            node, key,
-            fmt::format("{} must be an array of names such as [\"theta\"], not {}", r.path(key), as_written(node)));
-    for (std::size_t i = 0; i < node.items.size(); ++i) {
-        const Node& item = node.items[i];
-        const std::string at = fmt::format("{}.{}", key, i);
-        const auto fail = [&](const std::string& why) {
-            r.fail(item, at, fmt::format("{} = {} {}", r.path(at), as_written(item), why));
-        };
-        const bool is_text = item.kind == Node::Kind::string;
-        const auto channel = is_text ? known_channel(problem, item.text) : std::nullopt;
-        if (!channel) {
-            fail("is no channel of this beam" + (is_text ? suggestion_or_list(item.text, channel_names(problem)) : ""));
-            continue;
-        }
-        const std::string unit = sim::unit(*channel, problem);
-        if (!panel.channels.empty() && unit != sim::unit(panel.channels.front(), problem))
-            fail(fmt::format("is measured in {}, {} in {}; one strip has one unit, make two of it",
-                             unit.empty() ? "1" : unit, name(panel.channels.front()),
-                             sim::unit(panel.channels.front(), problem)));
-        else if (std::ranges::find(panel.channels, *channel) != panel.channels.end())
-            fail("stands twice");
-        else
-            panel.channels.push_back(*channel);
-    }
+    for (std::size_t i = 1; i < channels.size(); ++i)
+        if (const std::string unit = sim::unit(channels[i], problem), first = sim::unit(channels.front(), problem);
+            unit != first)
+            r.fail(fmt::format("{}.{}", key, i),
+                   fmt::format("{}.{}: {} is measured in {}, but {} in {}; a strip has one unit: use two strips",
+                               r.path(key), i, name(channels[i]), unit.empty() ? "1" : unit, name(channels.front()),
+                               first.empty() ? "1" : first));
 }
 
-bool names_a_strip(const ObjectReader& r) { return r.place("panel").text == type_of(PanelKind::strip).name; }
+bool is_strip(const ObjectReader& r) { return r.place("panel").text == type_of(PanelKind::strip).name; }
 
 ValueFormat strip_channels_format(PanelSpec& panel) {
-    ValueFormat form = channels_format(panel.channels);
-    form.read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
-        if (names_a_strip(r))
-            read_strip_channels(r, node, key, panel);
-        else
-            r.fail(node, key, fmt::format("{} belongs to \"panel\": \"strip\"", r.path(key)));
+    ValueFormat format = channels_format(panel.channels);
+    format.read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
+        if (!is_strip(r)) return r.fail(node, key, fmt::format("{} belongs to \"panel\": \"strip\"", r.path(key)));
+        const std::size_t items = node.items.size();
+        read_channels(r, node, key, strip_channels(r.context().scene.problem), panel.channels);
+        if (panel.channels.size() == items) check_strip_units(r, key, panel.channels);
     };
-    return form;
+    return format;
 }
 
 ValueFormat window_format(PanelSpec& panel) {
     const auto read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
         double window = 0;
         if (!type_of(panel.kind).takes_window)
-            return r.fail(node, key, fmt::format("{} belongs to strips and \"energy\"", r.path(key)));
+            return r.fail(node, key, fmt::format("{} belongs to the panels \"strip\" and \"energy\"", r.path(key)));
         panel.by_collision = node.kind == Node::Kind::string && node.text == "collision";
         if (panel.by_collision && !type_of(panel.kind).takes_collisions)
-            return r.fail(node, key, fmt::format("{} of the energies is a time, not a collision", r.path(key)));
+            return r.fail(node, key,
+                          fmt::format("{} of the panel \"energy\" must be a time, not \"collision\"", r.path(key)));
         if (!panel.by_collision &&
             r.ranged_value(node, key, sim::dimension::kTime,
                            {0, sim::Range::kInfinity, true, false, "must be positive, or \"collision\""}, window))
@@ -128,7 +100,7 @@ ValueFormat window_format(PanelSpec& panel) {
         read, write};
 }
 
-// The names of the panels that this holds for, each in `quotes`.
+// The names of the panels for which `holds` is true, each between `quotes`.
 std::string names_of(const char* quotes, bool (*holds)(const PanelType&)) {
     std::vector<std::string> names;
     for (const PanelType& type : render::panel_types())
@@ -139,37 +111,36 @@ std::string names_of(const char* quotes, bool (*holds)(const PanelType&)) {
 void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.value(sim::required("panel", "\"mechanism\""), panel_format(panel),
             (names_of("", [](const PanelType&) { return true; }) + ", or a channel.").c_str());
-    v.value("channels", strip_channels_format(panel), "Of a strip: curves of one unit.");
+    v.value("channels", strip_channels_format(panel), "Of a strip: its curves, all of one unit.");
     v.check([&panel](ObjectReader& r) {
         if (panel.kind == PanelKind::strip && r.has("panel") && !r.has("channels") && panel.channels.empty())
             r.fail(*r.node(), "channels",
-                   fmt::format("{} is a strip and needs \"channels\", for example [\"theta\"]", r.object_name()));
+                   fmt::format("{} is a strip; it needs \"channels\", for example [\"theta\"]", r.object_name()));
     });
-    v.value(
-        "window", window_format(panel),
-        "Of a strip or the energies: so much time, all of it when left out; or, of a strip, one \"collision\" after "
-        "the other.");
-    const std::string timeless = names_of("\"", [](const PanelType&t) { return !t.takes_window; }),
-                      steady = names_of("\"", [](const PanelType&t) { return !t.takes_collisions; });
+    v.value("window", window_format(panel),
+            "Of a strip or the energies: length of the time axis; by default all of the time. Of a strip also "
+            "\"collision\": one collision at a time.");
+    const std::string without_window = names_of("\"", [](const PanelType&t) { return !t.takes_window; }),
+                      without_collisions = names_of("\"", [](const PanelType&t) { return !t.takes_collisions; });
     v.constrain_schema((R"({"allOf": [
         {"if": {"properties": {"panel": {"const": "strip"}}},
          "then": {"required": ["channels"]}, "else": {"properties": {"channels": false}}},
         {"if": {"properties": {"panel": {"enum": [)" +
-                        timeless + R"(]}}},
+                        without_window + R"(]}}},
          "then": {"properties": {"window": false}}},
         {"if": {"properties": {"panel": {"enum": [)" +
-                        steady + R"(]}}},
+                        without_collisions + R"(]}}},
          "then": {"properties": {"window": {"not": {"const": "collision"}}}}}]})")
                            .c_str());
     int motion = panel.member + 1;
     v.integer(sim::written_if(motion > 1, "motion"), motion, 1, static_cast<int>(kMostCompared),
-              "Which of the compared motions, counted from 1.");
+              "Number of the compared motion, counted from 1.");
     panel.member = motion - 1;
 }
 
 // ---- rows and columns --------------------------------------------------------------------------
 
-// An item that is a name alone.
+// An item that is only a name.
 ValueFormat named_panel_format(std::vector<LayoutNode>& children) {
     const auto read = [&children](ObjectReader& r, const Node& node, const std::string& key) {
         LayoutNode& child = children.emplace_back();
@@ -189,8 +160,8 @@ ValueFormat named_panel_format(std::vector<LayoutNode>& children) {
 
 void visit_children(SceneVisitor& v, LayoutNode& node, const char* key, const char* meaning) {
     List children = SceneVisitor::items_of(node.children);
-    children.least = 1, children.most = kMostPanels, children.of = "panels", children.nested = "layoutNode";
-    children.form = named_panel_format(node.children);
+    children.min_size = 1, children.max_size = kMostPanels, children.of = "panels", children.nested = "layoutNode";
+    children.format = named_panel_format(node.children);
     v.list(sim::required(key, "[\"theta\", \"gap\"]"), children, meaning);
 }
 
@@ -211,13 +182,13 @@ void visit(SceneVisitor& v, LayoutNode& node) {
                                 }};
     };
     v.alternatives({shape(Kind::panel, "A panel.", [&](SceneVisitor& s) { visit_panel(s, node.panel); }),
-                    shape(Kind::rows, "Panels one below the other.",
-                          [&](SceneVisitor& s) { visit_children(s, node, "rows", "Panels, from the top."); }),
-                    shape(Kind::columns, "Panels side by side.",
-                          [&](SceneVisitor& s) { visit_children(s, node, "columns", "Panels, from the left."); })});
+                    shape(Kind::rows, "Panels from top to bottom.",
+                          [&](SceneVisitor& s) { visit_children(s, node, "rows", "Panels or layouts."); }),
+                    shape(Kind::columns, "Panels from left to right.",
+                          [&](SceneVisitor& s) { visit_children(s, node, "columns", "Panels or layouts."); })});
     v.exclusive("rows", "columns");
     v.number("share", node.share, sim::dimension::kNone, {0, 1000, true, false, "is outside 0 … 1000"},
-             "Share of the room, against its neighbours.");
+             "Share of the width or height, relative to the neighbours.");
 }
 
 ValueFormat layout_format(std::optional<LayoutNode>& layout) {
@@ -235,12 +206,12 @@ ValueFormat layout_format(std::optional<LayoutNode>& layout) {
             write};
 }
 
-// ---- what the panels ask of the motions -----------------------------------------------------------
+// ---- rules between panels and motions ----------------------------------------------------------
 
 namespace {
 
-// What the panel shows of a contact that the picture's motions do not have; empty: nothing.
-std::string without_cam(const sim::Problem& own, const Picture& picture, const PanelSpec& panel) {
+// The panel or channel that needs a cam, if the motions that it shows have none; else empty.
+std::string needs_missing_cam(const sim::Problem& own, const Picture& picture, const PanelSpec& panel) {
     const auto has_cam = [&](std::size_t motion) {
         return (picture.compare.empty() ? own : picture.compare[motion].problem).cam.has_value();
     };
@@ -257,31 +228,29 @@ std::string without_cam(const sim::Problem& own, const Picture& picture, const P
 
 void check_layout(ObjectReader& r, const Picture& picture) {
     if (!picture.layout || !r.has("layout")) return;
-    const auto refuse = [&](const std::string& problem) {
-        r.fail(r.place("layout"), "layout", r.path("layout") + problem);
-    };
+    const auto reject = [&](const std::string& problem) { r.fail("layout", r.path("layout") + problem); };
     const std::vector<PanelSpec> panels = render::panels_of(*picture.layout);
     if (panels.size() > kMostPanels || depth_of(*picture.layout) > kDeepestLayout + 1)
-        refuse(fmt::format(" is more than a picture can show; {} panels and {} levels are the most", kMostPanels,
+        reject(fmt::format(" is too large for a picture; use at most {} panels and {} levels", kMostPanels,
                            kDeepestLayout));
     const std::size_t motions = std::max<std::size_t>(1, picture.compare.size());
     for (const PanelSpec& panel : panels)
         if (static_cast<std::size_t>(panel.member) >= motions)
-            return refuse(
-                fmt::format(": \"motion\": {} is not there; the picture shows {}", panel.member + 1, motions));
+            return reject(fmt::format(": \"motion\": {} does not exist; the picture shows {}", panel.member + 1,
+                                      counted(motions, "motion")));
     for (const PanelSpec& panel : panels)
         if (panel.by_collision && !picture.compare.empty())
-            refuse(
-                fmt::format(": \"window\": \"collision\" is of one motion's collisions, and the picture compares {}; "
-                            "give a time such as \"50 ms\"",
-                            picture.compare.size()));
+            reject(fmt::format(
+                ": \"window\": \"collision\" needs one motion, but the picture compares {}; write a time such "
+                "as \"50 ms\"",
+                picture.compare.size()));
     if (r.diagnostics().failed("cam")) return;
     for (const PanelSpec& panel : panels)
-        if (const std::string what = without_cam(r.context().scene.problem, picture, panel); !what.empty())
-            refuse(
-                fmt::format(": \"{}\" is of the contact, and there is no cam; remove the panel, or give the scene a "
+        if (const std::string shown = needs_missing_cam(r.context().scene.problem, picture, panel); !shown.empty())
+            reject(
+                fmt::format(": \"{}\" shows contact data, but the scene has no cam; remove the panel, or add a "
                             "\"cam\"",
-                            what));
+                            shown));
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// The keys of measured or foreign data, and reading its file.
+// The keys of measured data, and the reader of its files.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// What can be measured: no coordinates of a model.
+// The channels that can be measured: all but the time and the coordinates of the model.
 const std::vector<std::pair<std::string, sim::Channel>>& measurable() {
     static const auto kAll = [] {
         std::vector<std::pair<std::string, sim::Channel>> all;
@@ -72,11 +72,12 @@ class MeasurementReader {
             for (const auto& [known, channel] : measurable())
                 if (table.find(known)) m_.columns.emplace_back(channel, known);
         if (m_.columns.empty())
-            return fail("file", fmt::format("no column is named like a channel; say which is which: \"theta\": {}",
-                                            in_quotes(table.names.front())));
+            return fail("file",
+                        fmt::format("no column is named like a channel; name the columns, for example \"theta\": {}",
+                                    in_quotes(table.names.front())));
         for (const auto& [column, unit] : m_.units)
             if (!table.find(column))
-                return fail("units", fmt::format("there is no column {}{}", in_quotes(column),
+                return fail("units", fmt::format("the file has no column {}{}", in_quotes(column),
                                                  suggestion_or_list(column, table.names)));
         m_.times = column(table, "t", m_.time_column, "s");
         for (double& t : m_.times) t += m_.offset;
@@ -98,19 +99,20 @@ class MeasurementReader {
         const std::vector<double>* found = table.find(from);
         const std::string at = r_.has(key) ? key : "file";
         if (!found) {
-            fail(at, fmt::format("there is no column {}{}", in_quotes(from), suggestion_or_list(from, table.names)));
+            fail(at,
+                 fmt::format("the file has no column {}{}", in_quotes(from), suggestion_or_list(from, table.names)));
             return {};
         }
         std::vector<double> out = *found;
         const auto named = std::ranges::find(m_.units, from, &std::pair<std::string, std::string>::first);
         if (named == m_.units.end()) return out;
-        const QuantityText measured = parse_quantity("1 " + named->second), wanted = parse_quantity("1 " + si);
-        if (!measured.quantity || !wanted.quantity || !same(measured.quantity->dimension, wanted.quantity->dimension)) {
-            fail("units", fmt::format("{} is no unit of {}, which is in {}{}", in_quotes(named->second), key, si,
-                                      measured.quantity ? "" : ": " + measured.problem));
+        const QuantityText given = parse_quantity("1 " + named->second), required = parse_quantity("1 " + si);
+        if (!given.quantity || !required.quantity || !same(given.quantity->dimension, required.quantity->dimension)) {
+            fail("units", fmt::format("{} is not a unit of {}, which is measured in {}{}", in_quotes(named->second),
+                                      key, si, given.quantity ? "" : ": " + given.problem));
             return {};
         }
-        for (double& value : out) value *= measured.quantity->value;
+        for (double& value : out) value *= given.quantity->value;
         return out;
     }
 
@@ -118,27 +120,29 @@ class MeasurementReader {
         for (const auto& [channel, from] : m_.columns)
             if (sim::needs_cam(channel.kind) && !r_.context().scene.problem.cam)
                 fail(r_.has(name(channel)) ? name(channel) : "file",
-                     fmt::format("{} is of the contact, and the scene has no cam", name(channel)));
+                     fmt::format("{} is a channel of the contact, but the scene has no cam", name(channel)));
     }
 
     void check_values() {
-        if (m_.times.empty() && !failed_) fail("file", "there are no rows below the names of the columns");
+        if (m_.times.empty() && !failed_) fail("file", "the file has no rows below the names of the columns");
         for (std::size_t i = 0; i < m_.values.size() && !failed_; ++i)
             if (std::ranges::none_of(m_.values[i], [](double value) { return std::isfinite(value); }))
-                fail("file", fmt::format("the column {} has no number", in_quotes(m_.columns[i].second)));
+                fail("file", fmt::format("the column {} contains no number", in_quotes(m_.columns[i].second)));
     }
 
     void check_times() {
         if (failed_) return;
         for (std::size_t i = 0; i < m_.times.size(); ++i)
             if (!std::isfinite(m_.times[i]) || (i > 0 && !(m_.times[i] > m_.times[i - 1])))
-                // Below a line of names, in CSV.
-                return fail("file", fmt::format("{} {}: the time does not increase; sort the rows, each instant once",
-                                                m_.file.ends_with(".csv") ? "line" : "row",
-                                                m_.file.ends_with(".csv") ? i + 2 : i));
+                // In a CSV file the first line has the names.
+                return fail(
+                    "file",
+                    fmt::format("{} {}: the time does not increase; sort the rows, and keep each instant once",
+                                m_.file.ends_with(".csv") ? "line" : "row", m_.file.ends_with(".csv") ? i + 2 : i));
         const double end = r_.context().scene.end_time;
         if (m_.times.empty() || m_.times.back() < 0 || m_.times.front() > end)
-            fail("file", fmt::format("no row is between 0 and {:g} s; see \"offset\" and the unit of its time", end));
+            fail("file",
+                 fmt::format("no row lies between 0 and {:g} s; check \"offset\" and the unit of the time", end));
     }
 
     ObjectReader& r_;
@@ -151,18 +155,20 @@ class MeasurementReader {
 void visit(SceneVisitor& v, Measurement& m) {
     using Drawn = Measurement::Drawn;
     v.text(sim::required("file", "\"rig.csv\""), m.file,
-           "A table with a line of names, .csv, or arrays by name, .npz; from the scene's folder.");
-    v.text("label", m.label, "Its name in pictures; the file's name when left out.");
-    v.text("t", m.time_column, "The column with the time.");
-    v.number("offset", m.offset, sim::dimension::kTime, sim::kAny, "The motion's time at the file's zero.");
+           "A .csv file with a line of names, or an .npz file with named arrays; its path is relative to the scene's "
+           "folder.");
+    v.text("label", m.label, "Its name in pictures; by default the file's name.");
+    v.text("t", m.time_column, "Name of the column with the time.");
+    v.number("offset", m.offset, sim::dimension::kTime, sim::kAny,
+             "Time of the motion at which the time of the file is zero.");
     v.value("units", column_units_format(m.units),
-            "Units of columns, by their names: {\"angle\": \"deg\", \"time\": \"ms\"}; SI units when left out.");
+            "Units of columns, by their names: {\"angle\": \"deg\", \"time\": \"ms\"}; by default SI units.");
     v.choice("draw", m.drawn, {{Drawn::automatic, "auto"}, {Drawn::points, "points"}, {Drawn::line, "line"}},
-             "How: points where they are few, or a line.");
+             "How the data are drawn; auto: points up to 300 rows, else a line.");
     for (const auto& [known, channel] : measurable()) {
         const auto found = std::ranges::find(m.columns, channel, &std::pair<sim::Channel, std::string>::first);
         std::string column = found == m.columns.end() ? "" : found->second;
-        v.text(sim::written_if(!column.empty(), known.c_str()), column, "The column with this channel.");
+        v.text(sim::written_if(!column.empty(), known.c_str()), column, "Name of the column with this channel.");
         if (found != m.columns.end())
             found->second = column;
         else if (!column.empty())

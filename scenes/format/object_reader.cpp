@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/files/numbers.hpp"
-#include "scenes/format/capabilities.hpp"
 #include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
@@ -32,23 +30,6 @@ std::string as_written(const Node& node) {
     return "?";
 }
 
-namespace {
-
-// "outputs.type" of "outputs.0.type": the name of a key wherever it stands in a list.
-std::string without_indices(std::string_view path) {
-    std::string out;
-    for (std::size_t begin = 0; begin <= path.size();) {
-        const std::size_t end = std::min(path.find('.', begin), path.size());
-        const std::string_view key = path.substr(begin, end - begin);
-        if (key.find_first_not_of("0123456789") != std::string_view::npos)
-            out += (out.empty() ? "" : ".") + std::string(key);
-        begin = end + 1;
-    }
-    return out;
-}
-
-}  // namespace
-
 ObjectReader::ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root,
                            const SceneContext* context)
     : diagnostics_(diagnostics), object_(object), path_(std::move(path)), root_(std::move(root)), context_(context) {
@@ -63,30 +44,24 @@ std::string ObjectReader::path(std::string_view key) const {
     return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
 }
 
-const Node& ObjectReader::place(std::string_view key) const {
+const Node& ObjectReader::place(std::string_view path) const {
     const Node* node = object_;
-    while (!key.empty()) {
-        const std::string_view step = key.substr(0, key.find('.'));
-        key.remove_prefix(std::min(step.size() + 1, key.size()));
-        if (const Member* member = node->find(step))
-            node = &member->value;
-        else if (const auto index = output::number_in<std::size_t>(step);
-                 node->kind == Node::Kind::array && index && *index < node->items.size())
-            node = &node->items[*index];
-        else
-            break;
+    for (const std::string& name : split_path(path)) {
+        const Node* inner = child(*node, name);
+        if (!inner) break;
+        node = inner;
     }
     return *node;
 }
 
 ObjectReader ObjectReader::inside(const Node& node, std::string_view key) const {
     ObjectReader reader(diagnostics_, &node, path(key), root_, context_);
-    reader.ranges_ = ranges_;
+    reader.check_ranges_ = check_ranges_;
     return reader;
 }
 
 const Node* ObjectReader::take(const Key& key) {
-    known_.emplace_back(key.name);
+    visited_.emplace_back(key.name);
     const Member* member = object_ ? object_->find(key.name) : nullptr;
     if (!member && object_ && key.example)
         diagnostics_.error(object_->place, path(key.name),
@@ -112,11 +87,11 @@ bool ObjectReader::number_value(const Node& node, std::string_view key, const si
                          unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit), as_written(node)));
         return false;
     }
-    const QuantityText read = parse_quantity(node.text);
+    const QuantityText read = parse_quantity(node.text, &dimension);
     if (!read.quantity) {
         fail(node, key,
-             fmt::format("{} is no value for {}: {}{}", in_quotes(node.text), path(key), read.problem,
-                         unit == "1" ? "; write a number" : fmt::format("; a value looks like \"1.5 {}\"", unit)));
+             fmt::format("{} = {}: {}{}", path(key), in_quotes(node.text), read.problem,
+                         unit == "1" ? "; write a number" : fmt::format("; write for example \"1.5 {}\"", unit)));
         return false;
     }
     if (!same(read.quantity->dimension, dimension)) {
@@ -131,24 +106,23 @@ bool ObjectReader::ranged_value(const Node& node, std::string_view key, const Un
                                 double& out) {
     double value = 0;
     if (!number_value(node, key, unit.resolved(), value)) return false;
-    if (ranges_ && !range.contains(value)) {
+    if (check_ranges_ && !range.contains(value)) {
         fail(node, key,
-             fmt::format(
-                 "{} = {} {}", path(key), as_written(node),
-                 range.complaint ? range.complaint : fmt::format("is outside {:g} … {:g}", range.least, range.most)));
+             fmt::format("{} = {} {}", path(key), as_written(node),
+                         range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max)));
         return false;
     }
     out = value;
     return true;
 }
 
-bool ObjectReader::integer_value(const Node& node, std::string_view key, int least, int most, int& out) {
+bool ObjectReader::integer_value(const Node& node, std::string_view key, int min, int max, int& out) {
     if (node.kind != Node::Kind::number || node.number != std::round(node.number)) {
         fail(node, key, fmt::format("{} must be a whole number, not {}", path(key), as_written(node)));
         return false;
     }
-    if (node.number < least || node.number > most) {
-        fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), as_written(node), least, most));
+    if (node.number < min || node.number > max) {
+        fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), as_written(node), min, max));
         return false;
     }
     out = static_cast<int>(node.number);
@@ -164,11 +138,11 @@ bool ObjectReader::keyword_value(const Node& node, std::string_view key, const s
     }
     const auto found = std::ranges::find(words, node.text);
     if (found == words.end()) {
-        const auto planned = not_available(without_indices(path(key)), node.text);
+        const bool is_film = path(key).ends_with(".type") && (node.text == "gif" || node.text == "apng");
         fail(node, key,
-             planned ? fmt::format("{}: {}", path(key), *planned)
-                     : fmt::format("{} = {} is not known{}", path(key), in_quotes(node.text),
-                                   suggestion_or_list(node.text, words)));
+             fmt::format("{} = {} {}", path(key), in_quotes(node.text),
+                         is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
+                                 : "is unknown" + suggestion_or_list(node.text, words)));
         return false;
     }
     chosen = static_cast<std::size_t>(found - words.begin());
@@ -189,19 +163,19 @@ bool ObjectReader::numbers_value(const Node& node, std::string_view key, const s
     return fine;
 }
 
+// For a quantity of the dimension `given` in place of `unit`.
 std::string ObjectReader::wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
-                                          const sim::Dimension& got) const {
-    if (same(got, dimension::kNone)) {
-        return unit == "1"
-                   ? fmt::format("{} = {} must be a plain number", path(key), in_quotes(node.text))
-                   : fmt::format("{} = {} has no unit; write it without quotes if it is in {}, or with its unit",
-                                 path(key), in_quotes(node.text), unit);
+                                          const sim::Dimension& given) const {
+    if (same(given, dimension::kNone)) {
+        return unit == "1" ? fmt::format("{} = {} must be a number without quotes", path(key), in_quotes(node.text))
+                           : fmt::format("{} = {} has no unit; add one, or remove the quotes if the value is in {}",
+                                         path(key), in_quotes(node.text), unit);
     }
     if (unit == "1")
-        return fmt::format("{} = {} has a unit, but it is a plain number", path(key), in_quotes(node.text));
-    const bool cycles = unit == "rad/s" && same(got, dimension::kFrequency);
+        return fmt::format("{} = {} has a unit, but the key has none; write a number", path(key), in_quotes(node.text));
+    const bool cycles = unit == "rad/s" && same(given, dimension::kFrequency);
     return fmt::format("{} = {} has the wrong dimension ({}); it is measured in {}{}", path(key), in_quotes(node.text),
-                       si_unit(got), unit, cycles ? ": write rpm, rad/s or deg/s" : "");
+                       si_unit(given), unit, cycles ? ": write rpm, rad/s or deg/s" : "");
 }
 
 // ---- visited keys ------------------------------------------------------------------------------
@@ -230,7 +204,7 @@ void ObjectReader::number(const Key& key, double& value, const Unit& unit, const
 void ObjectReader::number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                           const char*, const char* word) {
     if (unit.exponent)
-        later_.emplace_back([this, key, &value, unit, range, word] { read_number(key, value, unit, range, word); });
+        deferred_.emplace_back([this, key, &value, unit, range, word] { read_number(key, value, unit, range, word); });
     else
         read_number(key, value, unit, range, word);
 }
@@ -246,20 +220,20 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     }
     std::vector<double> read;
     if (!numbers_value(*node, key.name, unit.resolved(), read)) return;
-    const bool fixed = length.least == length.most;
-    if (fixed && read.size() != length.least)
+    const bool fixed = length.min == length.max;
+    if (fixed && read.size() != length.min)
         return fail(*node, key.name,
-                    fmt::format("{} must have {} numbers, not {}", path(key.name), length.least, read.size()));
-    if (ranges_ && read.size() < length.least)
-        return fail(*node, key.name, fmt::format("{} is empty; give at least one number", path(key.name)));
+                    fmt::format("{} must have {} numbers, not {}", path(key.name), length.min, read.size()));
+    if (check_ranges_ && read.size() < length.min)
+        return fail(*node, key.name, fmt::format("{} is empty; write at least one number", path(key.name)));
     for (std::size_t i = 0; i < read.size(); ++i)
         ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range, read[i]);
     values = std::move(read);
 }
 
-void ObjectReader::integer(const Key& key, std::optional<int>& value, int least, int most, const char*) {
+void ObjectReader::integer(const Key& key, std::optional<int>& value, int min, int max, const char*) {
     int read = 0;
-    if (const Node* node = take(key); node && integer_value(*node, key.name, least, most, read)) value = read;
+    if (const Node* node = take(key); node && integer_value(*node, key.name, min, max, read)) value = read;
 }
 
 void ObjectReader::boolean(const Key& key, bool& value, const char*) {
@@ -304,7 +278,7 @@ void ObjectReader::object(const Key& key, const Fields& fields, const char*, boo
 std::vector<std::string> ObjectReader::keys_of(const Alternative& alternative) const {
     ObjectReader nothing(diagnostics_, nullptr, path_, root_, context_);
     alternative.fields(nothing);
-    return nothing.known_;
+    return nothing.visited_;
 }
 
 void ObjectReader::alternatives(const std::vector<Alternative>& all) {
@@ -321,28 +295,28 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all) {
         const Node* node = take(sim::required(tag, example.c_str()));
         std::size_t chosen = 0;
         if (!node || !keyword_value(*node, tag, words, chosen)) {
-            if (depth == 0 && all.size() > 1) unclear_ = true;
+            if (depth == 0 && all.size() > 1) unknown_shape_ = true;
             for (const Alternative* each : left)
-                for (std::string& key : keys_of(*each)) known_.push_back(std::move(key));
+                for (std::string& key : keys_of(*each)) visited_.push_back(std::move(key));
             return;
         }
         std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != words[chosen]; });
     }
-    // Shapes with the same tags are told apart by their keys; the first needs none.
+    // Shapes with the same tags differ by their keys; the first shape is the default.
     const auto named = std::find_if(left.rbegin(), left.rend(), [&](const Alternative* each) {
         return std::ranges::any_of(keys_of(*each), [&](const std::string& key) { return has(key); });
     });
     (named == left.rend() ? left.front() : *named)->fields(*this);
 }
 
-void ObjectReader::value(const Key& key, const ValueFormat& form, const char*) {
-    if (const Node* node = take(key)) form.read(*this, *node, key.name);
+void ObjectReader::value(const Key& key, const ValueFormat& format, const char*) {
+    if (const Node* node = take(key)) format.read(*this, *node, key.name);
 }
 
-void ObjectReader::value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char*) {
+void ObjectReader::value_or_object(const Key& key, const ValueFormat& format, const Fields& fields, const char*) {
     const Node* node = take(key);
     if (!node) return;
-    if (node->kind != Node::Kind::object) return form.read(*this, *node, key.name);
+    if (node->kind != Node::Kind::object) return format.read(*this, *node, key.name);
     ObjectReader reader = inside(*node, key.name);
     fields(reader);
     reader.finish();
@@ -352,18 +326,18 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
     const Node* node = take(key);
     if (!node) return;
     const std::size_t size = node->items.size();
-    if (node->kind != Node::Kind::array || size < list.least || size > list.most)
+    if (node->kind != Node::Kind::array || size < list.min_size || size > list.max_size)
         return fail(*node, key.name,
                     fmt::format("{} must be an array {}, not {}{}", path(key.name),
-                                list.least > 0     ? fmt::format("of {} to {} {}", list.least, list.most, list.of)
-                                : size > list.most ? fmt::format("of at most {} {}", list.most, list.of)
-                                                   : "[ … ]",
+                                list.min_size > 0 ? fmt::format("of {} to {} {}", list.min_size, list.max_size, list.of)
+                                : size > list.max_size ? fmt::format("of at most {} {}", list.max_size, list.of)
+                                                       : "[ … ]",
                                 as_written(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
     for (std::size_t i = 0; i < node->items.size(); ++i) {
         const Node& item = node->items[i];
         const std::string at = fmt::format("{}.{}", key.name, i);
-        if (list.form && item.kind != Node::Kind::object) {
-            list.form->read(*this, item, at);
+        if (list.format && item.kind != Node::Kind::object) {
+            list.format->read(*this, item, at);
             continue;
         }
         ObjectReader reader = inside(item, at);
@@ -374,34 +348,34 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
 
 void ObjectReader::exclusive(const char* one, const char* other) {
     for (const char* key : {one, other})
-        if (std::ranges::find(known_, key) == known_.end()) known_.emplace_back(key);
+        if (std::ranges::find(visited_, key) == visited_.end()) visited_.emplace_back(key);
     if (has(one) && has(other))
         fail(place(other), other,
              fmt::format("{} has both \"{}\" and \"{}\"; keep one of them", object_name(), one, other));
 }
 
 void ObjectReader::problem(sim::Problem& problem) {
-    ranges_ = false;
+    check_ranges_ = false;
     visit(*this, problem);
-    ranges_ = true;
+    check_ranges_ = true;
 }
 
-void ObjectReader::check(const std::function<void(ObjectReader&)>& judge) {
-    if (object_) judge(*this);
+void ObjectReader::check(const std::function<void(ObjectReader&)>& rule) {
+    if (object_) rule(*this);
 }
 
-void ObjectReader::finish(const Elsewhere& elsewhere) {
-    for (const auto& read : later_) read();
-    if (!object_ || unclear_) return;
+void ObjectReader::finish(const SuggestPlace& suggest) {
+    for (const auto& read_deferred : deferred_) read_deferred();
+    if (!object_ || unknown_shape_) return;
     for (const Member& member : object_->members) {
-        if (member.key.starts_with("x-") || std::ranges::find(known_, member.key) != known_.end()) continue;
-        const std::string where = elsewhere ? elsewhere(member.key) : "";
+        if (member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end()) continue;
+        const std::string where = suggest ? suggest(member.key) : "";
         diagnostics_.error(
             member.key_place, path(member.key),
             !where.empty()
                 ? fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), object_name(), where)
                 : fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(),
-                              diagnostics_.many() ? "" : suggestion_or_list(member.key, known_)));
+                              diagnostics_.exceed_report() ? "" : suggestion_or_list(member.key, visited_)));
     }
 }
 

@@ -1,9 +1,8 @@
-// Reading one object of a scene's tree: each key is asked for once, what is wrong is collected with its place, and a
-// key that nobody asked for is an error.
+// Reads one object of a scene's tree. Problems are collected with their positions; a key that was not visited is an
+// error.
 #pragma once
 
 #include <functional>
-#include <initializer_list>
 #include <set>
 #include <string>
 #include <string_view>
@@ -18,26 +17,25 @@
 
 namespace beamcam::scenes {
 
-// A value as the user wrote it.
+// A value for messages, as the user wrote it.
 std::string as_written(const Node& node);
 
-// What went wrong so far, and where.
+// Errors and warnings so far, and the paths of the keys that could not be read.
 class Diagnostics {
   public:
     void error(const Place& place, const std::string& path, std::string text) {
         messages_.push_back({place, std::move(text), true});
         failed_.insert(path);
     }
-    void add(Message message) { messages_.push_back(std::move(message)); }
     void warning(const Place& place, std::string text) { messages_.push_back({place, std::move(text), false}); }
-    // Did this key, or one inside it, fail to be read?
+    void add(Message message) { messages_.push_back(std::move(message)); }
+    // True if this key, or a key inside it, has an error.
     bool failed(const std::string& path) const {
         auto it = failed_.lower_bound(path);
         return it != failed_.end() && (*it == path || it->starts_with(path + "."));
     }
     bool any() const { return !failed_.empty(); }
-    // So many that the last ones are only counted.
-    bool many() const { return messages_.size() > kMostDescribed; }
+    bool exceed_report() const { return messages_.size() > kMostDescribed; }  // further ones are only counted
     std::vector<Message> take() { return std::move(messages_); }
 
   private:
@@ -45,8 +43,8 @@ class Diagnostics {
     std::set<std::string> failed_;
 };
 
-// What the keys of outputs are checked against: the scene as far as it is read, its tree, its file, and the files that
-// its comparisons name.
+// What the keys of outputs are checked against: the scene as far as it has been read, its tree and file, and the files
+// that comparisons name.
 struct SceneContext {
     const Scene& scene;
     const Node& root;
@@ -56,7 +54,7 @@ struct SceneContext {
 
 class ObjectReader final : public SceneVisitor {
   public:
-    using Elsewhere = std::function<std::string(const std::string& key)>;
+    using SuggestPlace = std::function<std::string(const std::string& key)>;
 
     ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root = "the scene",
                  const SceneContext* context = nullptr);
@@ -67,20 +65,24 @@ class ObjectReader final : public SceneVisitor {
     const SceneContext& context() const { return *context_; }
     Diagnostics& diagnostics() { return diagnostics_; }
     bool has(std::string_view key) const { return object_ && object_->find(key); }
-    // The value of a key, or of one inside it, "events.0.at"; where there is none, the object nearest to it.
-    const Node& place(std::string_view key) const;
+    // The value at a path such as "events.0.at", or the nearest value around it.
+    const Node& place(std::string_view path) const;
     ObjectReader inside(const Node& node, std::string_view key) const;
 
-    const Node* take(const Key& key);  // reports where a required key is missing
+    const Node* take(const Key& key);  // reports a missing required key
     void fail(const Node& node, std::string_view key, std::string text);
+    void fail(std::string_view key, std::string text) { fail(place(key), key, std::move(text)); }  // at the key's value
+    void warn(std::string_view key, std::string text) { diagnostics_.warning(place(key).place, std::move(text)); }
 
-    // The kinds of values. `key` is where the node stands, for messages; true: `out` was set.
+    // Values by kind. `key` is the path of `node` inside this object, for messages. True: `out` was set.
     bool number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out);
     bool ranged_value(const Node& node, std::string_view key, const sim::Unit& unit, const sim::Range& range,
                       double& out);
-    bool integer_value(const Node& node, std::string_view key, int least, int most, int& out);
+    bool integer_value(const Node& node, std::string_view key, int min, int max, int& out);
     bool keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
                        std::size_t& chosen);
+    bool numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
+                       std::vector<double>& out);
 
     // ---- visited keys ----
     using SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;
@@ -90,40 +92,38 @@ class ObjectReader final : public SceneVisitor {
                 const char* meaning, const char* word = nullptr) override;
     void numbers(const Key& key, std::vector<double>& values, const sim::Unit& unit, const sim::Range& range,
                  const sim::Length& length, const char* meaning) override;
-    void integer(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) override;
+    void integer(const Key& key, std::optional<int>& value, int min, int max, const char* meaning) override;
     void boolean(const Key& key, bool& value, const char* meaning) override;
     void text(const Key& key, std::string& value, const char* meaning) override;
     void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
                  const char* meaning) override;
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override;
     void alternatives(const std::vector<sim::Alternative>& all) override;
-    void value(const Key& key, const ValueFormat& form, const char* meaning) override;
-    void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char* meaning) override;
+    void value(const Key& key, const ValueFormat& format, const char* meaning) override;
+    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields, const char* meaning) override;
     void list(const Key& key, const List& list, const char* meaning) override;
     void exclusive(const char* one, const char* other) override;
-    void problem(sim::Problem& problem) override;  // its ranges are judged by sim::validate
-    void check(const std::function<void(ObjectReader&)>& judge) override;
+    void problem(sim::Problem& problem) override;  // sim::validate checks the ranges of its numbers
+    void check(const std::function<void(ObjectReader&)>& rule) override;
 
-    // Reports every key that was not asked for. `elsewhere` may say where such a key belongs.
-    void finish(const Elsewhere& elsewhere = {});
+    // Reports every key that was not visited. `suggest` may return where such a key belongs.
+    void finish(const SuggestPlace& suggest = {});
 
   private:
-    bool numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
-                       std::vector<double>& out);
     void read_number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
                      const char* word);
     std::vector<std::string> keys_of(const sim::Alternative& alternative) const;
     std::string wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
-                                const sim::Dimension& got) const;
+                                const sim::Dimension& given) const;
 
     Diagnostics& diagnostics_;
     const Node* object_;
     std::string path_, root_;
     const SceneContext* context_;
-    bool ranges_ = true;  // whether to judge the ranges of numbers
-    std::vector<std::string> known_;
-    std::vector<std::function<void()>> later_;  // numbers whose unit another key decides
-    bool unclear_ = false;                      // what keys belong here is not known: a tag could not be read
+    bool check_ranges_ = true;
+    std::vector<std::string> visited_;
+    std::vector<std::function<void()>> deferred_;  // numbers whose unit depends on another key
+    bool unknown_shape_ = false;                   // a tag is unreadable, so any key may belong here
 };
 
 }  // namespace beamcam::scenes

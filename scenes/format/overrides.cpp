@@ -5,22 +5,10 @@
 #include <algorithm>
 #include <charconv>
 
-#include "output/files/numbers.hpp"
-
 namespace beamcam::scenes {
 namespace {
 
-std::vector<std::string> split_path(std::string_view path) {
-    std::vector<std::string> keys;
-    for (std::size_t begin = 0; begin <= path.size();) {
-        const std::size_t end = std::min(path.find('.', begin), path.size());
-        keys.emplace_back(path.substr(begin, end - begin));
-        begin = end + 1;
-    }
-    return keys;
-}
-
-// JSON when it is JSON, or looks as if it were meant to be; else the text itself.
+// JSON if the text is JSON or looks like JSON with an error, which is then reported; else the text itself.
 bool parse_value(std::string_view text, Node& value, std::string& problem) {
     Parsed parsed = parse(text);
     if (parsed.is_json && parsed.messages.empty()) {
@@ -31,7 +19,7 @@ bool parse_value(std::string_view text, Node& value, std::string& problem) {
     const bool looks_like_json =
         parsed.is_json ||
         (first != std::string_view::npos && std::string_view("{[\"").find(text[first]) != std::string_view::npos);
-    double ignored = 0;  // "1e999" is a number that JSON refuses, not a word
+    double ignored = 0;  // "1e999" is an invalid number, not a word
     const bool is_number = !text.empty() && std::from_chars(text.data(), text.data() + text.size(), ignored).ptr ==
                                                 text.data() + text.size();
     if (looks_like_json || is_number) {
@@ -57,48 +45,43 @@ Source override_source(const std::string& text) { return {fmt::format("--set {}"
 
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages) {
     const Place place{source, 0};
-    auto refuse = [&](std::string what) { messages.push_back({place, std::move(what), true}); };
+    const auto error = [&](std::string reason) { messages.push_back({place, std::move(reason), true}); };
 
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-        return refuse("no \"=\" after a key; write --set key.path=value, for example --set beam.modes=4");
+        return error("\"=\" is missing after the key; write --set key.path=value, for example --set beam.modes=4");
     Node value;
     std::string problem;
-    if (!parse_value(std::string_view(text).substr(equals + 1), value, problem)) return refuse(problem);
+    if (!parse_value(std::string_view(text).substr(equals + 1), value, problem)) return error(problem);
     move_to(value, place);
     set_value(root, std::string_view(text).substr(0, equals), std::move(value), messages);
 }
 
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {
     const Place place = value.place;
-    auto refuse = [&](std::string what) { messages.push_back({place, std::move(what), true}); };
+    const auto error = [&](std::string text) { messages.push_back({place, std::move(text), true}); };
     const std::vector<std::string> keys = split_path(path);
     if (std::find(keys.begin(), keys.end(), "") != keys.end())
-        return refuse("an empty key in the path; write key.path=value");
+        return error("the path contains an empty key; write key.path=value");
 
     Node* node = &root;
     std::string walked;
     for (const std::string& key : keys) {
         const std::string here = walked.empty() ? "the scene" : walked;
         walked += (walked.empty() ? "" : ".") + key;
-        if (node->kind == Node::Kind::object) {
-            Member* member = node->find(key);
-            if (!member) {
-                Node empty = object_node();
-                empty.place = place;
-                member = &node->members.add({key, place, std::move(empty)});
-            }
-            node = &member->value;
-        } else if (node->kind == Node::Kind::array) {
-            const auto index = output::number_in<std::size_t>(key);
-            if (!index || *index >= node->items.size())
-                return refuse(fmt::format("{} has {} entries, counted from 0; there is none named {}", here,
-                                          node->items.size(), in_quotes(key)));
-            node = &node->items[*index];
-        } else {
-            return refuse(fmt::format("{} is {}, which has no key {}; set {} as a whole", here, name(node->kind),
-                                      in_quotes(key), here));
+        Node* inner = child(*node, key);
+        if (!inner && node->kind == Node::Kind::object) {
+            Node empty = object_node();
+            empty.place = place;
+            inner = &node->members.add({key, place, std::move(empty)}).value;
         }
+        if (!inner)
+            return error(node->kind == Node::Kind::array
+                             ? fmt::format("{} has {} entries, counted from 0, but no entry {}", here,
+                                           node->items.size(), in_quotes(key))
+                             : fmt::format("{} is {}, which has no key {}; set {} itself", here, name(node->kind),
+                                           in_quotes(key), here));
+        node = inner;
     }
     *node = std::move(value);
 }

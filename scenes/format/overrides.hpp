@@ -9,19 +9,17 @@
 
 namespace beamcam::scenes {
 
-// Applies one override, given as `key.path=value`; `source` is the index its places will carry.
-// The value is JSON, or else a plain word. A number in the path counts an array's entries from 0.
-// What cannot be applied is told in `messages` and leaves the tree as it was.
+// Applies one override `key.path=value`. The value is JSON or a plain word; a number in the path is the index of an
+// array's entry, from 0. `source`: index that the positions carry. An error goes to `messages` and changes nothing.
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages);
 
-// Puts `value` at `path`, its keys joined by dots; objects that are missing are made. What cannot be done is told at
-// the value's place.
+// Puts `value` at the path and creates missing objects. Errors have the position of `value`.
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages);
 
-// Gives every key and value this place.
+// Gives every key and value of the tree this position.
 void move_to(Node& node, Place place);
 
-// How messages name it: `--set beam.modes=3`.
+// The source of an override, named `--set beam.modes=3` in messages.
 Source override_source(const std::string& text);
 
 }  // namespace beamcam::scenes

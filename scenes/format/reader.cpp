@@ -30,7 +30,7 @@ Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const
             "compare", "comparison", "poster", "codec", "crf", "preset", "rate_mode", "background", "camera"};
         return std::ranges::find(kOfOutputs, key) == std::end(kOfOutputs)
                    ? std::string()
-                   : fmt::format("into an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
+                   : fmt::format("to an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
     });
     for (Message& message : diagnostics.take()) messages.push_back(std::move(message));
     return scene;
@@ -47,13 +47,11 @@ struct CloseFile {
     }
 };
 
-}  // namespace
-
-namespace {
 void replace_all(std::string& text, std::string_view what, std::string_view by) {
     for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
         text.replace(at, what.size(), by);
 }
+
 }  // namespace
 
 bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
@@ -61,7 +59,7 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     Node list = array_node({output});
     list.place = output.place;
     scene.set_outputs({});
-    // What compares motions changes sections of the scene: here they stand resolved, overrides and all.
+    // Comparisons change sections of the scene: of the resolved scene here, with its overrides.
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
     Diagnostics found;
@@ -133,15 +131,14 @@ Source load_source(const std::string& path) {
     errno = 0;
     std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
     if (!file)
-        throw UnreadableFile(
-            errno == ENOENT
-                ? fmt::format("{}: there is no such file; `beamcam init` writes a scene to start from", path)
-                : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
+        throw UnreadableFile(errno == ENOENT
+                                 ? fmt::format("{} does not exist; `beamcam init` writes a first scene", path)
+                                 : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
     Source source{path == "-" ? "<stdin>" : path, {}, true};
     std::array<char, 65536> block;
     while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
         source.text.append(block.data(), n);
-        if (source.text.size() > kLargestScene) break;  // the parser refuses it in words
+        if (source.text.size() > kLargestScene) break;  // the parser reports the size
     }
     if (std::ferror(file.get())) throw UnreadableFile(fmt::format("{} cannot be read: {}", path, std::strerror(errno)));
     return source;

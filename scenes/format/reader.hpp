@@ -1,7 +1,5 @@
-// From the text of a scene file to a Scene, or to every reason why it is none.
-//
-// The first syntax error, or else all that is wrong with the meaning, each with its place. The
-// keys are those of keys.hpp.
+// Reads a scene file into a Scene, or reports every error with its position: the first syntax error, or else all
+// invalid keys and values.
 #pragma once
 
 #include <optional>
@@ -19,35 +17,34 @@ namespace beamcam::scenes {
 struct Reading {
     std::vector<Source> sources;    // the file, then the overrides
     std::vector<Message> messages;  // errors and warnings
-    std::optional<Scene> scene;     // present when no message is fatal
-    Node root;                      // the tree that it was read from
+    std::optional<Scene> scene;     // present if no message is fatal
+    Node root;                      // the tree with the overrides
 
     std::string report() const { return describe(sources, messages); }
 };
 
 // `overrides` are `key.path=value` texts, applied in order.
 Reading read_scene(Source file, const std::vector<std::string>& overrides = {});
-// The same within a run that reads several: `files` keeps those that comparisons name.
+// `files` caches the files that comparisons name, for callers that read several scenes.
 Reading read_scene(Source file, const std::vector<std::string>& overrides, SceneFiles& files);
-// The same of a part of a file, whose places the tree has.
+// Reads a part of a file; `root` has its positions.
 Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides, SceneFiles& files);
 
-// The file cannot be read at all: absent, a directory, no permission, too large.
+// The file cannot be read: it does not exist, is a directory, permission is denied.
 struct UnreadableFile : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 // "-" is standard input. Throws UnreadableFile.
 Source load_source(const std::string& path);
-// The same of a name that a file gives: pipes and devices, which might never end, and standard input are refused.
+// The same for a name inside a scene file. Rejects standard input, and pipes and devices, which might never end.
 Source load_named_source(const std::string& path);
 
-// The outputs of a scene that is read already: `outputs` is their list.
+// Reads the list `outputs` into a scene whose other keys have been read.
 class Diagnostics;
 struct SceneContext;
 void read_outputs(const SceneContext& context, Diagnostics& diagnostics, const Node& outputs, Scene& scene);
-// One output of a scene that stands resolved, as if the scene listed it alone: it becomes the scene's only one.
-// `scene_name`: the file beside which others are looked for. Messages name its keys behind `prefix`, such as "--" or
-// "entries.fall.output.". False: it cannot be read.
+// Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its
+// folder. Messages put `prefix` before the names of its keys, such as "--" or "entries.fall.output.". False on errors.
 bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
                       Scene& scene, std::vector<Message>& messages);
 

@@ -1,4 +1,4 @@
-// What every key of a scene means, for people: FORMAT.md and `beamcam keys`.
+// The reference of all keys: FORMAT.md and `beamcam keys`.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// What tells a shape from the others: its tags, and where several have the same tags the keys that it needs.
+// How a shape differs from the others: by its tags, and by its required keys if several shapes have these tags.
 std::string when(const DescribedObject& shape, const std::vector<DescribedObject>& all) {
     std::vector<std::string> parts;
     for (const auto& [tag, word] : shape.tags) parts.push_back(fmt::format("{}={}", tag, word));
@@ -39,7 +39,7 @@ void add_rows(const DescribedObject& shape, const std::string& path, const std::
 std::vector<KeyRow> key_rows() {
     std::vector<KeyRow> all, merged;
     add_rows(scene_format(), "", "", all);
-    for (KeyRow& row : all) {  // alike in several shapes: one row
+    for (KeyRow& row : all) {  // one row for a key that several shapes share
         const auto alike = std::ranges::find_if(merged, [&](const KeyRow& other) {
             return other.path == row.path && other.key->meaning == row.key->meaning && other.key->type == row.key->type;
         });
@@ -53,11 +53,11 @@ std::vector<KeyRow> key_rows() {
 
 std::string range_text(const DescribedKey& key) {
     const sim::Range& r = key.range;
-    const bool below = std::isfinite(r.least), above = std::isfinite(r.most);
-    if (below && above && !r.without_least && !r.without_most) return fmt::format("{:g} … {:g}", r.least, r.most);
+    const bool below = std::isfinite(r.min), above = std::isfinite(r.max);
+    if (below && above && !r.exclusive_min && !r.exclusive_max) return fmt::format("{:g} … {:g}", r.min, r.max);
     std::string text;
-    if (below) text = fmt::format("{} {:g}", r.without_least ? ">" : "≥", r.least);
-    if (above) text += fmt::format("{}{} {:g}", below ? ", " : "", r.without_most ? "<" : "≤", r.most);
+    if (below) text = fmt::format("{} {:g}", r.exclusive_min ? ">" : "≥", r.min);
+    if (above) text += fmt::format("{}{} {:g}", below ? ", " : "", r.exclusive_max ? "<" : "≤", r.max);
     return text;
 }
 
@@ -78,7 +78,7 @@ std::string type_of(const DescribedKey& key) {
     return type;
 }
 
-// A value that the key may have, for the example.
+// A valid value of the key, for the example.
 std::optional<std::string> example_of(const DescribedKey& key) {
     if (key.required()) return key.example;
     if (!key.shapes.empty()) return std::nullopt;
@@ -100,8 +100,9 @@ class Reference {
     std::string write() {
         out_ =
             "# The scene format\n\n"
-            "Made by `beamcam keys --markdown`; `beamcam keys PATTERN` prints some of it. " +
-            scene_format().meaning + "\n\nA number with a unit may be a text: `\"12 mm\"`, `\"300 rpm\"`, `\"5 %\"`.\n";
+            "Written by `beamcam keys --markdown`; `beamcam keys PATTERN` prints a part. " +
+            scene_format().meaning +
+            "\n\nA quantity may be a text with a unit: `\"12 mm\"`, `\"300 rpm\"`, `\"5 %\"`.\n";
         shape(scene_format(), "", "The scene");
         return std::move(out_);
     }
@@ -130,7 +131,7 @@ class Reference {
                             escaped_for_table(key.meaning));
     }
 
-    // Objects that several outputs have alike are explained once.
+    // An object that several outputs share is explained once.
     void nested(const DescribedKey& key, const DescribedObject& inside, const std::string& path) {
         const std::string tags = when(inside, key.shapes), place = path + (key.list ? "[]" : "");
         const std::string title = fmt::format("`{}`{}", place, tags.empty() ? "" : fmt::format(" with {}", tags));

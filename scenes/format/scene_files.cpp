@@ -13,9 +13,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A comparison of comparisons is as deep as anyone goes; each level takes some kilobytes of the stack.
+// Nested comparisons; each level needs some kilobytes of stack.
 constexpr std::size_t kLongestChain = 16;
-// Five hundred pictures of eight motions.
+// Enough for five hundred pictures of eight motions.
 constexpr std::size_t kMostFiles = 4096;
 
 fs::path identity_of(const std::string& path) {
@@ -53,41 +53,42 @@ SceneFiles::BeingRead::BeingRead(SceneFiles& files, const std::string& path) : f
 
 std::string SceneFiles::chain_problem(const fs::path& file, const std::string& path) const {
     const auto first = std::ranges::find(chain_, file, &Link::file);
-    const bool ring = first != chain_.end();
-    if (!ring && chain_.size() < kLongestChain) return {};
+    const bool cycle = first != chain_.end();
+    if (!cycle && chain_.size() < kLongestChain) return {};
     std::string names;
-    for (auto link = ring ? first : chain_.begin(); link != chain_.end(); ++link) names += link->name + " → ";
-    return ring ? fmt::format(
-                      "the comparison is a ring ({}{}); a scene cannot be compared with itself, leave out "
-                      "\"scene\" to compare it with changes of its own",
-                      names, path)
-                : fmt::format("more than {} scenes compare one another in a chain ({}{})", kLongestChain, names, path);
+    for (auto link = cycle ? first : chain_.begin(); link != chain_.end(); ++link) names += link->name + " → ";
+    return cycle ? fmt::format(
+                       "the comparison is a cycle ({}{}); leave out \"scene\" to compare a scene with a changed copy "
+                       "of itself",
+                       names, path)
+                 : fmt::format("more than {} scenes compare one another in a chain ({}{})", kLongestChain, names, path);
 }
 
 const SceneFiles::Mechanics& SceneFiles::mechanics(const std::string& path) {
     const fs::path file = identity_of(path);
     if (const auto found = read_.find(file); found != read_.end()) return found->second;
-    Mechanics made;
-    made.problem = chain_problem(file, path);
-    if (made.problem.empty() && read_.size() >= kMostFiles)
-        made.problem = fmt::format("it is the {}th other scene; {} are the most", read_.size() + 1, kMostFiles);
-    if (!made.problem.empty()) {
-        if (chain_problem_.empty()) chain_problem_ = made.problem;
+    Mechanics read_now;
+    read_now.problem = chain_problem(file, path);
+    if (read_now.problem.empty() && read_.size() >= kMostFiles)
+        read_now.problem =
+            fmt::format("too many other scenes: {}; a scene compares at most {}", read_.size() + 1, kMostFiles);
+    if (!read_now.problem.empty()) {
+        if (chain_problem_.empty()) chain_problem_ = read_now.problem;
     } else {
         const std::string elsewhere = std::exchange(chain_problem_, {});
-        made = read(path);
-        // What ended the chain is the reason for every file in it.
-        if (!made.sections && !chain_problem_.empty()) made.problem = chain_problem_;
+        read_now = read(path);
+        // The problem that ended the chain applies to every file in it.
+        if (!read_now.sections && !chain_problem_.empty()) read_now.problem = chain_problem_;
         if (chain_problem_.empty()) chain_problem_ = elsewhere;
     }
-    return read_.insert_or_assign(file, std::move(made)).first->second;
+    return read_.insert_or_assign(file, std::move(read_now)).first->second;
 }
 
 SceneFiles::Mechanics SceneFiles::read(const std::string& path) {
     try {
         Reading reading = read_scene(load_named_source(path), {}, *this);
         if (reading.scene) return {mechanics_of(reading.root), {}};
-        return {{}, fmt::format("it is not a scene; `beamcam check {}` gives the reasons", path)};
+        return {{}, fmt::format("it is not a valid scene; `beamcam check {}` lists its errors", path)};
     } catch (const UnreadableFile& unreadable) {
         return {{}, unreadable.what()};
     }

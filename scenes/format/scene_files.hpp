@@ -1,5 +1,5 @@
-// The scene files that comparisons name ("compare": [{"scene": …}]). Each file is read once, however often it is named;
-// rings, long chains and great numbers of files are refused with the chain of names.
+// The scene files that comparisons name ("compare": [{"scene": …}]). Each file is read once. Cycles, long chains and
+// too many files are errors that list the files.
 #pragma once
 
 #include <cstddef>
@@ -15,14 +15,14 @@ namespace beamcam::scenes {
 
 class SceneFiles {
   public:
-    // hub, beam, cam, contact, gravity, initial and solver of the scene in this file, or why there are none.
+    // hub, beam, cam, contact, gravity, initial and solver of the scene in this file, or why it has none.
     struct Mechanics {
         std::optional<Node> sections;
         std::string problem;
     };
     const Mechanics& mechanics(const std::string& path);
 
-    // While it lives, the file is being read.
+    // Marks a file as being read during its lifetime.
     class BeingRead {
       public:
         BeingRead(SceneFiles& files, const std::string& path);
@@ -36,16 +36,16 @@ class SceneFiles {
 
   private:
     struct Link {
-        std::filesystem::path file;  // without symbolic links
-        std::string name;            // as it was given
+        std::filesystem::path file;  // canonical
+        std::string name;            // as the scene gives it
     };
 
     std::string chain_problem(const std::filesystem::path& file, const std::string& path) const;
     Mechanics read(const std::string& path);
 
-    std::vector<Link> chain_;                          // files being read, from the first to the one named last
-    std::map<std::filesystem::path, Mechanics> read_;  // by their path without symbolic links
-    std::string chain_problem_;                        // the first that was met while the file named last is read
+    std::vector<Link> chain_;                          // files being read, outermost first
+    std::map<std::filesystem::path, Mechanics> read_;  // by canonical path
+    std::string chain_problem_;                        // first problem while the innermost file is read
 };
 
 // The sections of a scene that two compared motions can differ in: hub, beam, …

@@ -1,4 +1,4 @@
-// The JSON Schema of scenes, from the description of their keys.
+// Writes the JSON Schema of scenes from the description of their keys.
 #include <fmt/format.h>
 
 #include <map>
@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// What forms refer to.
+// Definitions that value formats refer to.
 constexpr const char* kDefinitions = R"({
     "withUnit": {
         "description": "A number and a unit: \"12 mm\", \"300 rpm\", \"2.7 g/cm^3\".",
@@ -23,7 +23,7 @@ constexpr const char* kDefinitions = R"({
         "pattern": "^ *[-+]?([0-9]+\\.?[0-9]*|\\.[0-9]+)([eE][-+]?[0-9]+)? *%? *$"
     },
     "instant": {
-        "description": "A time; an event, counted from 1: the first touch of an \"impact:2\" or \"collision:1\", the \"release:2\" of an impact, the \"apex:1\" of the first rebound (without collisions, of the hub's angle); \"touch\" and \"release\" are the first ones; \"last\" is the end.",
+        "description": "A time, or an event counted from 1: \"impact:2\" and \"collision:1\" are first touches, \"release:2\" is the release of an impact, \"apex:1\" is the highest point of the first rebound (without collisions the first maximum of the hub's angle). \"touch\" and \"release\" are the first ones; \"last\" is the end.",
         "anyOf": [
             {"type": "number", "minimum": 0},
             {"$ref": "#/$defs/withUnit"},
@@ -39,7 +39,7 @@ constexpr const char* kDefinitions = R"({
     }
 })";
 
-// A panel that needs no more than its name, or a channel in a strip.
+// A panel that needs only its name, or a channel in a strip.
 Node panel_schema() {
     Node names = array_node(), known = object_node(), out = object_node();
     for (const render::PanelType& type : render::panel_types())
@@ -69,7 +69,7 @@ class SchemaWriter {
         definitions_ = node_of(kDefinitions);
         add(definitions_, "panelName", panel_schema());
         add(definitions_, "channel", channel_schema());
-        object(scene);  // counts what occurs more than once
+        object(scene);  // first pass: counts repeated properties
         counted_ = true;
         Node out = object_node();
         add(out, "$schema", text_node("https://json-schema.org/draft/2020-12/schema"));
@@ -120,12 +120,12 @@ class SchemaWriter {
             if (known.find(one) && known.find(other))
                 together.push_back(node_of(fmt::format(R"({{"required": ["{}", "{}"]}})", one, other)));
         if (!together.empty()) add(out, "not", one_of("anyOf", std::move(together)));
-        for (const Node& restriction : shape.restrictions) append(out, restriction);
+        for (const Node& constraint : shape.constraints) append(out, constraint);
         --depth_;
         return out;
     }
 
-    // The objects of these shapes; those that contain themselves go into the definitions.
+    // The schema of an object that has one of these shapes. A recursive one goes into the definitions.
     Node objects(const std::vector<DescribedObject>& shapes) {
         std::vector<Node> all;
         std::string recursive;
@@ -167,7 +167,7 @@ class SchemaWriter {
         return out;
     }
 
-    // What several outputs have alike is written once, under the name of its key.
+    // A large property that occurs several times becomes a definition with the name of its key.
     Node shared(const std::string& name, Node property) {
         constexpr std::size_t kLarge = 500;  // [bytes]
         const std::string text = to_text(property);
@@ -180,7 +180,7 @@ class SchemaWriter {
 
     Node definitions_;
     int depth_ = 0;                    // of nested objects
-    std::map<std::string, int> seen_;  // how often a property occurs, as text
+    std::map<std::string, int> seen_;  // occurrences of a property, by its text
     bool counted_ = false;
 };
 
@@ -200,7 +200,7 @@ std::string one_line(const Node& node) {
 
 namespace {
 
-// What fits into a line stands in one.
+// JSON with line breaks only where a line would be too long.
 std::string folded(const Node& node, std::size_t indent) {
     constexpr std::size_t kWidth = 120;
     std::string line = one_line(node), out;

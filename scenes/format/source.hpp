@@ -1,7 +1,5 @@
-// Text that a scene is read from, and messages that point into it.
-//
-// A scene has one file and any number of `--set` overrides; every value remembers which of them it
-// came from, so that a message names the place the user can change.
+// The texts that a scene is read from, and messages that point into them. A scene has one file and any number of
+// `--set` overrides; every value stores its source, so that a message names the place to change.
 #pragma once
 
 #include <cstddef>
@@ -13,9 +11,9 @@ namespace beamcam::scenes {
 
 // A scene file, or one override of the command line.
 struct Source {
-    std::string name;     // as the user typed it; `--set beam.modes=3` for an override
-    std::string text;     // as it stands in the file
-    bool is_file = true;  // only a file has lines and columns
+    std::string name;  // as the user typed it; of an override "--set beam.modes=3"
+    std::string text;
+    bool is_file = true;  // only messages of a file have line and column
 };
 
 struct Place {
@@ -29,15 +27,15 @@ struct Place {
 
 struct Message {
     Place place;
-    std::string text;   // what, which value, what to do
+    std::string text;   // key, value, reason and remedy
     bool fatal = true;  // false: a warning
 };
 
 struct LineColumn {
-    std::size_t line = 1, column = 1;  // from 1; columns count characters, not bytes
+    std::size_t line = 1, column = 1;  // from 1; a column is a character, not a byte
 };
 LineColumn locate(std::string_view text, std::size_t offset);
-// The same for many offsets that never decrease, in one pass over the text.
+// The same for many increasing offsets, in one pass over the text.
 class Locator {
   public:
     explicit Locator(std::string_view text);
@@ -49,15 +47,15 @@ class Locator {
     LineColumn at_;
 };
 
-// `file:line:column: text`, then the line itself with a caret below the place.
+// `file:line:column: text`, then the line with a caret below the position.
 std::string describe(const std::vector<Source>& sources, const Message& message);
-// The messages in the order of their places, one after the other; beyond `kMostDescribed`, how many more there are.
-constexpr std::size_t kMostDescribed = 100;  // that anybody reads
+// The messages in the order of their positions; beyond `kMostDescribed` only their number.
+constexpr std::size_t kMostDescribed = 100;
 std::string describe(const std::vector<Source>& sources, std::vector<Message> messages);
 
-// A value inside a message: quoted, control characters made visible, long text shortened.
+// A value for a message: in quotes, with visible control characters, shortened if long.
 std::string in_quotes(std::string_view text);
-// The same without quotes, for numbers as they were written.
+// The same without quotes, for numbers.
 std::string shortened(std::string_view text);
 
 }  // namespace beamcam::scenes

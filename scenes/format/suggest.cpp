@@ -34,7 +34,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 }
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
-    constexpr std::size_t kLongest = 64;  // a longer word is no slip of the finger
+    constexpr std::size_t kLongest = 64;  // a longer word is not a typing error
     if (word.empty() || word.size() > kLongest) return {};
     const std::string target = folded(word);
     const std::string* best = nullptr;
@@ -42,7 +42,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
     for (const std::string& candidate : known) {
         const std::string form = folded(candidate);
         std::size_t distance = edit_distance(target, form);
-        // "young" for "youngs_modulus": a beginning of at least three letters is as good as one slip.
+        // "young" for "youngs_modulus": a prefix of at least three letters counts as one typing error.
         if (target.size() >= 3 && form.starts_with(target)) distance = std::min<std::size_t>(distance, 1);
         // "Mpa" is one letter from "MPa" and none from "mPa"; the case decides between equals.
         if (distance < best_distance ||
@@ -56,7 +56,7 @@ std::string suggestion(std::string_view word, const std::vector<std::string>& kn
 
 std::string suggestion_or_list(std::string_view word, const std::vector<std::string>& known) {
     std::string near = suggestion(word, known);
-    return !near.empty() ? near : fmt::format("; known are {}", fmt::join(known, ", "));
+    return !near.empty() ? near : fmt::format("; the choices are {}", fmt::join(known, ", "));
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// "Did you mean": the nearest of a set of known words.
+// "Did you mean": the known word that is most similar.
 #pragma once
 
 #include <string>
@@ -7,12 +7,12 @@
 
 namespace beamcam::scenes {
 
-// Edit distance where exchanging two neighbours counts once (optimal string alignment); in bytes.
+// Optimal string alignment distance in bytes: exchanging two neighbours counts once.
 std::size_t edit_distance(std::string_view a, std::string_view b);
 
-// `; did you mean "length"?` when a known word is near enough, else nothing.
+// `; did you mean "length"?` if a known word is similar enough, else "".
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
-// The same, else `; known are a, b, c`.
+// The same, or `; the choices are a, b, c`.
 std::string suggestion_or_list(std::string_view word, const std::vector<std::string>& known);
 
 }  // namespace beamcam::scenes

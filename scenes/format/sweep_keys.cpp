@@ -9,6 +9,7 @@
 #include "scenes/format/keys.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/format/value_formats.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -16,23 +17,23 @@ namespace beamcam::scenes {
 namespace dim = sim::dimension;
 using sim::SampleKind;
 
-// More turns than any integration reaches.
+// More turns than an integration can reach.
 static constexpr sim::Range kTurns{0, 1e9, false, false, nullptr};
 
 static void visit(SceneVisitor& v, sim::CamSpan& span) {
     v.number(sim::written_if(!span.time, "cam_turns"), span.turns, sim::kPlainNumber, kTurns,
-             "Turns of the cam; of a cam at rest, seconds.");
+             "Turns of the cam; seconds if the cam is at rest.");
     v.number("time", span.time, dim::kTime, sim::kNotNegative, "Time, rounded up to whole turns of the cam.");
     v.exclusive("cam_turns", "time");
 }
 
-// The dimension of the scene's key; none where it is refused anyway.
+// The dimension of a key of the scene; none for a key that is rejected anyway.
 static sim::Dimension dimension_of(const std::string& key, const ObjectReader& r) {
     const auto known = sim::number_key(r.context().scene.problem, key);
     return known ? known->dimension : dim::kNone;
 }
 
-// A value of another key, in its units.
+// A value with the unit of another key.
 template <class Number>  // double, or optional<double>
 static ValueFormat value_format(Number& value, const std::string& of) {
     const auto read = [&value, &of](ObjectReader& r, const Node& node, const std::string& key) {
@@ -51,21 +52,11 @@ static ValueFormat values_format(std::vector<double>& values, const std::string&
         if (node.kind != Node::Kind::array || node.items.empty())
             return r.fail(node, key,
                           fmt::format("{} must be a list of numbers, not {}", r.path(key), as_written(node)));
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-            double given = 0;
-            if (r.number_value(node.items[i], fmt::format("{}.{}", key, i), dimension_of(of, r), given))
-                values.push_back(given);
-        }
-    };
-    const auto write = [&values]() -> std::optional<Node> {
-        if (values.empty()) return std::nullopt;
-        Node all = array_node();
-        for (const double value : values) all.items.push_back(number_node(value));
-        return all;
+        r.numbers_value(node, key, dimension_of(of, r), values);
     };
     return {"list of numbers, or texts with the unit of the key",
             R"({"type": "array", "minItems": 1, "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}})", read,
-            write};
+            [&values] { return values.empty() ? std::nullopt : std::optional(numbers_node(values)); }};
 }
 
 static void visit(SceneVisitor& v, RandomKey& key) {
@@ -78,11 +69,12 @@ static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
     v.value("from", value_format(over.from, over.key), "First value.");
     v.value("to", value_format(over.to, over.key), "Last value.");
-    v.integer("count", over.count, 1, 100'000'000, "How many values, both ends included.");
-    v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}}, "Of the values between the ends.");
-    v.value("values", values_format(over.values, over.key), "The values themselves.");
+    v.integer("count", over.count, 1, 100'000'000, "Number of values, both ends included.");
+    v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}},
+             "Spacing of the values between the ends.");
+    v.value("values", values_format(over.values, over.key), "A list of values.");
     v.text(sim::written_if(!over.file.empty(), "file"), over.file, "A .csv or .npz file with the values.");
-    v.text(sim::written_if(!over.column.empty(), "column"), over.column, "Its column.");
+    v.text(sim::written_if(!over.column.empty(), "column"), over.column, "The column of the file.");
     v.exclusive("from", "values");
     v.exclusive("from", "file");
     v.exclusive("values", "file");
@@ -95,19 +87,11 @@ constexpr sim::Named<SeedKind> kSeedKinds[] = {{SeedKind::same, "same"},
                                                {SeedKind::carry_down, "carry-down"},
                                                {SeedKind::random, "random"}};
 constexpr int kMostRandom = 1'000'000;
-std::string quantity(std::string_view text, double& out) {
-    const QuantityText read = parse_quantity(text);
-    if (!read.quantity) return read.problem;
-    out = read.quantity->value;
-    return "";
-}
-
 std::string set_section(std::string_view channel, sim::Sampling& sampling, const sim::Problem& problem) {
-    std::vector<std::string> known;
-    for (const sim::Channel& each : all_channels(problem)) known.push_back(name(each));
+    const std::vector<std::string> known = channel_names(all_channels(problem));
     if (std::ranges::find(known, channel) == known.end())
         return fmt::format("{} is not a channel of this scene{}", in_quotes(channel),
-                           suggestion_or_list(std::string(channel), known));
+                           suggestion_or_list(channel, known));
     sampling.channel = *sim::channel_named(channel);
     sampling.kind = sampling.channel.kind == sim::ChannelKind::cam_angle ? SampleKind::section : SampleKind::crossings;
     return "";
@@ -115,54 +99,45 @@ std::string set_section(std::string_view channel, sim::Sampling& sampling, const
 
 ValueFormat sample_format(sim::Sampling& sampling) {
     const auto read = [&sampling](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind == Node::Kind::string && node.text == "impacts")
-            sampling.kind = SampleKind::impacts;
-        else if (node.kind == Node::Kind::string && node.text == "apexes")
-            sampling.kind = SampleKind::apexes;
-        else
-            r.fail(node, key,
-                   fmt::format("{} must be \"impacts\", \"apexes\" or {{\"section\": CHANNEL, \"at\": VALUE}}, not {}",
-                               r.path(key), as_written(node)));
+        if (node.kind != Node::Kind::string)
+            return r.fail(
+                node, key,
+                fmt::format("{} must be \"impacts\", \"apexes\" or {{\"section\": CHANNEL, \"at\": VALUE}}, not {}",
+                            r.path(key), as_written(node)));
+        if (const std::string problem = parse_sample(node.text, r.context().scene.problem, sampling); !problem.empty())
+            r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), as_written(node), problem));
     };
     const auto write = [&sampling]() -> std::optional<Node> {
-        if (sampling.kind == SampleKind::impacts) return text_node("impacts");
-        if (sampling.kind == SampleKind::apexes) return text_node("apexes");
-        return std::nullopt;
+        const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes;
+        return is_word ? std::optional(text_node(text_of_sample(sampling))) : std::nullopt;
     };
-    return {"\"impacts\", \"apexes\" or object", R"({"enum": ["impacts", "apexes"]})", read, write};
+    return {"\"impacts\", \"apexes\", \"section:CHANNEL=VALUE\" or object",
+            R"({"anyOf": [{"enum": ["impacts", "apexes", "apex"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
+            read, write};
 }
 
 void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
     std::string channel = sampling.kind == SampleKind::crossings ? name(sampling.channel) : "cam_angle";
     v.text(sim::required("section", "\"cam_angle\""), channel,
-           "The channel; cam_angle takes one sample a turn of the cam.");
-    v.number("at", sampling.level, sim::kPlainNumber, sim::kAny, "Its value, in the channel's SI unit.");
+           "The channel; cam_angle gives one sample in each turn of the cam.");
+    v.number("at", sampling.level, sim::kPlainNumber, sim::kAny, "The value that the channel passes, in its SI unit.");
     v.choice("direction", sampling.rising, {{true, "rising"}, {false, "falling"}},
-             "Which way it passes; a cam angle passes one way.");
+             "Direction in which the channel passes the value; not used for cam_angle.");
     v.check([&sampling, channel](ObjectReader& r) {
         const std::string problem = set_section(channel, sampling, r.context().scene.problem);
-        if (!problem.empty()) r.fail(r.place("section"), "section", fmt::format("{}: {}", r.path("section"), problem));
+        if (!problem.empty()) r.fail("section", fmt::format("{}: {}", r.path("section"), problem));
     });
 }
 
 ValueFormat seed_format(SweepSeeds& seeds) {
-    const auto one = [&seeds](ObjectReader& r, const Node& node, const std::string& key) {
-        const auto found = std::ranges::find_if(kSeedKinds, [&](const auto& k) { return node.text == k.name; });
-        if (node.kind != Node::Kind::string || found == std::end(kSeedKinds) || found->value == SeedKind::random)
-            return r.fail(node, key,
-                          fmt::format("{} must be \"same\", \"carry-up\" or \"carry-down\", not {}", r.path(key),
-                                      as_written(node)));
-        seeds.kinds.push_back(found->value);
-    };
-    const auto read = [&seeds, one](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind == Node::Kind::string) {  // as after --seed
-            if (const std::string problem = parse_seeds(node.text, seeds); !problem.empty())
-                r.fail(node, key, fmt::format("{}: {}, not {}", r.path(key), problem, as_written(node)));
-            return;
-        }
-        seeds.kinds.clear();
-        if (node.kind != Node::Kind::array) return one(r, node, key);
-        for (std::size_t i = 0; i < node.items.size(); ++i) one(r, node.items[i], fmt::format("{}.{}", key, i));
+    const auto read = [&seeds](ObjectReader& r, const Node& node, const std::string& key) {
+        std::string text = node.text;  // in the notation of --seed
+        for (const Node& item : node.items) text += (text.empty() ? "" : ",") + item.text;
+        const bool is_list = node.kind == Node::Kind::array && !text.starts_with("random");
+        const std::string problem = node.kind == Node::Kind::string || is_list
+                                        ? parse_seeds(text, seeds)
+                                        : "write \"same\", \"carry-up\", \"carry-down\" or \"random:N\"";
+        if (!problem.empty()) r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), as_written(node), problem));
     };
     const auto write = [&seeds]() -> std::optional<Node> {
         if (seeds.random > 0) return std::nullopt;
@@ -180,13 +155,12 @@ ValueFormat seed_format(SweepSeeds& seeds) {
 
 void visit_random(SceneVisitor& v, SweepSeeds& seeds) {
     v.integer(sim::required("random", "8"), seeds.random, 1, kMostRandom,
-              "So many motions from random starts at each point.");
+              "Number of motions from random starts at each point.");
     List keys = SceneVisitor::items_of(seeds.keys);
     keys.of = "keys";
-    v.list(
-        "key", keys,
-        "What is random. None: initial.angle, from the scene's to 0.3 rad more, and initial.angular_velocity, from -1 "
-        "to 1 rad/s.");
+    v.list("key", keys,
+           "The random keys. By default initial.angle, up to 0.3 rad above the scene's value, and "
+           "initial.angular_velocity, from -1 to 1 rad/s.");
     v.check([&seeds](ObjectReader&) { seeds.kinds = {SeedKind::random}; });
 }
 
@@ -200,24 +174,24 @@ const char* name(SeedKind kind) { return kSeedKinds[static_cast<std::size_t>(kin
 
 void visit(SceneVisitor& v, Sweep& sweep) {
     List over = SceneVisitor::items_of(sweep.over);
-    over.least = 1, over.most = 2, over.of = "keys";
+    over.min_size = 1, over.max_size = 2, over.of = "keys";
     over.example = "[{\"key\": \"cam.speed\", \"from\": 40, \"to\": 52, \"count\": 601}]";
-    v.list(sim::required("over", over.example), over, "What varies: one key, or two as a grid.");
+    v.list(sim::required("over", over.example), over, "The keys that vary: one, or two as a grid.");
     v.value_or_object(
         "sample", sample_format(sweep.sampling),
         [&](sim::Visitor& inside) { visit_section(static_cast<SceneVisitor&>(inside), sweep.sampling); },
-        "What is kept of each motion: its state at impacts, at apexes, or where a channel passes a value.");
-    v.object("transient", sweep.sampling.transient, "What passes before samples are kept.");
-    v.object("keep", sweep.sampling.keep, "How long samples are kept.");
+        "The samples of each motion: its state at impacts, at apexes, or where a channel passes a value.");
+    v.object("transient", sweep.sampling.transient, "Time before the first sample.");
+    v.object("keep", sweep.sampling.keep, "Time during which samples are taken.");
     v.value_or_object(
         "seed", seed_format(sweep.seeds),
         [&](sim::Visitor& inside) { visit_random(static_cast<SceneVisitor&>(inside), sweep.seeds); },
-        "Where each motion starts: as the scene says, from where that of the value before ended (upwards, downwards), "
-        "or at random.");
+        "Start of each motion: the scene's initial state, the end of the motion at the previous value (upwards or "
+        "downwards), or a random state.");
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
-            if (!r.diagnostics().failed(r.path(problem.key)))  // told already
-                r.fail(r.place("over"), problem.key, fmt::format("{}: {}", r.path(problem.key), problem.text));
+            if (!r.diagnostics().failed(r.path(problem.key)))  // else it has an error already
+                r.fail(problem.key, fmt::format("{}: {}", r.path(problem.key), problem.text));
     });
 }
 
@@ -229,16 +203,18 @@ std::string parse_sample(std::string_view text, const sim::Problem& problem, sim
     constexpr std::string_view kSection = "section:";
     const std::size_t equals = text.find('=');
     if (!text.starts_with(kSection) || equals == std::string_view::npos)
-        return "choose impacts, apexes, or section:CHANNEL=VALUE, for example section:cam_angle=0";
+        return "write impacts, apexes, or section:CHANNEL=VALUE, for example section:cam_angle=0";
     std::string_view value = text.substr(equals + 1);
     if (const std::size_t colon = value.find(':'); colon != std::string_view::npos) {
         const std::string_view direction = value.substr(colon + 1);
-        if (direction != "rising" && direction != "falling") return "a channel passes its value rising or falling";
+        if (direction != "rising" && direction != "falling")
+            return "the direction after the second colon is rising or falling";
         sampling.rising = direction == "rising";
         value = value.substr(0, colon);
     }
-    if (std::string problem_with_value = quantity(value, sampling.level); !problem_with_value.empty())
-        return problem_with_value;
+    const QuantityText level = parse_quantity(value);
+    if (!level.quantity) return level.problem;
+    sampling.level = level.quantity->value;
     return set_section(text.substr(kSection.size(), equals - kSection.size()), sampling, problem);
 }
 
@@ -249,7 +225,8 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
     read.kinds.clear();
     if (text.starts_with(kRandom)) {
         const auto count = output::number_in<int>(text.substr(kRandom.size()));
-        if (!count || *count < 1 || *count > kMostRandom) return "write random:N with a number of motions";
+        if (!count || *count < 1 || *count > kMostRandom)
+            return fmt::format("write random:N with a number of motions from 1 to {}", kMostRandom);
         read.kinds = {SeedKind::random};
         read.random = *count;
     }
@@ -258,7 +235,7 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
         const auto found =
             std::ranges::find_if(kSeedKinds, [&](const auto& k) { return text.substr(from, to - from) == k.name; });
         if (found == std::end(kSeedKinds) || found->value == SeedKind::random)
-            return "choose same, carry-up, carry-down, carry-up,carry-down, or random:N";
+            return "write same, carry-up, carry-down, carry-up,carry-down, or random:N";
         read.kinds.push_back(found->value);
         from = to + 1;
     }
@@ -272,13 +249,13 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
     for (const sim::NumberKey& key : sim::number_keys(problem)) known.push_back(key.path);
     const auto need_key = [&](const std::string& at, const std::string& key) {
         if (std::ranges::find(known, key) == known.end())
-            all.push_back(
-                {at, fmt::format("{} is no number of this scene{}", in_quotes(key), suggestion_or_list(key, known))});
+            all.push_back({at, fmt::format("{} is not a number of this scene{}", in_quotes(key),
+                                           suggestion_or_list(key, known))});
     };
-    if (sweep.over.empty()) all.push_back({"over", "say what varies, for example cam.speed=40:52:0.02"});
-    if (sweep.over.size() > 2) all.push_back({"over", "a sweep varies one key, or two"});
+    if (sweep.over.empty()) all.push_back({"over", "no key varies; write for example cam.speed=40:52:0.02"});
+    if (sweep.over.size() > 2) all.push_back({"over", "a sweep varies one or two keys"});
     if (sweep.over.size() == 2 && sweep.over[0].key == sweep.over[1].key)
-        all.push_back({"over.1.key", fmt::format("{} stands twice", sweep.over[0].key)});
+        all.push_back({"over.1.key", fmt::format("{} is listed twice; remove one of them", sweep.over[0].key)});
     for (std::size_t i = 0; i < sweep.over.size(); ++i) {
         const SweptKey& over = sweep.over[i];
         const std::string at = fmt::format("over.{}", i);
@@ -286,25 +263,25 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
         const bool ranged = over.from && over.to && over.count;
         const int ways = int(over.from || over.to || over.count) + int(!over.values.empty()) + int(!over.file.empty());
         if (ways != 1 || (over.from && !ranged) || (over.to && !ranged) || (over.count && !ranged))
-            all.push_back({at, "give from, to and count, or values, or file and column"});
+            all.push_back({at, "write from, to and count; or values; or file and column"});
         else if (ranged && *over.count == 1 && *over.from != *over.to)
-            all.push_back({at + ".count", "one value, but two ends; give at least 2, or one end"});
+            all.push_back({at + ".count", "one value cannot have two ends; write at least 2, or equal ends"});
         else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
             all.push_back({at, "logarithmic spacing needs ends of one sign, neither of them 0"});
-        if (over.file.empty() != over.column.empty()) all.push_back({at, "file and column belong together"});
+        if (over.file.empty() != over.column.empty()) all.push_back({at, "file and column must be given together"});
     }
     const bool carries = std::ranges::any_of(
         sweep.seeds.kinds, [](SeedKind kind) { return kind == SeedKind::carry_up || kind == SeedKind::carry_down; });
     for (const SweptKey& over : sweep.over)
         if (carries && over.key.starts_with("initial."))
-            all.push_back({"seed", fmt::format("a carried motion does not begin at {}; use \"same\"", over.key)});
+            all.push_back({"seed", fmt::format("a carried motion does not start at {}; use \"same\"", over.key)});
     for (const RandomKey& key : sweep.seeds.keys) need_key("seed.key", key.key);
     if (!sweep.seeds.keys.empty() && !is_random(sweep.seeds))
-        all.push_back({"seed.key", "only random starts have random keys"});
+        all.push_back({"seed.key", "random keys need random starts; add \"random\""});
     const sim::CamSpan& keep = sweep.sampling.keep;
-    if (!(keep.time.value_or(keep.turns) > 0)) all.push_back({"keep", "at least one turn of the cam must be kept"});
+    if (!(keep.time.value_or(keep.turns) > 0)) all.push_back({"keep", "must be greater than 0"});
     if (!problem.cam && (sweep.sampling.kind == SampleKind::impacts || sweep.sampling.kind == SampleKind::section))
-        all.push_back({"sample", "there is no cam"});
+        all.push_back({"sample", "there is no cam; use \"apexes\", or add a \"cam\""});
     return all;
 }
 

@@ -1,4 +1,4 @@
-// What the keys and options of a sweep have in common: the words of samples and seeds, and what is wrong with a sweep.
+// What the keys and the options of a sweep share: the notations of samples and seeds, and the checks of a sweep.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,13 @@
 
 namespace beamcam::scenes {
 
-// "impacts", "apexes", "section:cam_angle=0", "section:theta_dot=0:falling". A reason why the text is none of these.
+// "impacts", "apexes", "section:cam_angle=0", "section:theta_dot=0:falling". Returns why the text is not valid, or "".
 std::string parse_sample(std::string_view text, const sim::Problem& problem, sim::Sampling& sampling);
 // "same", "carry-up,carry-down", "random:8".
 std::string parse_seeds(std::string_view text, SweepSeeds& seeds);
 const char* name(SeedKind kind);
 
-// What is wrong with the sweep of this problem, each with the key it belongs to ("over.0.key").
+// The errors of a sweep of this problem, each with its key ("over.0.key").
 struct SweepProblem {
     std::string key, text;
 };

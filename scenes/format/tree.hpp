@@ -1,8 +1,5 @@
-// A JSON text as a tree that remembers where every key and value stands.
-//
-// nlohmann-json decides what JSON is and what the values are; it keeps no positions, so the text is
-// walked in step with its SAX events, between which only white space, ',' and ':' can occur.
-// `//` and `/* */` comments and trailing commas are blanked out beforehand, byte for byte.
+// A JSON text as a tree in which every key and value remembers its position (parser: json_parser.cpp).
+// `//` and `/* */` comments and trailing commas are accepted.
 #pragma once
 
 #include <string>
@@ -17,22 +14,20 @@ namespace beamcam::scenes {
 
 struct Member;
 
-// Of an object, in the order of the text; found by key without walking them all.
+// The members of an object, in the order of the text, with an index by key.
 class Members {
   public:
     const Member* find(std::string_view key) const;
     Member* find(std::string_view key);
-    Member& add(Member member);  // at the end; `find` gives the first of equal keys
-    void drop_last();
+    Member& add(Member member);  // at the end; `find` returns the first of equal keys
 
+    const Member& back() const { return all_.back(); }
     std::size_t size() const { return all_.size(); }
     bool empty() const { return all_.empty(); }
     auto begin() const { return all_.begin(); }
     auto end() const { return all_.end(); }
     auto begin() { return all_.begin(); }
     auto end() { return all_.end(); }
-    const Member& back() const { return all_.back(); }
-    Member& back() { return all_.back(); }
 
   private:
     std::vector<Member> all_;
@@ -46,9 +41,9 @@ struct Node {
     Place place;  // first byte of the value
     bool boolean = false;
     double number = 0;
-    std::string text;         // a string's value; a number as it was written
+    std::string text;         // the value of a string; a number as it was written
     std::vector<Node> items;  // of an array
-    Members members;          // of an object, keys unique
+    Members members;          // of an object; unique keys
 
     const Member* find(std::string_view key) const { return members.find(key); }
     Member* find(std::string_view key) { return members.find(key); }
@@ -60,36 +55,43 @@ struct Member {
     Node value;
 };
 
-// Values that are written; numbers of a tree that was read keep their spelling.
+// Nodes without a position.
 Node number_node(double value);
 Node integer_node(long value);
 Node boolean_node(bool value);
 Node text_node(std::string value);
 Node array_node(std::vector<Node> items = {});
+Node numbers_node(const std::vector<double>& values);
 Node object_node();
 void add(Node& object, std::string key, Node value);
 void remove(Node& object, std::string_view key);
-std::string to_text(const Node& root);  // JSON, two spaces a level
+std::string to_text(const Node& root);  // JSON, indented by two spaces; parsed numbers keep their spelling
 
 const char* name(Node::Kind kind);  // "a number", "an object", …
 
+// "cam.centre.0" as {"cam", "centre", "0"}.
+std::vector<std::string> split_path(std::string_view path);
+// The member or, by its index from 0, the item of this name; null if there is none.
+const Node* child(const Node& node, std::string_view name);
+Node* child(Node& node, std::string_view name);
+
 struct Parsed {
     Node root;
-    std::vector<Message> messages;  // one syntax error, or duplicate keys and unusable numbers
-    bool is_json = false;           // false: a syntax error; `root` means nothing
+    std::vector<Message> messages;  // one syntax error; or duplicate keys and unusable values
+    bool is_json = false;           // false after a syntax error, when `root` is empty
 };
 
-// Largest text and deepest nesting that a scene can need; above them the file is not a scene.
+// Limits of a scene file.
 constexpr std::size_t kLargestScene = 64u << 20;  // [byte]: a drive table of a million points
-constexpr int kDeepestScene = 64;
+constexpr int kDeepestScene = 64;                 // nested brackets
 
-// `source` is the index that the places will carry.
+// `source`: index that the positions carry.
 Parsed parse(std::string_view text, std::size_t source = 0);
-// Of a text that the program itself brings, which has no errors.
+// Parses JSON that the program itself contains.
 Node node_of(std::string_view json);
 
-// The text with comments and trailing commas turned into spaces; every other byte stays in place.
-// An unclosed comment is left as it is, for the parser to refuse.
+// Replaces comments and trailing commas by spaces; every other byte keeps its offset. An unclosed comment stays, so
+// that the parser reports it.
 std::string blank_comments(std::string_view text);
 
 }  // namespace beamcam::scenes

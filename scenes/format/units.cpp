@@ -22,11 +22,11 @@ struct NamedUnit {
     std::string_view name;
     double factor;  // to SI, together with `decades`
     Dimension dimension;
-    int decades;  // powers of ten, kept apart so that "36.8 mm" is the very number 0.0368
+    int decades;  // power of ten, separate so that "36.8 mm" is exactly the double 0.0368
     bool takes_prefix = false;
 };
 
-// A product of units on the way: value · 10^decades.
+// A product of units: value · 10^decades.
 struct Scaled {
     double value = 1;
     double decades = 0;
@@ -80,15 +80,17 @@ std::optional<Scaled> named(std::string_view symbol) {
     return std::nullopt;
 }
 
-std::vector<std::string> every_symbol() {
+// Of one dimension, if any unit has it; else all.
+std::vector<std::string> symbols_of(const Dimension* dimension) {
     std::vector<std::string> symbols;
     for (const NamedUnit& unit : kUnits) {
+        if (dimension && !same(unit.dimension, *dimension)) continue;
         symbols.emplace_back(unit.name);
         if (!unit.takes_prefix) continue;
         for (const Prefix& prefix : kPrefixes)
             if (prefix.name[0] > 0) symbols.push_back(std::string(prefix.name) + std::string(unit.name));
     }
-    return symbols;
+    return symbols.empty() && dimension ? symbols_of(nullptr) : symbols;
 }
 
 void multiply(Scaled& q, const Scaled& factor, double exponent) {
@@ -100,7 +102,7 @@ void multiply(Scaled& q, const Scaled& factor, double exponent) {
     q.dimension.angle += exponent * factor.dimension.angle;
 }
 
-// number · scale, with the decimal point of the text shifted instead of a multiplication where that is exact.
+// number · scale. Whole decades shift the decimal point of the text, which is exact, instead of a multiplication.
 double scaled_number(std::string_view digits, double value, const Scaled& scale) {
     if (scale.decades != std::round(scale.decades)) return value * scale.value * std::pow(10.0, scale.decades);
     constexpr double kMostDecades = 1e6;  // far beyond any double
@@ -123,21 +125,21 @@ double scaled_number(std::string_view digits, double value, const Scaled& scale)
 // ].
 class UnitParser {
   public:
-    explicit UnitParser(std::string_view text) : rest_(text) {}
+    UnitParser(std::string_view text, const Dimension* expected) : rest_(text), expected_(expected) {}
 
-    // Nothing when the text is no unit; `problem` tells why.
+    // nullopt if the text is not a unit; `problem` has the reason.
     std::optional<Scaled> parse() {
         Scaled q;
         if (!product(q)) return std::nullopt;
         skip_spaces();
         if (rest_.empty()) return q;
-        refuse(fmt::format("{} is left over after the unit", in_quotes(rest_)));
+        reject(fmt::format("unexpected {} after the unit", in_quotes(rest_)));
         return std::nullopt;
     }
     const std::string& problem() const { return problem_; }
 
   private:
-    bool refuse(std::string problem) {
+    bool reject(std::string problem) {
         if (problem_.empty()) problem_ = std::move(problem);
         return false;
     }
@@ -151,7 +153,7 @@ class UnitParser {
     }
 
     bool product(Scaled& q) {
-        if (depth_ > 8) return refuse("the unit has too many parentheses");
+        if (depth_ > 8) return reject("the unit has too many parentheses");
         if (!factor(q, 1)) return false;
         bool divided = false;
         while (true) {
@@ -160,7 +162,7 @@ class UnitParser {
             const bool divides = take("/");
             const bool dot = !divides && (take("*") || take("·") || take("⋅"));
             if (divided && !divides && !dot)
-                return refuse("a space after a division can be read in two ways; write \"*\", \"/\" or parentheses");
+                return reject("a space after a division is ambiguous; write \"*\", \"/\" or parentheses");
             divided = divided || divides;
             skip_spaces();
             if (!factor(q, divides ? -1 : 1)) return false;
@@ -174,7 +176,7 @@ class UnitParser {
             if (!product(base)) return false;
             --depth_;
             skip_spaces();
-            if (!take(")")) return refuse("a \")\" is missing in the unit");
+            if (!take(")")) return reject("a \")\" is missing in the unit");
         } else if (take("1")) {  // "1/s"
         } else if (!symbol(base)) {
             return false;
@@ -201,11 +203,11 @@ class UnitParser {
         }
         const std::string_view text = rest_.substr(0, n);
         if (text.empty())
-            return refuse(rest_.empty() ? "the unit ends too early"
+            return reject(rest_.empty() ? "the unit ends too early"
                                         : fmt::format("{} is not a unit", in_quotes(rest_)));
         const auto found = named(text);
         if (!found)
-            return refuse(fmt::format("unit {} is not known{}", in_quotes(text), suggestion(text, every_symbol())));
+            return reject(fmt::format("unknown unit {}{}", in_quotes(text), suggestion(text, symbols_of(expected_))));
         q = *found;
         rest_.remove_prefix(n);
         return true;
@@ -215,12 +217,12 @@ class UnitParser {
     bool exponent(double& power) {
         if (take("^") || take("**")) {
             const bool parenthesis = take("(");
-            if (!number(power)) return refuse("a number is missing after \"^\" in the unit");
+            if (!number(power)) return reject("a number is missing after \"^\" in the unit");
             double below = 1;
             if (parenthesis && take("/")) {
-                if (!number(below) || below == 0) return refuse("a number is missing after \"/\" in the exponent");
+                if (!number(below) || below == 0) return reject("a number is missing after \"/\" in the exponent");
             }
-            if (parenthesis && !take(")")) return refuse("a \")\" is missing in the exponent of the unit");
+            if (parenthesis && !take(")")) return reject("a \")\" is missing in the exponent of the unit");
             power /= below;
             return true;
         }
@@ -250,23 +252,24 @@ class UnitParser {
             if (digit == kDigits.end()) break;
             value = 10 * value + static_cast<double>(digit - kDigits.begin());
         }
-        if (count == 0) return !minus || refuse("a number is missing after \"⁻\" in the unit");
+        if (count == 0) return !minus || reject("a number is missing after \"⁻\" in the unit");
         if (value > kLargestExponent) return too_large();
         power = minus ? -value : value;
         return true;
     }
 
-    bool too_large() { return refuse(fmt::format("an exponent in the unit is beyond ±{:g}", kLargestExponent)); }
+    bool too_large() { return reject(fmt::format("an exponent in the unit is beyond ±{:g}", kLargestExponent)); }
 
     static constexpr double kLargestExponent = 12;
     std::string_view rest_;
+    const Dimension* expected_;  // of the units that messages suggest
     std::string problem_;
     int depth_ = 0;
 };
 
 }  // namespace
 
-QuantityText parse_quantity(std::string_view text) {
+QuantityText parse_quantity(std::string_view text, const Dimension* expected) {
     while (text.starts_with(' ')) text.remove_prefix(1);
     while (text.ends_with(' ')) text.remove_suffix(1);
     std::string_view digits = text;
@@ -278,7 +281,7 @@ QuantityText parse_quantity(std::string_view text) {
     std::string_view unit(end, static_cast<std::size_t>(digits.data() + digits.size() - end));
     while (unit.starts_with(' ')) unit.remove_prefix(1);
     if (unit.empty()) return {Quantity{value, {}}, {}};
-    UnitParser parser(unit);
+    UnitParser parser(unit, expected);
     const auto scale = parser.parse();
     if (!scale) return {std::nullopt, parser.problem()};
     const std::string_view number(digits.data(), static_cast<std::size_t>(end - digits.data()));

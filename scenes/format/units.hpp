@@ -1,4 +1,4 @@
-// Quantities that scenes write as text: "12 mm", "300 rpm", "2.7 g/cm^3", "1e8 N/m^1.5".
+// Quantities in texts of scenes: "12 mm", "300 rpm", "2.7 g/cm^3", "1e8 N/m^1.5".
 //
 // A unit is a product of named units with exponents. Its dimension is checked against the one that the key has.
 #pragma once
@@ -19,11 +19,12 @@ struct Quantity {
     Dimension dimension;
 };
 
-// Either a quantity or the reason why the text is none, in words with a remedy.
+// A quantity, or the reason why the text is not one.
 struct QuantityText {
     std::optional<Quantity> quantity;
     std::string problem;
 };
-QuantityText parse_quantity(std::string_view text);
+// `expected`: the dimension of the units that messages suggest; null: any.
+QuantityText parse_quantity(std::string_view text, const Dimension* expected = nullptr);
 
 }  // namespace beamcam::scenes

@@ -20,9 +20,26 @@ namespace {
 
 using output::number_in;
 
-// Reasons: below 16 px nothing can be drawn, above 16384 px OpenGL's largest viewport ends.
+// Below 16 px nothing can be drawn; 16384 px is OpenGL's largest viewport.
 constexpr int kSmallestSide = 16, kLargestSide = 16384;
-constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]: players give up long before
+constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]; players fail long before
+
+// The format of a value that is always present, by the format of an optional value.
+template <class T>
+ValueFormat of_present(T& value, ValueFormat (*format)(std::optional<T>&)) {
+    std::optional<T> unused;
+    ValueFormat out = format(unused);
+    out.read = [&value, format](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<T> read = value;
+        format(read).read(r, node, key);
+        value = read.value_or(value);
+    };
+    out.write = [&value, format] {
+        std::optional<T> present = value;
+        return format(present).write();
+    };
+    return out;
+}
 
 // ---- files -------------------------------------------------------------------------------------
 
@@ -42,7 +59,9 @@ std::string problem_with_name(const std::string& name, const std::vector<const c
     if (std::ranges::find(endings, ending) == endings.end())
         return fmt::format("its name must end in {}", fmt::join(endings, " or "));
     if (numbered) return problem_with_numbering(name);
-    return name.find('#') == std::string::npos ? "" : "'#' numbers the files of \"frames\"; choose another name";
+    return name.find('#') == std::string::npos
+               ? ""
+               : "only the output \"frames\" can have '#' in its name; choose another name";
 }
 
 ValueFormat file_format(std::string& file, const std::vector<const char*>& endings, bool numbered) {
@@ -113,8 +132,8 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
     } else {
         const auto value = number_in<double>(text);
         if (!value || !(*value >= kSlowestFrameRate && *value <= kFastestFrameRate)) return std::nullopt;
-        const output::FrameRate meant = output::frame_rate(*value);  // 29.97 means 30000/1001
-        rate = {meant.rate, meant.base};
+        const output::FrameRate exact = output::frame_rate(*value);  // 29.97 means 30000/1001
+        rate = {exact.rate, exact.base};
     }
     if (rate.numerator <= 0 || rate.denominator <= 0 || rate.value() < kSlowestFrameRate ||
         rate.value() > kFastestFrameRate)
@@ -130,7 +149,7 @@ ValueFormat frame_rate_format(FrameRate& rate) {
             rate = *parsed;
         else
             r.fail(node, key,
-                   fmt::format("{} = {} is no frame rate; write {} … {} frames a second, or a fraction such as "
+                   fmt::format("{} = {} is not a frame rate; write {} … {} frames a second, or a fraction such as "
                                "\"30000/1001\"",
                                r.path(key), as_written(node), kSlowestFrameRate, kFastestFrameRate));
     };
@@ -145,7 +164,7 @@ ValueFormat frame_rate_format(FrameRate& rate) {
             read, write};
 }
 
-// ---- instants, speed ---------------------------------------------------------------------------
+// ---- instants and speed ------------------------------------------------------------------------
 
 std::optional<Instant> parse_instant(std::string_view text) {
     if (text == "last") return Instant{.kind = Instant::Kind::last};
@@ -167,47 +186,35 @@ bool names_event(std::string_view text) {
 
 namespace {
 
-void read_instant(ObjectReader& r, const Node& node, const std::string& key, std::optional<Instant>& out) {
-    double t = 0;
-    if (node.kind == Node::Kind::string && names_event(node.text)) {
-        if (const auto instant = parse_instant(node.text))
-            out = instant;
-        else
-            r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), kEventsCount));
-    } else if (r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t)) {
-        out = {.kind = Instant::Kind::time, .t = t};
-    }
-}
-
-Node written(const Instant& at) {
-    if (at.kind == Instant::Kind::time) return number_node(at.t);
+std::optional<Node> written(const std::optional<Instant>& at) {
+    if (!at) return std::nullopt;
+    if (at->kind == Instant::Kind::time) return number_node(at->t);
     for (const EventWord& event : kEventWords)
-        if (event.kind == at.kind) return text_node(fmt::format("{}:{}", event.word, at.number));
+        if (event.kind == at->kind) return text_node(fmt::format("{}:{}", event.word, at->number));
     return text_node("last");
 }
 
-constexpr const char* kInstantType =
-    "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"";
-constexpr const char* kInstantSchema = R"({"$ref": "#/$defs/instant"})";
-
 }  // namespace
 
-ValueFormat instant_format(Instant& at) {
-    const auto read = [&at](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<Instant> some = at;
-        read_instant(r, node, key, some);
-        at = *some;
-    };
-    return {kInstantType, kInstantSchema, read, [&at] { return written(at); }};
-}
-
 ValueFormat instant_format(std::optional<Instant>& at) {
-    return {kInstantType, kInstantSchema,
-            [&at](ObjectReader& r, const Node& node, const std::string& key) { read_instant(r, node, key, at); },
-            [&at] { return at ? std::optional(written(*at)) : std::nullopt; }};
+    const auto read = [&at](ObjectReader& r, const Node& node, const std::string& key) {
+        double t = 0;
+        if (node.kind == Node::Kind::string && names_event(node.text)) {
+            if (const auto instant = parse_instant(node.text))
+                at = instant;
+            else
+                r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), kEventsCount));
+        } else if (r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t)) {
+            at = {.kind = Instant::Kind::time, .t = t};
+        }
+    };
+    return {"time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"",
+            R"({"$ref": "#/$defs/instant"})", read, [&at] { return written(at); }};
 }
 
-void take_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event) {
+ValueFormat instant_format(Instant& at) { return of_present(at, instant_format); }
+
+void set_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event) {
     event.reset();
     time.reset();
     if (at.is_event())
@@ -216,28 +223,28 @@ void take_bound(const Instant& at, std::optional<double>& time, std::optional<In
         time = at.t;
 }
 
-ValueFormat bound_format(double& time, std::optional<Instant>& event) {
-    const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<Instant> some;
-        std::optional<double> given;
-        read_instant(r, node, key, some);
-        if (some) take_bound(*some, given, event);
-        if (given) time = *given;
+ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event) {
+    std::optional<Instant> unused;
+    ValueFormat out = instant_format(unused);
+    out.read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<Instant> read;
+        instant_format(read).read(r, node, key);
+        if (read) set_bound(*read, time, event);
     };
-    return {kInstantType, kInstantSchema, read, [&] { return event ? written(*event) : number_node(time); }};
+    out.write = [&] { return event ? written(event) : time ? written(Instant{.t = *time}) : std::nullopt; };
+    return out;
 }
 
-ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event) {
-    const auto read = [&](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<Instant> some;
-        read_instant(r, node, key, some);
-        if (some) take_bound(*some, time, event);
+ValueFormat bound_format(double& time, std::optional<Instant>& event) {
+    std::optional<double> unused;
+    ValueFormat out = bound_format(unused, event);
+    out.read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        std::optional<double> read;
+        bound_format(read, event).read(r, node, key);
+        time = read.value_or(time);
     };
-    const auto write = [&]() -> std::optional<Node> {
-        if (event) return written(*event);
-        return time ? std::optional(number_node(*time)) : std::nullopt;
-    };
-    return {kInstantType, kInstantSchema, read, write};
+    out.write = [&] { return event ? written(event) : written(Instant{.t = time}); };
+    return out;
 }
 
 ValueFormat speed_format(Speed& speed) {
@@ -266,52 +273,40 @@ constexpr std::pair<render::Anchor::Kind, const char*> kAnchors[] = {{render::An
                                                                      {render::Anchor::Kind::cam, "cam"},
                                                                      {render::Anchor::Kind::hub, "hub"}};
 
-void read_anchor(ObjectReader& r, const Node& node, const std::string& key, std::optional<render::Anchor>& out) {
-    if (node.kind == Node::Kind::array && node.items.size() == 2) {
-        sim::Vec2 at;
-        if (r.number_value(node.items[0], key + ".0", sim::dimension::kLength, at.x) &&
-            r.number_value(node.items[1], key + ".1", sim::dimension::kLength, at.y))
-            out = {render::Anchor::Kind::place, at};
-        return;
-    }
-    std::vector<std::string> names;
-    for (const auto& [kind, name] : kAnchors) {
-        if (node.kind == Node::Kind::string && node.text == name) return void(out = {kind, {}});
-        names.emplace_back(name);
-    }
-    r.fail(node, key,
-           fmt::format("{} = {} is neither a place [x, y] nor a part of the mechanism{}", r.path(key), as_written(node),
-                       suggestion_or_list(node.text, names)));
-}
-
 std::optional<Node> written(const std::optional<render::Anchor>& anchor) {
     if (!anchor) return std::nullopt;
     for (const auto& [kind, name] : kAnchors)
         if (anchor->kind == kind) return text_node(name);
-    return array_node({number_node(anchor->place.x), number_node(anchor->place.y)});
+    return numbers_node({anchor->place.x, anchor->place.y});
 }
-
-constexpr const char* kAnchorType = "\"all\", \"tip\", \"contact\", \"cam\", \"hub\" or [x, y]";
-constexpr const char* kAnchorSchema = R"({"$ref": "#/$defs/anchor"})";
 
 }  // namespace
 
-ValueFormat anchor_format(render::Anchor& anchor) {
-    const auto read = [&anchor](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<render::Anchor> some = anchor;
-        read_anchor(r, node, key, some);
-        anchor = *some;
-    };
-    return {kAnchorType, kAnchorSchema, read, [&anchor] { return written(std::optional(anchor)); }};
-}
-
 ValueFormat anchor_format(std::optional<render::Anchor>& anchor) {
-    return {kAnchorType, kAnchorSchema,
-            [&anchor](ObjectReader& r, const Node& node, const std::string& key) { read_anchor(r, node, key, anchor); },
+    const auto read = [&anchor](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind == Node::Kind::array && node.items.size() == 2) {
+            sim::Vec2 at;
+            if (r.number_value(node.items[0], key + ".0", sim::dimension::kLength, at.x) &&
+                r.number_value(node.items[1], key + ".1", sim::dimension::kLength, at.y))
+                anchor = {render::Anchor::Kind::place, at};
+            return;
+        }
+        std::vector<std::string> names;
+        for (const auto& [kind, name] : kAnchors) {
+            if (node.kind == Node::Kind::string && node.text == name) return void(anchor = {kind, {}});
+            names.emplace_back(name);
+        }
+        r.fail(node, key,
+               fmt::format("{} = {} is neither a place [x, y] nor a part of the mechanism{}", r.path(key),
+                           as_written(node), suggestion_or_list(node.text, names)));
+    };
+    return {"\"all\", \"tip\", \"contact\", \"cam\", \"hub\" or [x, y]", R"({"$ref": "#/$defs/anchor"})", read,
             [&anchor] { return written(anchor); }};
 }
 
-// ---- plates ------------------------------------------------------------------------------------
+ValueFormat anchor_format(render::Anchor& anchor) { return of_present(anchor, anchor_format); }
+
+// ---- colours, parts of the picture -------------------------------------------------------------
 
 static std::optional<std::uint32_t> color_of(std::string_view text) {
     if (text.size() != 7 || text.front() != '#') return std::nullopt;
@@ -325,8 +320,9 @@ ValueFormat color_format(std::optional<std::uint32_t>& color) {
     const auto read = [&color](ObjectReader& r, const Node& node, const std::string& key) {
         color = node.kind == Node::Kind::string ? color_of(node.text) : std::nullopt;
         if (!color)
-            r.fail(node, key,
-                   fmt::format("{} = {} is no colour; write one such as \"#0072b2\"", r.path(key), as_written(node)));
+            r.fail(
+                node, key,
+                fmt::format("{} = {} is not a colour; write for example \"#0072b2\"", r.path(key), as_written(node)));
     };
     const auto write = [&color]() -> std::optional<Node> {
         if (!color) return std::nullopt;
@@ -335,7 +331,7 @@ ValueFormat color_format(std::optional<std::uint32_t>& color) {
     return {"\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read, write};
 }
 
-bool take_background(std::string_view text, render::View& view) {
+bool set_background(std::string_view text, render::View& view) {
     view.transparent = text == "transparent";
     view.paper.reset();
     if (view.transparent || text == "paper") return true;
@@ -345,9 +341,9 @@ bool take_background(std::string_view text, render::View& view) {
 
 ValueFormat background_format(render::View& view) {
     const auto read = [&view](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::string || !take_background(node.text, view))
+        if (node.kind != Node::Kind::string || !set_background(node.text, view))
             r.fail(node, key,
-                   fmt::format("{} = {} is no background; write \"paper\", \"transparent\" or a colour such as "
+                   fmt::format("{} = {} is not a background; write \"paper\", \"transparent\" or a colour such as "
                                "\"#f4f1ea\"",
                                r.path(key), as_written(node)));
     };
@@ -379,7 +375,7 @@ ValueFormat show_format(render::Shown& show) {
             show = sized(*preset, show.size);
         else
             r.fail(node, key,
-                   fmt::format("{} = {} is no preset{}", r.path(key), as_written(node),
+                   fmt::format("{} = {} is not a preset{}", r.path(key), as_written(node),
                                suggestion_or_list(node.text, {std::begin(kPresets), std::end(kPresets)})));
     };
     const auto write = [&show]() -> std::optional<Node> {
@@ -392,39 +388,48 @@ ValueFormat show_format(render::Shown& show) {
 
 // ---- channels ----------------------------------------------------------------------------------
 
+std::vector<std::string> channel_names(const std::vector<sim::Channel>& channels) {
+    std::vector<std::string> names;
+    for (const sim::Channel& channel : channels) names.push_back(name(channel));
+    return names;
+}
+
+void read_channels(ObjectReader& r, const Node& node, const std::string& key, const std::vector<sim::Channel>& allowed,
+                   std::vector<sim::Channel>& out) {
+    if (node.kind != Node::Kind::array || node.items.empty())
+        return r.fail(node, key,
+                      fmt::format("{} must be an array of names such as [\"theta\", \"gap\"], not {}", r.path(key),
+                                  as_written(node)));
+    const std::vector<std::string> names = channel_names(allowed);
+    for (std::size_t i = 0; i < node.items.size(); ++i) {
+        const Node& item = node.items[i];
+        const std::string at = fmt::format("{}.{}", key, i);
+        const auto fail = [&](const std::string& problem) {
+            r.fail(item, at, fmt::format("{} = {} {}", r.path(at), as_written(item), problem));
+        };
+        const auto found = std::ranges::find(names, item.text);
+        if (item.kind != Node::Kind::string)
+            r.fail(item, at,
+                   fmt::format("{} must be the name of a channel in quotes, not {}", r.path(at), as_written(item)));
+        else if (found == names.end())
+            fail(sim::channel_named(item.text) ? "is not a coordinate of this beam"
+                                               : "is not a channel" + suggestion_or_list(item.text, names));
+        else if (const sim::Channel channel = allowed[static_cast<std::size_t>(found - names.begin())];
+                 std::ranges::find(out, channel) != out.end())
+            fail("is listed twice; remove one of them");
+        else
+            out.push_back(channel);
+    }
+}
+
 ValueFormat channels_format(std::vector<sim::Channel>& channels) {
     const auto read = [&channels](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::array || node.items.empty())
-            return r.fail(node, key,
-                          fmt::format("{} must be an array of names such as [\"theta\", \"contact_force\"], not {}",
-                                      r.path(key), as_written(node)));
-        const std::vector<sim::Channel> every = all_channels(r.context().scene.problem);
-        std::vector<std::string> known;
-        for (const sim::Channel& channel : every) known.push_back(name(channel));
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-            const Node& item = node.items[i];
-            const std::string at = fmt::format("{}.{}", key, i);
-            const auto fail = [&](const std::string& problem) {
-                r.fail(item, at, fmt::format("{} = {}{}", r.path(at), as_written(item), problem));
-            };
-            const auto found = std::ranges::find(known, item.text);
-            if (item.kind != Node::Kind::string)
-                r.fail(item, at,
-                       fmt::format("{} must be a channel's name in quotes, not {}", r.path(at), as_written(item)));
-            else if (found == known.end())
-                fail(sim::channel_named(item.text) ? ": the beam has no such coordinate"
-                                                   : " is not a channel" + suggestion_or_list(item.text, known));
-            else if (const sim::Channel channel = every[static_cast<std::size_t>(found - known.begin())];
-                     std::ranges::find(channels, channel) != channels.end())
-                fail(" stands twice; a table has each column once");
-            else
-                channels.push_back(channel);
-        }
+        read_channels(r, node, key, all_channels(r.context().scene.problem), channels);
     };
     const auto write = [&channels]() -> std::optional<Node> {
         if (channels.empty()) return std::nullopt;
         Node names = array_node();
-        for (const sim::Channel& channel : channels) names.items.push_back(text_node(name(channel)));
+        for (std::string& name : channel_names(channels)) names.items.push_back(text_node(std::move(name)));
         return names;
     };
     return {"[channel, …]",
@@ -435,9 +440,9 @@ ValueFormat channels_format(std::vector<sim::Channel>& channels) {
 std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem) {
     std::vector<SeriesPanel> panels;
     for (const sim::Channel& channel : channels) {
-        const std::string_view wanted = unit(channel, problem);
-        const auto same = std::ranges::find_if(
-            panels, [&](const SeriesPanel& panel) { return wanted == unit(panel.channels.front(), problem); });
+        const auto same = std::ranges::find(
+            panels, std::string_view(unit(channel, problem)),
+            [&](const SeriesPanel& panel) { return std::string_view(unit(panel.channels.front(), problem)); });
         if (same == panels.end())
             panels.push_back({.channels = {channel}});
         else
@@ -448,20 +453,20 @@ std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channel
 
 ValueFormat grouped_channels_format(std::vector<SeriesPanel>& panels) {
     static std::vector<sim::Channel> none;
-    ValueFormat form = channels_format(none);
-    form.read = [&panels](ObjectReader& r, const Node& node, const std::string& key) {
+    ValueFormat format = channels_format(none);
+    format.read = [&panels](ObjectReader& r, const Node& node, const std::string& key) {
         std::vector<sim::Channel> channels;
         channels_format(channels).read(r, node, key);
         panels = panels_by_unit(channels, r.context().scene.problem);
     };
-    form.write = [] { return std::nullopt; };  // the panels tell
-    return form;
+    format.write = [] { return std::nullopt; };  // the key "panels" is written instead
+    return format;
 }
 
 ValueFormat abscissa_format(std::string& against) {
     const auto read = [&against](ObjectReader& r, const Node& node, const std::string& key) {
-        std::vector<std::string> known{"turns", "phase", "frequency"};
-        for (const sim::Channel& channel : all_channels(r.context().scene.problem)) known.push_back(name(channel));
+        std::vector<std::string> known = channel_names(all_channels(r.context().scene.problem));
+        known.insert(known.begin(), {"turns", "phase", "frequency"});
         if (node.kind != Node::Kind::string || std::ranges::find(known, node.text) == known.end())
             return r.fail(node, key,
                           fmt::format("{} = {} is neither \"turns\", \"phase\", \"frequency\" nor a channel{}",

@@ -1,4 +1,4 @@
-// A scene, resolved, as the tree that reads back to it.
+// Writes a resolved scene as a tree that reads back to the same scene.
 #include "scenes/format/keys.hpp"
 
 namespace beamcam::scenes {
@@ -24,9 +24,7 @@ class Writer final : public SceneVisitor {
                  const char*) override {
         if (values.empty()) return;
         if (length.or_one_number && values.size() == 1) return put(key, number_node(values.front()));
-        Node all = array_node();
-        for (const double value : values) all.items.push_back(number_node(value));
-        put(key, std::move(all));
+        put(key, numbers_node(values));
     }
     void integer(const Key& key, std::optional<int>& value, int, int, const char*) override {
         if (value) put(key, integer_node(*value));
@@ -49,12 +47,13 @@ class Writer final : public SceneVisitor {
             return each.fields(*this);
         }
     }
-    void value(const Key& key, const ValueFormat& form, const char*) override {
+    void value(const Key& key, const ValueFormat& format, const char*) override {
         if (!key.written) return;
-        if (auto node = form.write()) put(key, std::move(*node));
+        if (auto node = format.write()) put(key, std::move(*node));
     }
-    void value_or_object(const Key& key, const ValueFormat& form, const Fields& fields, const char* meaning) override {
-        if (auto node = form.write())
+    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields,
+                         const char* meaning) override {
+        if (auto node = format.write())
             put(key, std::move(*node));
         else
             object(key, fields, meaning, nullptr);
@@ -79,11 +78,7 @@ class Writer final : public SceneVisitor {
     Node object_ = object_node();
 };
 
-}  // namespace
-
-namespace {
-
-// Visitors may write; this one does not, but takes a copy that it may.
+// Visitors take mutable structs, so this visits a copy.
 template <class Struct>
 Node written_tree(Struct visited) {
     Writer writer;

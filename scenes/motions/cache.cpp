@@ -23,10 +23,10 @@ namespace {
 
 constexpr const char* kEnding = ".trajectory";
 constexpr std::uintmax_t kMiB = 1 << 20;
-constexpr std::uintmax_t kUsualLimit = 1024 * kMiB;
-constexpr std::chrono::hours kAbandoned{1};  // a half-written file that nobody has touched for so long
+constexpr std::uintmax_t kDefaultLimit = 1024 * kMiB;
+constexpr std::chrono::hours kAbandoned{1};  // age of an unfinished file whose process must be dead
 
-// What stands behind the numbers of an entry.
+// Follows the numbers of an entry.
 struct Trailer {
     char magic[16];
     char key[64];
@@ -35,13 +35,13 @@ struct Trailer {
     std::int64_t steps;
     std::uint64_t count;    // of numbers
     std::uint32_t numbers;  // their checksum
-    std::uint32_t trailer;  // that of all before it
+    std::uint32_t trailer;  // checksum of the fields above
 };
 constexpr char kMagic[16] = {'b', 'e', 'a', 'm', 'c', 'a', 'm', ' ', 'm', 'o', 't', 'i', 'o', 'n', ' ', '1'};
 
 std::uint32_t checksum(const Trailer& t) { return output::crc32(0, &t, offsetof(Trailer, trailer)); }
 
-// The trailer, if the file ends with one of this key and has as many numbers as it says.
+// The trailer, if it has this key and the right count of numbers.
 std::optional<Trailer> read_trailer(std::ifstream& in, const std::string& key) {
     in.seekg(0, std::ios::end);
     const auto size = static_cast<std::uint64_t>(in.tellg());
@@ -66,8 +66,8 @@ bool is_entry(const fs::directory_entry& file) {
     return file.path().extension() == kEnding && file.is_regular_file(error);
 }
 
-// Half-written files that a killed process left behind.
-void sweep_abandoned(const fs::path& directory) {
+// Removes the unfinished files of killed processes.
+void remove_abandoned(const fs::path& directory) {
     std::error_code error;
     const auto now = fs::file_time_type::clock::now();
     for (const fs::directory_entry& file : fs::directory_iterator(directory, error)) {
@@ -82,7 +82,7 @@ void sweep_abandoned(const fs::path& directory) {
 
 std::optional<fs::path> cache_directory() {
     if (const char* own = variable("BEAMCAM_CACHE_DIR")) return fs::path(own);
-    // Relative paths are to be ignored (XDG Base Directory Specification).
+    // The XDG Base Directory Specification says to ignore relative paths.
     if (const char* base = variable("XDG_CACHE_HOME"); base && fs::path(base).is_absolute())
         return fs::path(base) / "beamcam";
     if (const char* home = variable("HOME"); home && fs::path(home).is_absolute())
@@ -93,7 +93,7 @@ std::optional<fs::path> cache_directory() {
 std::uintmax_t cache_limit() {
     const char* text = variable("BEAMCAM_CACHE_SIZE");
     const auto mib = output::number_in<std::uintmax_t>(text ? text : "");
-    return mib && *mib < (std::uintmax_t{1} << 40) ? *mib * kMiB : kUsualLimit;
+    return mib && *mib < (std::uintmax_t{1} << 40) ? *mib * kMiB : kDefaultLimit;
 }
 
 fs::path Cache::path_of(const std::string& key) const { return directory_ / (key + kEnding); }
@@ -107,7 +107,7 @@ std::optional<double> Cache::reach(const std::string& key) const {
 
 namespace {
 
-// Of an entry whose checksum was found right.
+// The numbers of an entry with a correct checksum.
 class EntryNumbers final : public sim::NumberSource {
   public:
     EntryNumbers(std::ifstream file, std::uint64_t count) : file_(std::move(file)), count_(count) {}
@@ -145,10 +145,10 @@ std::shared_ptr<const sim::NumberSource> Cache::load(const std::string& key, dou
     auto numbers = std::make_shared<EntryNumbers>(std::move(in), trailer->count);
     try {
         if (checksum(*numbers) != trailer->numbers) {
-            drop(key);  // else it would keep a whole one of the same length out
+            drop(key);  // else it would block a valid one of the same length
             return nullptr;
         }
-    } catch (const std::invalid_argument&) {  // cut or unreadable meanwhile
+    } catch (const std::invalid_argument&) {  // truncated in the meantime
         return nullptr;
     }
     std::error_code ignored;
@@ -185,7 +185,7 @@ const std::string& Cache::Entry::why() const { return impl_->why; }
 Cache::Entry Cache::begin(const std::string& key) const {
     Entry entry(std::unique_ptr<Entry::Impl>(new Entry::Impl{*this, key, {}, nullptr}));
     try {
-        if (limit_ == 0) throw output::IoError("the cache may not hold anything");
+        if (limit_ == 0) throw output::IoError("the cache is turned off");
         output::ensure_directory(directory_);
         entry.impl_->file = std::make_unique<output::AtomicFile>(path_of(key));
     } catch (const std::exception& error) {
@@ -198,7 +198,7 @@ void Cache::Entry::add(std::span<const double> numbers) {
     Impl& e = *impl_;
     if (!e.file) return;
     e.count += numbers.size();
-    // One that fills half of the cache would push out all the others.
+    // A larger entry would evict nearly all others.
     if (e.count * sizeof(double) > e.cache.limit_ / 2) return e.give_up("it is larger than half of the cache");
     e.sum = output::crc32(e.sum, numbers.data(), numbers.size_bytes());
     try {
@@ -212,7 +212,7 @@ bool Cache::Entry::commit(double end, long steps, const std::string& about) {
     Impl& e = *impl_;
     if (!e.file) return false;
     if (const auto other = e.cache.reach(e.key); other && *other >= end) {
-        e.give_up("a longer one is there");
+        e.give_up("the cache has a longer one");
         return false;
     }
     Trailer t{};
@@ -226,7 +226,7 @@ bool Cache::Entry::commit(double end, long steps, const std::string& about) {
     t.trailer = checksum(t);
     try {
         e.file->write({reinterpret_cast<const char*>(&t), sizeof t});
-        // Not synced: what a power cut tears the checksum tells.
+        // Without fsync: the checksum detects damage by a power failure.
         e.file->commit(output::Durability::buffered);
     } catch (const std::exception& error) {
         e.give_up(error.what());
@@ -238,7 +238,7 @@ bool Cache::Entry::commit(double end, long steps, const std::string& about) {
 }
 
 void Cache::Entry::Impl::make_room() const {
-    sweep_abandoned(cache.directory_);
+    remove_abandoned(cache.directory_);
     std::vector<Kept> all = cache.list();
     std::uintmax_t bytes = 0;
     for (const Kept& kept : all) bytes += kept.size;
@@ -259,7 +259,7 @@ std::vector<Cache::Kept> Cache::list() const {
         Kept kept;
         kept.key = file.path().stem().string();
         kept.size = file.file_size(error);
-        if (error) continue;  // gone meanwhile
+        if (error) continue;  // removed in the meantime
         kept.used = file.last_write_time(error);
         std::ifstream in(file.path(), std::ios::binary);
         if (const auto trailer = read_trailer(in, kept.key)) {

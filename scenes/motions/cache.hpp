@@ -1,9 +1,8 @@
-// Trajectories kept on disk between runs, each a file named after the motion it is of (identity.hpp).
+// The cache of trajectories on disk: one file for each motion, named by its key (identity.hpp).
 //
-// An entry is written beside its place and renamed into it, so that there is never half of one; a
-// checksum tells one that was damaged later. Processes share the directory without locks. Whatever is
-// wrong with it, an entry that cannot be read is none and one that cannot be written is not kept:
-// the cache makes runs faster, never wrong, and never fails one.
+// An entry is written to a temporary file and renamed, so entries are always complete; a checksum detects later damage.
+// Processes share the directory without locks. An unreadable entry counts as missing, and an entry that cannot be
+// written is dropped: the cache makes runs faster, but never wrong, and never makes one fail.
 #pragma once
 
 #include <cstdint>
@@ -18,31 +17,31 @@
 
 namespace beamcam::scenes {
 
-// $BEAMCAM_CACHE_DIR, else beamcam in $XDG_CACHE_HOME, else ~/.cache/beamcam; nothing without any of them.
+// $BEAMCAM_CACHE_DIR, else beamcam in $XDG_CACHE_HOME, else ~/.cache/beamcam; else nullopt.
 std::optional<std::filesystem::path> cache_directory();
-// $BEAMCAM_CACHE_SIZE in MiB, else 1024 [bytes]; 0 keeps nothing.
+// $BEAMCAM_CACHE_SIZE in MiB, else 1024 MiB [bytes]; 0 turns the cache off.
 std::uintmax_t cache_limit();
 
 class Cache {
   public:
     Cache(std::filesystem::path directory, std::uintmax_t limit) : directory_(std::move(directory)), limit_(limit) {}
 
-    // How far the kept trajectory goes [s]. Reads its last few bytes only.
+    // End of the cached trajectory [s]. Reads only the trailer of the file.
     std::optional<double> reach(const std::string& key) const;
-    // Its numbers, if it goes to `end` and is whole; null otherwise. Marks it as used. They stay readable, piece by
-    // piece, even when the entry is removed or replaced.
+    // The numbers of a valid trajectory until at least `end`, else null. Marks the entry as used. The numbers remain
+    // readable even if the entry is removed or replaced.
     std::shared_ptr<const sim::NumberSource> load(const std::string& key, double end) const;
-    // Of no use after all.
+    // Removes an entry.
     void drop(const std::string& key) const;
 
-    // An entry that is being written. Errors are remembered, not thrown.
+    // An entry that is being written. Errors are stored, not thrown.
     class Entry {
       public:
         Entry(Entry&&) noexcept;
         ~Entry();
         void add(std::span<const double> numbers);
-        // Puts it in its place, unless a longer one stands there, and makes room by removing those used
-        // longest ago. `about`: what `ls` prints. False: not kept, for the reason `why`.
+        // Publishes the entry unless the cache has a longer one, then evicts the least recently used entries. `about`:
+        // description for `ls`. False: not published, for the reason `why`.
         bool commit(double end, long steps, const std::string& about);
         const std::string& why() const;
 
@@ -62,8 +61,8 @@ class Cache {
         std::uintmax_t size = 0;  // [bytes]
         std::filesystem::file_time_type used;
     };
-    std::vector<Kept> list() const;  // the last used first
-    // Removes every entry; how many, and how many bytes.
+    std::vector<Kept> list() const;  // most recently used first
+    // Removes all entries; returns their number and bytes.
     std::pair<long, std::uintmax_t> clear() const;
 
     const std::filesystem::path& directory() const { return directory_; }

@@ -22,8 +22,8 @@ void Gate::close() {
     changed_.notify_all();
 }
 
-int thread_count(int wanted) {
-    return wanted > 0 ? wanted : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+int thread_count(int requested) {
+    return requested > 0 ? requested : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate) {
@@ -32,7 +32,7 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
     std::exception_ptr failure;
     const int most = static_cast<int>(std::clamp<long>(crew.most, 1, std::max<long>(count, 1)));
     std::mutex others_mutex;
-    std::vector<std::thread> others;  // not joined yet
+    std::vector<std::thread> others;  // to join
     std::atomic<int> working{1};
     std::function<void()> work;
 
@@ -43,7 +43,7 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
             others.emplace_back(work);
             ++working;
         } catch (const std::system_error&) {
-            // fewer threads than asked for do the same work
+            // fewer threads do the same work
         }
     };
     work = [&] {
@@ -54,7 +54,7 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
                 if (crew.more && working < most && next < count && crew.more()) start_another();
             }
         } catch (const Gate::Closed&) {
-            // the thread that closed it tells why
+            // the thread that closed it reports the reason
         } catch (...) {
             const std::lock_guard lock(failure_mutex);
             if (!failure) failure = std::current_exception();
@@ -65,7 +65,7 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
 
     for (int i = 1; i < std::min(crew.first, most); ++i) start_another();
     work();
-    for (;;) {  // one that still works may have started another meanwhile
+    for (;;) {  // a running thread may start another one
         std::thread thread;
         {
             const std::lock_guard lock(others_mutex);

@@ -1,4 +1,4 @@
-// Numbered work on several threads, and a gate that lets its results through in order.
+// Numbered tasks on several threads, and a gate that passes their results in order.
 #pragma once
 
 #include <condition_variable>
@@ -9,14 +9,14 @@
 
 namespace beamcam::scenes {
 
-// Threads pass one after the other, in the order of their numbers.
+// Lets threads pass in the order of their numbers.
 class Gate {
   public:
     struct Closed : std::runtime_error {
         Closed() : std::runtime_error("another thread failed") {}
     };
 
-    // Waits until every number before has passed, then runs `action` alone. Throws Closed after `close`.
+    // Waits until all smaller numbers have passed, then runs `action` exclusively. Throws Closed after `close`.
     void pass(long number, const std::function<void()>& action);
     void close();
 
@@ -27,21 +27,21 @@ class Gate {
     bool closed_ = false;
 };
 
-// Threads to work with, of so many wanted; 0: one for each core.
-int thread_count(int wanted);
+// Number of threads; 0 means one for each core.
+int thread_count(int requested);
 
-// What one thread does with a number. Made in that thread, so that it may own what belongs to a thread.
+// Executes one task. Created in its thread, so that it can own data of the thread.
 using Worker = std::function<void(long)>;
 
-// How many threads work: `first` from the beginning, and one more, up to `most`, whenever `more` says that it helps.
-// Threads ask that after each number, several at once.
+// The number of threads: `first` from the beginning, and one more whenever `more` returns true, up to `most`. Threads
+// call `more` concurrently, after each task.
 struct Crew {
     int first = 1, most = 1;
     std::function<bool()> more = {};
 };
 
-// Calls workers for 0 … count−1, each once; the calling thread is the first of the crew. The first exception closes the
-// gate, ends the work and is thrown here. Returns how many threads worked.
+// Executes the tasks 0 … count−1; the calling thread is the first of the crew. The first exception closes the gate,
+// ends the work and is rethrown here. Returns the number of threads.
 int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate);
 inline void fan_out(long count, int threads, const std::function<Worker()>& make_worker, Gate& gate) {
     fan_out(count, Crew{threads, threads}, make_worker, gate);

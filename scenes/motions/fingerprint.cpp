@@ -22,7 +22,7 @@ namespace {
 Fingerprint fingerprint_of_libraries() {
     Fingerprint found;
     for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
-    // Read before main, so that it cannot be taken back (main.cpp).
+    // pixman reads it before main, so main.cpp cannot remove it.
     if (const char* disabled = std::getenv("PIXMAN_DISABLE")) found.parts["PIXMAN_DISABLE"] = disabled;
     return found;
 }

@@ -1,5 +1,5 @@
-// What decides about pixels besides the program: libraries, fonts, and for lit views the OpenGL driver and the
-// processor. Digests of pictures are kept under it.
+// What determines pixels besides the program: libraries, fonts, and for lit views the OpenGL driver and the processor.
+// Digests of pictures are stored with it.
 #pragma once
 
 #include <map>
@@ -9,17 +9,17 @@ namespace beamcam::scenes {
 
 struct Fingerprint {
     std::map<std::string, std::string> parts;
-    std::string id() const;  // 12 digits: of the SHA-256 of the parts
+    std::string id() const;  // first 12 digits of the SHA-256 of the parts
 };
 
-// Of flat views. Throws render::FontError when a font is missing.
+// For flat views. Throws render::FontError if a font is missing.
 Fingerprint flat_fingerprint();
-// Of figures: other fonts, of which the Chinese one may be missing.
+// For figures: other fonts; the Chinese one may be missing.
 Fingerprint figure_fingerprint();
-// Of lit views: the same, and the driver, which is loaded for it. Throws render::GlError as well.
+// For lit views: also the driver, which this loads. Also throws render::GlError.
 Fingerprint lit_fingerprint();
 
-// The instructions that numerical libraries choose by: "avx2 fma", "none of avx2, fma, avx512".
+// The instruction sets by which numerical libraries select code: "x86-64 avx2 fma".
 std::string processor_path();
 
 }  // namespace beamcam::scenes

@@ -16,8 +16,8 @@ namespace {
 
 constexpr const char* kFile = "times";
 constexpr const char* kHeader = "beamcam times 1";
-constexpr std::size_t kMostKept = 2000;       // lines; the oldest go first
-constexpr std::uintmax_t kLongest = 1 << 20;  // [bytes] a longer file is not one of ours
+constexpr std::size_t kMostKept = 2000;       // lines; the oldest are dropped
+constexpr std::uintmax_t kLongest = 1 << 20;  // [bytes]; a longer file has another origin
 
 using Lines = std::vector<std::pair<std::string, Rate>>;
 
@@ -80,7 +80,7 @@ void History::save() {
                 fmt::format("{}\t{:.4g}\t{:.4g}\n", lines[i].first, lines[i].second.seconds, lines[i].second.amount);
         output::ensure_directory(file_.parent_path());
         output::write_file(file_, text, output::Durability::buffered);
-    } catch (const std::exception&) {  // then the next plan knows less
+    } catch (const std::exception&) {  // only estimates are lost
     }
     noted_.clear();
 }

@@ -1,5 +1,5 @@
-// What work took in earlier runs of this user, from which a plan says what the next takes: a small text file beside the
-// kept trajectories. Whatever is wrong with it, nothing is known; it decides nothing but the words of a plan.
+// The cost of work in earlier runs of this user, for the estimates of plans: a small text file beside the cache. An
+// invalid file counts as empty; it has no effect on results.
 #pragma once
 
 #include <filesystem>
@@ -13,7 +13,7 @@
 
 namespace beamcam::scenes {
 
-// What one unit of some work took: a second of motion, a picture, a number of a table.
+// Cost of one unit of work: a second of motion, a picture, a number of a table.
 struct Rate {
     double seconds = 0;
     double amount = 0;  // steps of a motion, bytes of a file
@@ -21,25 +21,24 @@ struct Rate {
 
 class History {
   public:
-    // Knows nothing and keeps nothing.
+    // Empty, without a file.
     History() = default;
     explicit History(const std::filesystem::path& directory);
 
-    // Of the first of these names of work that is known.
+    // The rate of the first known name.
     std::optional<Rate> find(const std::vector<std::string>& names) const;
-    // So many units took so long. Later runs count as much as all before them.
+    // Adds a measurement. The mean gives the latest run the same weight as all earlier ones together.
     void note(const std::vector<std::string>& names, double units, double seconds, double amount);
-    // Beside what other processes have noted meanwhile. That it fails is of no consequence.
+    // Merges with the measurements of other processes. Ignores errors.
     void save();
 
   private:
-    std::filesystem::path file_;  // empty: none
+    std::filesystem::path file_;  // may be empty
     std::map<std::string, Rate> known_;
     std::vector<std::pair<std::string, Rate>> noted_;
 };
 
-// Names of the work per second of motion: this very motion first, then those that are like it.
-// `key`: motion_key(problem).
+// Names of the work per second of motion: first of this motion, then of similar ones. `key`: motion_key(problem).
 std::vector<std::string> motion_work(const std::string& key, const sim::Problem& problem, bool read_back, bool horizon);
 
 }  // namespace beamcam::scenes

@@ -19,13 +19,13 @@
 namespace beamcam::scenes {
 namespace {
 
-// The note that the linker leaves in every program and library: a digest of its content.
+// Collects the build id, a digest of the content that the linker stores in every program and library.
 int add_build_id(dl_phdr_info* info, std::size_t, void* out) {
-    if (std::string_view(info->dlpi_name).find("linux-vdso") != std::string_view::npos) return 0;  // the kernel's
+    if (std::string_view(info->dlpi_name).find("linux-vdso") != std::string_view::npos) return 0;  // part of the kernel
     for (int i = 0; i < info->dlpi_phnum; ++i) {
         const ElfW(Phdr)& part = info->dlpi_phdr[i];
         if (part.p_type != PT_NOTE) continue;
-        // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader tells addresses as numbers
+        // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader gives addresses as numbers
         const char* at = reinterpret_cast<const char*>(info->dlpi_addr + part.p_vaddr);
         const char* end = at + part.p_memsz;
         while (at + sizeof(ElfW(Nhdr)) <= end) {
@@ -41,14 +41,14 @@ int add_build_id(dl_phdr_info* info, std::size_t, void* out) {
     return 0;
 }
 
-// The problem with all that leads to the same motion written alike.
+// Problems with the same motion become equal.
 sim::Problem canonical(sim::Problem p) {
     p.beam.basis = resolved_basis(p);
     p.contact.offset = contact_offset(p);
-    p.beam.depth = 1;  // else only drawn
+    p.beam.depth = 1;  // otherwise only drawn
     p.contact.stiffness = contact_stiffness(p);
     if (p.cam) {
-        p.cam->youngs_modulus.reset();  // of the stiffness alone
+        p.cam->youngs_modulus.reset();  // used for the stiffness only
         p.cam->poisson_ratio = 0;
     }
     return p;
@@ -76,36 +76,36 @@ std::string motion_key(const sim::Problem& problem) {
 }
 
 std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part) {
-    const Output& wanted = scene.outputs.at(output);
-    Scene alone = scene;
-    alone.outputs = {wanted};
-    const auto* figure = std::get_if<FigureOutput>(&wanted);
+    const Output& one = scene.outputs.at(output);
+    Scene inputs = scene;
+    inputs.outputs = {one};
+    const auto* figure = std::get_if<FigureOutput>(&one);
     const Recipe* recipe = figure ? recipe_named(figure->figure) : nullptr;
-    const bool sweep_film = std::holds_alternative<SweepFilmOutput>(wanted);
-    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(wanted) || (recipe && recipe->of_sweep);
+    const bool sweep_film = std::holds_alternative<SweepFilmOutput>(one);
+    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(one) || (recipe && recipe->of_sweep);
     if (of_sweep)
-        write_out_tables(*alone.sweep);
+        resolve_tables(*inputs.sweep);
     else
-        alone.sweep.reset();
-    if (is_data(wanted)) alone.title.clear();
-    if (!is_picture(wanted) && !sweep_film) alone.units = {};
-    const Extent extent = std::visit([](const auto& o) { return o.extent(); }, wanted);
-    if (extent != Extent::scene || of_sweep) alone.end_time = extent == Extent::run ? until : 0;
+        inputs.sweep.reset();
+    if (is_data(one)) inputs.title.clear();
+    if (!is_picture(one) && !sweep_film) inputs.units = {};
+    const Extent extent = std::visit([](const auto& o) { return o.extent(); }, one);
+    if (extent != Extent::scene || of_sweep) inputs.end_time = extent == Extent::run ? until : 0;
     std::string other = part;
-    const bool shows_data = is_picture(wanted) || std::holds_alternative<FigureOutput>(wanted) ||
-                            std::holds_alternative<SummaryOutput>(wanted);
-    if (!shows_data) alone.data.clear();
-    for (const Measurement& each : alone.data) other += "\n" + each.digest;
+    const bool shows_data =
+        is_picture(one) || std::holds_alternative<FigureOutput>(one) || std::holds_alternative<SummaryOutput>(one);
+    if (!shows_data) inputs.data.clear();
+    for (const Measurement& each : inputs.data) other += "\n" + each.digest;
     std::visit(
         [&other](const auto& o) {
             if constexpr (std::is_base_of_v<Picture, std::decay_t<decltype(o)>>) other += o.logo_digest;
         },
-        wanted);
-    if (figure) {  // what the scene does not say
+        one);
+    if (figure) {  // not part of the scene
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
         other += fmt::format("\n{}", epoch ? epoch : "");
     }
-    return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, to_json(alone)));
+    return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, to_json(inputs)));
 }
 
 }  // namespace beamcam::scenes

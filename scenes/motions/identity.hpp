@@ -1,5 +1,5 @@
-// What names the same work: which program this is, which motion a problem has, which inputs an output was made from.
-// Equal names mean equal bits; anything else would serve something stale.
+// Keys of results: identity of the program, of a motion, and of the inputs of an output. Equal keys mean equal bits;
+// a key that misses an input would reuse an outdated result.
 #pragma once
 
 #include <string>
@@ -8,16 +8,15 @@
 
 namespace beamcam::scenes {
 
-// Version and build of this program and of the libraries it was started with, and the instructions of the processor
-// that its mathematics picks.
+// Version and build of this program and its loaded libraries, and the instruction set that selects code paths.
 const std::string& program_identity();
 
-// SHA-256 of all that decides the motion: physics with every default resolved, and the solver's settings. Nothing that
-// is only drawn, named or asked for; not the end time either, because a shorter run is a prefix of a longer one.
+// SHA-256 of everything that determines the motion: the physics with resolved defaults and the solver's settings. It
+// excludes the end time, because a shorter run is a prefix of a longer one.
 std::string motion_key(const sim::Problem& problem);
 
-// SHA-256 of all that the files of one output depend on. `until`: how far the run goes, for outputs that tell of the
-// whole run. `part`: which frames of a film; empty: all.
+// SHA-256 of everything that the files of one output depend on. `until`: end of the run, for outputs about the whole
+// run. `part`: the frames of a film; empty: all.
 std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part);
 
 }  // namespace beamcam::scenes

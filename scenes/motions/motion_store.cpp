@@ -17,8 +17,8 @@
 namespace beamcam::scenes {
 namespace {
 
-// A motion of fewer steps is integrated again about as soon as it is read. Steps of the models that need quadrature
-// take fifty times as long as the others'.
+// A motion with fewer steps is integrated as fast as it is read. A step of the models with quadrature costs fifty times
+// as much.
 long fewest_steps(const sim::Problem& problem) {
     const sim::ModelKind model = problem.beam.model;
     return model == sim::ModelKind::exact || model == sim::ModelKind::second_order ? 20 : 500;
@@ -26,7 +26,7 @@ long fewest_steps(const sim::Problem& problem) {
 
 constexpr std::size_t kMostRemembered = std::size_t{1} << 25;  // numbers of a trajectory: 256 MiB
 
-std::string words_about(const sim::Problem& problem) {
+std::string describe(const sim::Problem& problem) {
     if (problem.beam.model == sim::ModelKind::rigid) return name(problem.beam.model);
     return fmt::format("{}, {}", name(problem.beam.model), counted(problem.beam.modes, "mode"));
 }
@@ -37,7 +37,7 @@ double latest(std::span<const sim::Request> requests) {
     return until;
 }
 
-// How far each of several runs is, as one number.
+// The sum of the progress of parallel runs.
 class ProgressSum {
   public:
     ProgressSum(std::size_t runs, Progress& progress) : reached_(runs, 0), progress_(progress) {}
@@ -127,10 +127,10 @@ void MotionStore::compute(const Group& group, const sim::Progress& progress) {
             next = end;
         }
     };
-    // Hands out what there is of a motion that need not be whole.
+    // Distributes partial results if all requests allow that.
     const auto leave_out = [&](std::string_view why, std::vector<sim::Result> reached) {
         if (!std::ranges::all_of(group, &MotionRequest::may_fail)) return false;
-        if (!reached.empty()) why = why.substr(0, why.find(';'));  // without advice, which is for a scene's own motion
+        if (!reached.empty()) why = why.substr(0, why.find(';'));  // the remedy applies to the scene's own motion only
         const bool nothing = reached.empty();
         if (nothing) reached.resize(requests.size());
         reached.front().warnings = {fmt::format("{}, {}, {} modes: {}", nothing ? "left out" : "cut short",
@@ -145,7 +145,7 @@ void MotionStore::compute(const Group& group, const sim::Progress& progress) {
         if (leave_out(error.what(), error.partials)) return;
         if (!error.partials.empty()) hand_out(error.partials, &MotionRequest::partial);
         throw;
-    } catch (const std::invalid_argument& error) {  // an impossible problem, which the figure chose itself
+    } catch (const std::invalid_argument& error) {  // an impossible problem of a figure
         if (!leave_out(error.what(), {})) throw;
     }
 }
@@ -158,7 +158,7 @@ void MotionStore::report(const Group& group) const {
             output::print_message("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
     if (options_.verbose && run.counters.steps > 0)
         output::print_message(
-            "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy closes to {:.2e} of "
+            "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy error {:.2e} J of "
             "{:.3g} J\n",
             first.label.empty() ? "" : " of ", first.label, run.counters.steps, run.counters.rhs_evaluations,
             run.impacts.size(), run.collisions.size(), run.energy_residual_max, run.energy_scale);
@@ -204,7 +204,7 @@ void MotionStore::note(const Job& job, bool read_back, double seconds, long step
 }
 
 std::optional<std::vector<sim::Result>> MotionStore::read_back(const Job& job, const sim::Progress& progress) {
-    // Events that are searched for may lie in a shorter one.
+    // A shorter trajectory may contain the events of a search.
     const bool search = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.enough.has_value(); });
     const auto replay = [&](const sim::Trajectory& trajectory) -> std::optional<std::vector<sim::Result>> {
         const bool whole = trajectory.end() >= job.until;
@@ -230,7 +230,7 @@ std::optional<std::vector<sim::Result>> MotionStore::read_back(const Job& job, c
         const std::lock_guard lock(mutex_);
         if (results) ++from_cache_;
         return results;
-    } catch (const std::invalid_argument&) {  // whole by its checksum, yet no trajectory of this motion
+    } catch (const std::invalid_argument&) {  // a valid checksum, but not a trajectory of this motion
         cache_->drop(job.key);
         return std::nullopt;
     }
@@ -252,10 +252,10 @@ std::vector<sim::Result> MotionStore::integrate(const Job& job, const sim::Progr
     effort_.add(effort);
     if (remember && writer.complete()) remembered_[job.key] = remembered;
     if (!entry || !writer.complete() || writer.steps() < fewest_steps(job.problem)) return results;
-    if (entry->commit(writer.reached(), writer.steps(), words_about(job.problem)))
+    if (entry->commit(writer.reached(), writer.steps(), describe(job.problem)))
         ++kept_;
     else if (options_.verbose)
-        output::print_message("the motion was not kept for later runs: {}\n", entry->why());
+        output::print_message("the motion was not added to the cache: {}\n", entry->why());
     return results;
 }
 

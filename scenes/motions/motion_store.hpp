@@ -1,5 +1,5 @@
-// The motions that the outputs of one call look at: each is integrated once, whoever asks, or read back from an earlier
-// run (cache.hpp). Different motions side by side on several threads.
+// The motions that the outputs of one run need: each is integrated once, or read from the cache (cache.hpp). Different
+// motions are integrated in parallel.
 #pragma once
 
 #include <cstddef>
@@ -25,23 +25,23 @@ class MotionStore {
         int threads = 1;
         bool quiet = false, verbose = false;
     };
-    // `cache` and `history`: null when there are none; they and `progress` must outlive this.
+    // `cache` and `history` may be null; they and `progress` must outlive this.
     MotionStore(const Cache* cache, History* history, Progress& progress, const Options& options)
         : cache_(cache), history_(history), progress_(progress), options_(options) {}
 
-    // Somebody wants this of a motion; `label` stands before its warnings. Returns the wish's number. A motion that all
-    // who want it can do without may fail: that is told, and its results are what it reached, or empty.
+    // Requests results of a motion and returns the number of the request. `label` precedes its warnings. `may_fail`: if
+    // all requests for the motion have it, a failure is a warning, and the results are partial or empty.
     std::size_t request(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {},
                         bool may_fail = false);
-    // Fulfils all wishes. Throws what sim::simulate throws.
+    // Computes all requests. Throws what sim::simulate throws.
     void compute();
-    // One for each request; with the bits of the run that the request had been alone.
+    // One result for each sim::Request, with the same bits as in a run for it alone.
     std::vector<sim::Result> take_results(std::size_t request) { return std::move(requests_[request].results); }
-    // What a failed integration reached; nothing where it was another motion that failed.
+    // The partial results of a failed integration; empty if another motion failed.
     const std::vector<sim::Result>& partial_results(std::size_t request) const { return requests_[request].partial; }
 
-    // At once, for whoever must know it before anything else can be asked. The motion is remembered as far as the
-    // request needs, at least until `far` [s], so that wishes until then cost no second integration.
+    // Computes a result immediately, for plans that depend on events. The trajectory is stored, at least until `far`
+    // [s], so that later requests until then need no second integration.
     sim::Result find_events(const sim::Problem& problem, const sim::Request& request, double far);
 
     const sim::Effort& effort() const { return effort_; }
@@ -57,14 +57,14 @@ class MotionStore {
         bool may_fail = false;
         std::vector<sim::Result> results, partial;
     };
-    using Group = std::vector<MotionRequest*>;  // of one motion
+    using Group = std::vector<MotionRequest*>;  // the requests for one motion
     struct Job {
         const std::string& key;
         const sim::Problem& problem;
         std::span<const sim::Request> requests;
-        double until = 0;       // the latest that they look at [s]
-        bool keep = false;      // on disk
-        bool remember = false;  // for this call
+        double until = 0;       // latest time that they need [s]
+        bool keep = false;      // in the cache
+        bool remember = false;  // in remembered_
     };
 
     std::vector<Group> groups();
@@ -80,16 +80,16 @@ class MotionStore {
     Progress& progress_;
     Options options_;
     std::deque<MotionRequest> requests_;
-    std::size_t computed_ = 0;  // so many of the first
-    // Trajectories of `find`, by motion.
+    std::size_t computed_ = 0;  // number of computed requests
+    // Trajectories of find_events, by motion.
     std::map<std::string, std::shared_ptr<const sim::NumberSource>> remembered_;
-    std::mutex mutex_;  // of the counts
+    std::mutex mutex_;  // guards the counts
     sim::Effort effort_;
     long from_cache_ = 0, kept_ = 0;
 };
 
-// Whether a trajectory pays to be kept for what is asked of it: extremes and events alone would only pay for it, and
-// the steps of ARKODE's method are more than numbers.
+// True if caching the trajectory saves time for this request. Requests for extrema and events only do not pay for it,
+// and the steps of ARKODE cannot be stored as numbers.
 bool worth_keeping(const sim::Problem& problem, const sim::Request& request);
 
 }  // namespace beamcam::scenes

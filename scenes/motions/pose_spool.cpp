@@ -8,10 +8,10 @@
 namespace beamcam::scenes {
 namespace {
 
-// A record: the time, the numbers apart from the stations, then three of each station.
-constexpr std::size_t kAlone = 19;
+// A record: the numbers of the pose, then three of each station.
+constexpr std::size_t kPoseNumbers = 19;
 
-std::array<double, kAlone> numbers_of(const sim::Pose& p) {
+std::array<double, kPoseNumbers> numbers_of(const sim::Pose& p) {
     const sim::Nearest n = p.nearest.value_or(sim::Nearest{});
     return {p.t,
             p.theta,
@@ -56,13 +56,15 @@ sim::Pose pose_of(std::span<const double> v) {
 
 }  // namespace
 
-std::uint64_t PoseSpool::place(std::size_t frame) const { return sizeof(double) * frame * (kAlone + 3 * stations_); }
+std::uint64_t PoseSpool::place(std::size_t frame) const {
+    return sizeof(double) * frame * (kPoseNumbers + 3 * stations_);
+}
 
 void PoseSpool::put(std::size_t frame, const sim::Pose& pose) {
     if (frame >= frames_ || pose.centreline.size() != stations_ || pose.moment.size() != stations_)
-        throw std::invalid_argument("a pose that there is no place for");
-    const std::array<double, kAlone> alone = numbers_of(pose);
-    std::vector<double> record(alone.begin(), alone.end());
+        throw std::invalid_argument("a pose outside the spool, or with another number of stations");
+    const std::array<double, kPoseNumbers> numbers = numbers_of(pose);
+    std::vector<double> record(numbers.begin(), numbers.end());
     for (const sim::Vec2 r : pose.centreline) record.push_back(r.x), record.push_back(r.y);
     record.insert(record.end(), pose.moment.begin(), pose.moment.end());
     spool_.write(place(frame), std::as_bytes(std::span(record)));
@@ -81,10 +83,10 @@ double PoseSpool::time(std::size_t frame) const {
 }
 
 sim::Pose PoseSpool::pose(std::size_t frame) const {
-    std::vector<double> record(kAlone + 3 * stations_);
+    std::vector<double> record(kPoseNumbers + 3 * stations_);
     spool_.read(place(frame), std::as_writable_bytes(std::span(record)));
     sim::Pose p = pose_of(record);
-    const double* at = record.data() + kAlone;
+    const double* at = record.data() + kPoseNumbers;
     p.centreline.reserve(stations_);
     for (std::size_t i = 0; i < stations_; ++i, at += 2) p.centreline.push_back({at[0], at[1]});
     p.moment.assign(at, at + stations_);

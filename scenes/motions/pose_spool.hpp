@@ -1,5 +1,5 @@
-// What a long film needs of its motions, kept in files without a name (output/spool.hpp): memory does not grow with
-// the film.
+// Poses and trajectories in unnamed temporary files (output/files/spool.hpp), so that memory does not grow with the
+// film.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@
 
 namespace beamcam::scenes {
 
-// A trajectory that grows at its end.
+// The numbers of a growing trajectory.
 class NumberSpool final : public sim::NumberSource {
   public:
     void add(std::span<const double> numbers) {
@@ -29,12 +29,13 @@ class NumberSpool final : public sim::NumberSource {
     std::uint64_t size_ = 0;
 };
 
-// So many poses of so many stations, to the bit.
+// A fixed number of poses, stored without loss.
 class PoseSpool final : public render::PoseStore {
   public:
     PoseSpool(std::size_t frames, int stations) : frames_(frames), stations_(static_cast<std::size_t>(stations)) {}
 
-    // Any frame at any time, again and again; by one thread. Throws std::invalid_argument for other stations.
+    // Frames in any order, also repeatedly, from one thread. Throws std::invalid_argument for another number of
+    // stations.
     void put(std::size_t frame, const sim::Pose& pose);
     std::size_t size() const override { return frames_; }
     double time(std::size_t frame) const override;
@@ -47,13 +48,13 @@ class PoseSpool final : public render::PoseStore {
     std::size_t frames_, stations_;
 };
 
-// So many poses at fixed instants, and those in contact, as many as come up to a limit.
+// Poses at fixed times, and poses in contact up to a limit, for the choice of scales.
 class SampledPoses final : public render::PoseStore {
   public:
     SampledPoses(std::size_t fixed, std::size_t contacts, int stations)
         : poses_(fixed + contacts, stations), fixed_(fixed), count_(fixed) {}
 
-    // By sim::PoseRequest; row 0 begins anew.
+    // Rows as in sim::PoseRequest; row 0 discards the earlier contact poses.
     void put(std::size_t row, const sim::Pose& pose);
     std::size_t size() const override { return count_; }
     double time(std::size_t k) const override { return poses_.time(k); }

@@ -10,7 +10,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// A bar is looked at, a log is read later.
+// Shortest time between two updates.
 constexpr double kBarInterval = 0.1, kPlainInterval = 5, kJsonInterval = 0.5;  // [s]
 
 std::string clock_text(double seconds) {
@@ -72,7 +72,7 @@ void Progress::end() {
     const std::lock_guard lock(mutex_);
     if (!open_) return;
     open_ = false;
-    // A stage too short to be shown leaves no trace in a log, but programs hear of each.
+    // A log omits short stages; programs get all of them.
     if (style_ == ProgressStyle::json || line_is_open_) show(done_, true);
     if (line_is_open_) std::fputc('\n', out_);
     line_is_open_ = false;

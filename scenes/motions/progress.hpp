@@ -1,6 +1,5 @@
-// The progress line on standard error: what is going on, how fast, how long still.
-//
-// One at a time; several threads may report to it. It never speaks on standard output.
+// The progress line on standard error: stage, rate and remaining time. One stage at a time; several threads may report
+// to it.
 #pragma once
 
 #include <cstdio>
@@ -16,12 +15,12 @@ namespace beamcam::scenes {
 enum class ProgressStyle {
     automatic,  // bar on a terminal, plain elsewhere
     bar,        // one line, rewritten in place
-    plain,      // a line now and then, for logs
-    json,       // an object a line, for programs
+    plain,      // a line every few seconds, for logs
+    json,       // an object per line, for programs
     none
 };
 std::optional<ProgressStyle> progress_style_named(std::string_view name);
-// What `automatic` means here: a bar needs a terminal that can rewrite a line, and no CI.
+// Replaces `automatic`: a bar on a terminal that can rewrite lines, outside CI; else plain.
 ProgressStyle resolve(ProgressStyle style);
 
 class Progress {
@@ -32,10 +31,10 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Begins a stage of `total` units ("frames", "s"); ends the one before.
+    // Begins a stage of `total` units ("frames", "s") and ends the previous one.
     void begin(std::string stage, double total, std::string unit);
-    void reach(double done);  // so much of the stage is done
-    void end();               // leaves the terminal on a clean line
+    void reach(double done);  // sets the completed units
+    void end();               // ends the line on a terminal
 
   private:
     void show(double done, bool last);

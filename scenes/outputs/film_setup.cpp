@@ -44,7 +44,7 @@ void mark_unreliable(const sim::Result& result, render::Motion& motion) {
         motion.unreliable.push_back({lost.from, lost.to});
 }
 
-// The intervals of the scene's own motion; of several motions each has its own.
+// The intervals of a single motion; compared motions have different ones.
 std::string paler_note(const render::FilmSetup& setup) {
     std::string note;
     for (const render::Range& lost : setup.unreliable) {
@@ -68,7 +68,7 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
     return out;
 }
 
-// The least accurate motion speaks for the picture.
+// The accuracy note is that of the least accurate motion.
 void add_compared(const Pictures& p, std::vector<sim::Result>& results, const std::vector<StoredPoses>& poses,
                   render::FilmSetup& setup) {
     double worst = -1;

@@ -1,4 +1,4 @@
-// From the pictures of a plan and the results of its motions to what render/ draws.
+// Converts the pictures of a plan and the results of its motions to the input of render/.
 #pragma once
 
 #include <string>
@@ -8,7 +8,7 @@
 
 namespace beamcam::scenes {
 
-// Takes poses and tables out of the results.
+// Moves poses and tables out of the results.
 render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene& scene, PlanResults& results);
 
 // "rtol 10⁻⁸ · energy closes to 2 × 10⁻⁹ · bends beyond first-order"

@@ -16,7 +16,7 @@ constexpr double kTogether = 0.5, kFilmShown = 2.5;  // [s] of the film
 struct Group {
     std::size_t first = 0, last = 0;  // impacts, from 0
     double from = 0;                  // of the film [s]
-    double force = 0;                 // [N]; 0: none is known
+    double force = 0;                 // [N]; 0: unknown
 };
 
 std::vector<Group> groups_of(const render::FilmSetup& film) {
@@ -45,7 +45,7 @@ std::string name_of(const Group& g, Lang lang) {
     return one ? fmt::format("Impact {}", g.first + 1) : fmt::format("Impacts {}–{}", g.first + 1, g.last + 1);
 }
 
-std::string words_of(const Group& g, const render::FilmSetup& film, Lang lang) {
+std::string text_of(const Group& g, const render::FilmSetup& film, Lang lang) {
     std::string text = fmt::format("{} · t = {:.4f} s", name_of(g, lang), film.impacts[g.first].t_start);
     if (g.force > 0)
         text += fmt::format("{}{}", lang == Lang::zh ? " · 最大 " : " · up to ", render::quantity(g.force, "N"));
@@ -67,7 +67,7 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
     for (std::size_t i = 0; i < groups.size(); ++i) {
         const double next = i + 1 < groups.size() ? groups[i + 1].from : end;
         out.subtitles.push_back(
-            {groups[i].from, std::min(next, groups[i].from + kFilmShown), words_of(groups[i], film, lang)});
+            {groups[i].from, std::min(next, groups[i].from + kFilmShown), text_of(groups[i], film, lang)});
         if (out.chapters.empty() && groups[i].from > 0)
             out.chapters.push_back({0, groups[i].from, lang == Lang::zh ? "开始" : "Start"});
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});

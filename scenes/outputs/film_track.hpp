@@ -1,4 +1,4 @@
-// What goes with a film's pictures in time: subtitles of its impacts and captions, and chapters at its impacts.
+// Subtitles of a film's impacts and texts, and chapters at its impacts.
 #pragma once
 
 #include <string>
@@ -18,10 +18,10 @@ struct FilmTrack {
     std::vector<Cue> subtitles;
     std::vector<output::Chapter> chapters;  // none without impacts
 };
-// Impacts that follow each other within half a second of the film are told together.
+// Impacts within half a second of film time share one subtitle.
 FilmTrack film_track(const render::FilmSetup& film, Lang lang);
 
-// As a file: WebVTT or SubRip.
+// The content of a WebVTT or SubRip file.
 std::string subtitle_file(const std::vector<Cue>& cues, Subtitles format);
 
 }  // namespace beamcam::scenes

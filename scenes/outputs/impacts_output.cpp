@@ -9,7 +9,7 @@ namespace beamcam::scenes {
 
 void ImpactsOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, {".json", ".csv"}),
-            "Name of the file; the scene's name with -impacts.json when left out.");
+            "Name of the file; by default NAME-impacts.json, where NAME is the name of the scene.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, "-impacts.json"); });
 }
 

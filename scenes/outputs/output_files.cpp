@@ -14,8 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Most pictures and films carry their scene inside; these do not.
-bool carries_no_scene(const fs::path& file) {
+// Formats without metadata for the scene.
+bool lacks_metadata(const fs::path& file) {
     static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp",
                                                     ".vtt", ".srt", ".html", ".eps", ".tif",  ".tiff"};
     return std::ranges::find(kEndings, file.extension().string()) != std::end(kEndings);
@@ -42,7 +42,7 @@ void OutputFiles::claim(const Plan& plan) {
         const fs::path folder = file.parent_path();
         if (directory.empty() && !folder.empty() && !fs::is_directory(folder, ignored))
             throw output::IoError(
-                fmt::format("{}: there is no directory {}; make it first", file.string(), folder.string()));
+                fmt::format("{}: the directory {} does not exist; create it first", file.string(), folder.string()));
         if (!directory.empty()) output::require_within(file, directory);
         context_.manifest.require_replaceable(file);
     }
@@ -57,7 +57,7 @@ std::vector<fs::path> OutputFiles::files_of(const Pictures& p) const {
         if (!p.poster_file.empty() && (!p.times_known || p.makes_poster())) all.push_back(path_of(p.poster_file));
         if (!p.subtitles_file.empty() && p.part.empty()) all.push_back(path_of(p.subtitles_file));
     } else if (!p.times_known) {
-        all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, also before their number is known
+        all.push_back(path_of(numbered_file(p.file, 0)));  // at least one, while their number is unknown
     } else {
         for (int k : p.draw) all.push_back(path_of(numbered_file(p.file, p.first_frame + k)));
     }
@@ -78,7 +78,7 @@ std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
 output::Target OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {
     output::Origin origin;
     if (output) origin.inputs = inputs_[*output];
-    if (carries_no_scene(file)) origin.version = kVersion, origin.scene = to_json(scene_);
+    if (lacks_metadata(file)) origin.version = kVersion, origin.scene = to_json(scene_);
     output::Target target = context_.manifest.target(file, std::move(origin));
     target.within = context_.options.directory;
     return target;
@@ -87,7 +87,7 @@ output::Target OutputFiles::target(const fs::path& file, std::optional<std::size
 void OutputFiles::wrote(const fs::path& file, const std::string& what) {
     count_written(file);
     context_.progress.end();
-    context_.say("wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
+    context_.print("wrote {}{}\n", file.string(), what.empty() ? "" : " (" + what + ")");
 }
 
 void OutputFiles::count_written(const fs::path& file) {
@@ -96,8 +96,8 @@ void OutputFiles::count_written(const fs::path& file) {
     context_.work.bytes_written += static_cast<long>(fs::file_size(file, ignored));
 }
 
-void OutputFiles::note_work(const std::vector<std::string>& names, double units, Clock::time_point since,
-                            const std::vector<fs::path>& made) {
+void OutputFiles::record_cost(const std::vector<std::string>& names, double units, Clock::time_point since,
+                              const std::vector<fs::path>& made) {
     double bytes = 0;
     for (const fs::path& file : made) {
         std::error_code gone;

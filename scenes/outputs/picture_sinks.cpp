@@ -36,8 +36,8 @@ class PngSink final : public PictureSink {
     void finish() override {
         if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
         to_.context.progress.end();
-        to_.context.say("wrote {} … {} ({} frames)\n", path_of(0).string(),
-                        numbered_file(p_.file, p_.first_frame + p_.draw.back()), p_.draw.size());
+        to_.context.print("wrote {} … {} ({} frames)\n", path_of(0).string(),
+                          numbered_file(p_.file, p_.first_frame + p_.draw.back()), p_.draw.size());
     }
 
   private:
@@ -49,20 +49,20 @@ class PngSink final : public PictureSink {
     const Pictures& p_;
     SinkFiles to_;
     const std::map<std::string, std::string> metadata_;
-    std::mutex mutex_;  // of the counts
+    std::mutex mutex_;  // guards the counts
 };
 
 class CallbackSink final : public PictureSink {
   public:
-    CallbackSink(const Pictures& p, const DrawCallbacks& capture) : p_(p), capture_(capture) {}
+    CallbackSink(const Pictures& p, const DrawCallbacks& callbacks) : p_(p), callbacks_(callbacks) {}
     Input input(Gate&) override {
         return
-            [this](long k, const render::Image& image, const render::DirtyTiles&) { capture_.picture(p_, k, image); };
+            [this](long k, const render::Image& image, const render::DirtyTiles&) { callbacks_.picture(p_, k, image); };
     }
 
   private:
     const Pictures& p_;
-    const DrawCallbacks& capture_;
+    const DrawCallbacks& callbacks_;
 };
 
 }  // namespace
@@ -78,15 +78,15 @@ std::map<std::string, std::string> png_metadata(const SinkFiles& to) {
 std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files) {
     return std::make_unique<PngSink>(p, files);
 }
-std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& capture) {
-    return std::make_unique<CallbackSink>(p, capture);
+std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& callbacks) {
+    return std::make_unique<CallbackSink>(p, callbacks);
 }
 
 void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context) {
     const auto count = static_cast<long>(p.draw.size());
     context.progress.begin(p.kind == Pictures::Kind::video ? "film" : "draw", static_cast<double>(count), "frames");
     Gate gate;
-    std::mutex mutex;  // of the counts and times
+    std::mutex mutex;  // guards counts and times
     long put = 0;
     const auto make_worker = [&]() -> Worker {
         const auto own = std::make_shared<render::Film>(film.another());

@@ -1,4 +1,4 @@
-// Where the pictures of a film go: into a video, into PNG files, or to a command that compares them.
+// Destinations of drawn pictures: a video, PNG files, or a command that compares them.
 #pragma once
 
 #include <functional>
@@ -9,7 +9,6 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/outputs/draw_callbacks.hpp"
 #include "scenes/outputs/film_track.hpp"
 #include "scenes/outputs/output_files.hpp"
 
@@ -17,23 +16,23 @@ namespace beamcam::scenes {
 
 class PictureSink {
   public:
-    // What one drawing thread gives its pictures to. `k` counts from 0 those that are drawn (Pictures::draw);
-    // `changed`: where the picture may differ from the one that this thread gave before.
+    // Receives the pictures of one drawing thread. `k`: index into Pictures::draw; `changed`: where the picture can
+    // differ from the previous one of this thread.
     using Input = std::function<void(long k, const render::Image& image, const render::DirtyTiles& changed)>;
 
     virtual ~PictureSink() = default;
-    // For one thread; pictures that need an order pass the gate.
+    // Creates the input of one thread; ordered output passes the gate.
     virtual Input input(Gate& gate) = 0;
-    // Takes picture k without its being drawn, where it equals the one before.
+    // True: picture k equals the previous one and was repeated without drawing.
     virtual bool repeat(long, const render::Film&, Gate&) { return false; }
     virtual Crew crew(int most) const { return {most, most}; }
-    // How many of `put` pictures are done with.
+    // Number of completed pictures, when `put` have been delivered.
     virtual double done(long put) const { return static_cast<double>(put); }
-    // All pictures are there.
+    // Called after the last picture.
     virtual void finish() {}
 };
 
-// What sinks that write files share.
+// Context of sinks that write files.
 struct SinkFiles {
     const Scene& scene;
     OutputFiles& files;
@@ -47,9 +46,9 @@ output::VideoOptions video_options(const Pictures& p);
 
 std::unique_ptr<PictureSink> make_video_sink(const Pictures& p, render::Film& film, const SinkFiles& files);
 std::unique_ptr<PictureSink> make_png_sink(const Pictures& p, const SinkFiles& files);
-std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& capture);
+std::unique_ptr<PictureSink> make_callback_sink(const Pictures& p, const DrawCallbacks& callbacks);
 
-// Draws what is asked for of a film, on several threads.
+// Draws the selected frames of a film on several threads.
 void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunContext& context);
 
 }  // namespace beamcam::scenes

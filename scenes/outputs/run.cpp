@@ -18,20 +18,20 @@ namespace {
 
 using SceneRuns = std::vector<std::unique_ptr<SceneRun>>;
 
-void refuse_clashes(std::span<const Scene> scenes) {
+void reject_clashes(std::span<const Scene> scenes) {
     FileClaims claims;
     for (std::size_t i = 0; i < scenes.size(); ++i)
         for (const Output& output : scenes[i].outputs)
             for (const std::string& file : written_by(output)) claims.add(file, i);
     for (const auto& [later, earlier] : claims.clashes())
         throw NameClash(
-            fmt::format("{} of the scene {} and {} of the scene {} are one file; give them different "
-                        "names, or run the scenes one by one with -o",
+            fmt::format("{} of the scene {} and {} of the scene {} are the same file; rename one of them, "
+                        "or run the scenes one by one with different -o",
                         later.file, scenes[later.owner].name, earlier.file, scenes[earlier.owner].name));
 }
 
-// Until when any scene wants the motion of this one [s].
-double far(const SceneRun& one, const SceneRuns& all) {
+// Latest time until which any scene needs the motion of this one [s].
+double motion_end(const SceneRun& one, const SceneRuns& all) {
     double until = 0;
     for (const auto& other : all)
         if (other->plan().simulation && other->motion() == one.motion())
@@ -43,18 +43,17 @@ void warn_of_ignored_gl_settings(const RunContext& context, const SceneRuns& all
     const std::vector<std::string>& ignored = render::ignored_gl_settings();
     const bool drawn = std::ranges::any_of(all, [](const auto& scene) { return scene->plan().needs_gl(); });
     if (drawn && !ignored.empty())
-        context.say("warning: these settings of OpenGL are ignored, lit and solid views have their own: {}\n",
-                    fmt::join(ignored, ", "));
+        context.print("warning: lit and solid views ignore these settings of OpenGL: {}\n", fmt::join(ignored, ", "));
 }
 
-void make_motions(RunContext& context, const SceneRuns& all) {
+void compute_motions(RunContext& context, const SceneRuns& all) {
     const auto start = Clock::now();
-    for (const auto& scene : all) scene->ask_for_motions();
+    for (const auto& scene : all) scene->request_motions();
     try {
         context.motions.compute();
     } catch (const sim::SolverError&) {
         try {
-            for (const auto& scene : all) scene->keep_partial_tables();
+            for (const auto& scene : all) scene->write_partial_tables();
         } catch (const output::IoError& also) {
             output::print_message("beamcam: {}\n", also.what());  // the solver's failure is the one to report
         }
@@ -74,7 +73,7 @@ void make_motions(RunContext& context, const SceneRuns& all) {
 void report_times_and_work(const RunContext& context) {
     const Times& times = context.times;
     output::print_message(
-        "time: {:.2f} s in all; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
+        "time: {:.2f} s in total; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
         "{:.2f} s, "
         "encoding {:.2f} s, other files {:.2f} s\n",
         seconds_since(context.started), times.simulate, times.draw, counted(times.threads, "thread"), times.read_back,
@@ -87,18 +86,18 @@ void report_times_and_work(const RunContext& context) {
 }  // namespace
 
 void run(std::span<const Scene> scenes, const RunOptions& options) {
-    // 1. Plan every scene, and refuse what cannot be written before any work.
-    refuse_clashes(scenes);
+    // 1. Plan every scene, and reject files that cannot be written.
+    reject_clashes(scenes);
     RunContext context(options);
     SceneRuns all;
     for (const Scene& scene : scenes) all.push_back(std::make_unique<SceneRun>(scene, context));
     for (const auto& scene : all) scene->prepare();
     warn_of_ignored_gl_settings(context, all);
     // 2. Integrate each motion once.
-    for (const auto& scene : all) scene->find_impacts(far(*scene, all));
-    make_motions(context, all);
-    for (const auto& scene : all) scene->make_sweep();
-    // 3. Write the files, and record what was written and what it took.
+    for (const auto& scene : all) scene->find_events(motion_end(*scene, all));
+    compute_motions(context, all);
+    for (const auto& scene : all) scene->compute_sweep();
+    // 3. Write the files, and record them and their cost.
     for (const auto& scene : all) scene->write_outputs();
     context.manifest.save();
     context.history.save();
@@ -106,35 +105,38 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     if (options.verbose) report_times_and_work(context);
     std::size_t outputs = 0;
     for (const Scene& scene : scenes) outputs += scene.outputs.size();
-    if (context.refused > 0)
-        throw Incomplete(fmt::format("{} of {} not made", context.refused, counted(outputs, "output")));
+    if (context.rejected > 0)
+        throw Incomplete(fmt::format("{} of {} could not be written", context.rejected, counted(outputs, "output")));
 }
 
 void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, options); }
 
-void draw(const Plan& plan, const Scene& scene, DrawCallbacks& capture, const RunOptions& options) {
+void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const RunOptions& options) {
+    // 1. Compute what the given results lack: other motions and the sweep.
     RunContext context(options);
     PlanMotions motions(plan, scene.problem, context.motions);
     motions.request_others();
     context.motions.compute();
-    PlanResults results = motions.take_results(std::move(capture.results));
-    for (std::size_t i = 0; i < plan.pictures.size() && capture.compared; ++i)
-        for (std::size_t k = 0; k < results.compared[i].size(); ++k) capture.compared(i, k, results.compared[i][k]);
+    PlanResults results = motions.take_results(std::move(callbacks.results));
+    for (std::size_t i = 0; i < plan.pictures.size() && callbacks.compared; ++i)
+        for (std::size_t k = 0; k < results.compared[i].size(); ++k) callbacks.compared(i, k, results.compared[i][k]);
     std::optional<SweepRun> sweep;
     if (!plan.sweep.empty()) {
         sweep.emplace(scene);
         sweep->make(options.threads, context.progress);
     }
+    // 2. Draw the figures.
     for (std::size_t i = 0; i < plan.figures.size(); ++i) {
+        const FigureFile& figure = plan.figures[i];
         Results of_figure = results.of_figure(i);
         if (sweep) of_figure.swept = sweep->swept();
-        capture.figure(figure_image(plan.figures[i].make(of_figure),
-                                    std::get<FigureOutput>(scene.outputs[plan.figures[i].output])));
+        callbacks.figure(figure_image(figure.make(of_figure), std::get<FigureOutput>(scene.outputs[figure.output])));
     }
+    // 3. Draw the pictures.
     for (std::size_t i = 0; i < plan.pictures.size(); ++i) {
         stop_if_interrupted();
         const render::Film film(film_setup(plan, i, scene, results));
-        draw(plan.pictures[i], film, *make_callback_sink(plan.pictures[i], capture), context);
+        draw(plan.pictures[i], film, *make_callback_sink(plan.pictures[i], callbacks), context);
     }
 }
 

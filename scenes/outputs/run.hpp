@@ -1,30 +1,34 @@
-// Makes the outputs of scenes: one simulation for each motion, then every file, pictures on several threads with the
-// same pixels whatever their number, each file whole or not at all. What is there already is left alone.
+// Writes the outputs of scenes: one simulation for each motion, then all files; pictures on several threads with the
+// same pixels whatever their number. Every file appears complete or not at all. Up-to-date files are kept.
 #pragma once
 
+#include <cstddef>
+#include <functional>
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
+#include "render/draw/image.hpp"
 #include "scenes/motions/progress.hpp"
-#include "scenes/outputs/draw_callbacks.hpp"
 #include "scenes/plan/plan.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
 
 struct RunOptions {
-    // Where the outputs' file names begin; empty: they are paths of the command line, taken as they are.
+    // Folder of the outputs; empty: the file names are paths of the command line.
     std::string directory = ".";
-    int threads = 0;        // that draw; 0: one for each core
-    bool force = false;     // replace files that beamcam did not make, and make all of them anew
-    bool no_cache = false;  // neither read nor keep trajectories
-    Selection selection;    // a part of the work
-    bool quiet = false;     // no word about what was written
+    int threads = 0;        // for drawing; 0: one for each core
+    bool force = false;     // replace foreign files, and write up-to-date files again
+    bool no_cache = false;  // do not use the cache of trajectories
+    Selection selection;    // the part of the work
+    bool quiet = false;     // do not report written files
     bool verbose = false;
     ProgressStyle progress = ProgressStyle::automatic;
 };
 
-// Some outputs could not be made, which was told; all others were.
+// Some outputs could not be written, as reported; all others were written.
 struct Incomplete : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -34,15 +38,24 @@ struct NameClash : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// "-" as a file name is standard output. Throws what sim, render and output throw, NameClash and, at
-// the end, Incomplete.
+// The file name "-" is standard output. Throws what sim, render and output throw, NameClash and, at the end,
+// Incomplete.
 void run(std::span<const Scene> scenes, const RunOptions& options);
 void run(const Scene& scene, const RunOptions& options);
 
-// Hands the pictures of a plan, settled and simulated, to whoever compares them.
-void draw(const Plan& plan, const Scene& scene, DrawCallbacks& capture, const RunOptions& options);
+// Replaces both ends of a run, for commands that compare pictures: brings results and receives images.
+struct DrawCallbacks {
+    std::vector<sim::Result> results;  // of requests_of(plan), simulated before for several plans; `draw` moves from it
+    // A frame, numbered from 0 in each output. Several threads call this concurrently, in any order.
+    std::function<void(const Pictures&, long frame, const render::Image&)> picture;
+    std::function<void(const render::Image&)> figure;  // in pixels, whatever the ending of its file
+    // A compared motion, by the index of the picture and its own index; before any picture.
+    std::function<void(std::size_t picture, std::size_t index, const sim::Result&)> compared;
+};
+// Draws the pictures and figures of a plan whose times are known.
+void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const RunOptions& options);
 
-// What `run` would do, in the light of what is there already.
+// The plan that `run` would carry out now.
 Plan plan_for(const Scene& scene, const RunOptions& options);
 
 }  // namespace beamcam::scenes

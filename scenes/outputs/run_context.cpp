@@ -10,12 +10,13 @@ void stop_if_interrupted() {
     if (output::interrupted()) throw sim::Interrupted();
 }
 
-RunContext::RunContext(const RunOptions& wanted)
-    : options(wanted),
-      progress(resolve(wanted.progress)),
-      manifest(wanted.force),
-      cache(open_cache(wanted.no_cache)),
+RunContext::RunContext(const RunOptions& run_options)
+    : options(run_options),
+      progress(resolve(run_options.progress)),
+      manifest(run_options.force),
+      cache(open_cache(run_options.no_cache)),
       history(cache ? History(cache->directory()) : History()),
-      motions(kept(), &history, progress, {thread_count(wanted.threads), wanted.quiet, wanted.verbose}) {}
+      motions(cache_or_null(), &history, progress,
+              {thread_count(run_options.threads), run_options.quiet, run_options.verbose}) {}
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// What the scenes of one call of `run` share: options, the record of files, motions, counts and times.
+// What the scenes of one `run` share: options, manifest of files, motions, counts and times.
 #pragma once
 
 #include <optional>
@@ -19,20 +19,20 @@ namespace beamcam::scenes {
 void stop_if_interrupted();  // throws sim::Interrupted
 inline bool is_stdout(const std::string& file) { return file == "-"; }
 
-// Where the time went [s], for -v; drawing is summed over threads.
+// Times of the stages [s], for -v; drawing is summed over threads.
 struct Times {
     double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;
-    int threads = 0;  // that drew
+    int threads = 0;  // for drawing
 };
 
 struct RunContext {
     explicit RunContext(const RunOptions& options);
 
-    const Cache* kept() const { return cache ? &*cache : nullptr; }
-    // A message, unless the run is quiet.
+    const Cache* cache_or_null() const { return cache ? &*cache : nullptr; }
+    // Prints a message unless the run is quiet.
     template <class... Values>
-    void say(fmt::format_string<Values...> words, Values&&... values) const {
-        if (!options.quiet) output::print_message(words, std::forward<Values>(values)...);
+    void print(fmt::format_string<Values...> text, Values&&... values) const {
+        if (!options.quiet) output::print_message(text, std::forward<Values>(values)...);
     }
 
     const RunOptions& options;
@@ -43,7 +43,7 @@ struct RunContext {
     MotionStore motions;
     output::Work work;
     Times times;
-    std::size_t refused = 0;  // outputs that cannot be made
+    std::size_t rejected = 0;  // outputs that could not be written
     Clock::time_point started = Clock::now();
 };
 

@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Rows that a failed run never reached hold nothing, not even their time.
+// Without the rows that a failed run did not reach; their values are all NaN.
 sim::Table reached_rows(const sim::Table& table) {
     sim::Table reached{table.channels, std::vector<std::vector<double>>(table.values.size())};
     for (std::size_t row = 0; row < table.rows(); ++row) {
@@ -38,36 +38,36 @@ sim::Table reached_rows(const sim::Table& table) {
 SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
-      found_(check_up_to_date(scene, context.options.selection, context.options.directory, context.manifest,
-                              context.kept(), context.options.force)),
-      plan_(scenes::plan(scene, context.options.selection, found_.existing)),
-      files_(scene, found_.inputs, context),
+      up_to_date_(check_up_to_date(scene, context.options.selection, context.options.directory, context.manifest,
+                                   context.cache_or_null(), context.options.force)),
+      plan_(scenes::plan(scene, context.options.selection, up_to_date_.existing)),
+      files_(scene, up_to_date_.inputs, context),
       motions_(plan_, scene.problem, context.motions) {}
 
 // ---- before the motions ------------------------------------------------------------------------
 
 void SceneRun::prepare() {
-    say_what_is_left();
+    report_up_to_date();
     files_.recover();
     files_.claim(plan_);
-    try_encoders();
+    check_encoders();
 }
 
-void SceneRun::say_what_is_left() {
-    for (std::size_t output : found_.existing.finished) {
+void SceneRun::report_up_to_date() {
+    for (std::size_t output : up_to_date_.existing.finished) {
         ++context_.work.files_left;
-        context_.say("left {} as it is: made from the same inputs (--force makes it anew)\n",
-                     files_.path_of(file_of(scene_.outputs[output])).string());
+        context_.print("kept {}: up to date (--force writes it again)\n",
+                       files_.path_of(file_of(scene_.outputs[output])).string());
     }
-    for (const auto& [output, frames] : found_.existing.frames) {
+    for (const auto& [output, frames] : up_to_date_.existing.frames) {
         context_.work.frames_left += static_cast<long>(frames.size());
-        context_.say("left {} frames of {} as they are: made from the same inputs\n", frames.size(),
-                     files_.path_of(file_of(scene_.outputs[output])).string());
+        context_.print("kept {} frames of {}: up to date\n", frames.size(),
+                       files_.path_of(file_of(scene_.outputs[output])).string());
     }
 }
 
-// A film of each codec is opened and dropped, so that a missing encoder is reported before anything is computed.
-void SceneRun::try_encoders() {
+// Opens and discards a film of each codec, so that a missing encoder is reported before any computation.
+void SceneRun::check_encoders() {
     std::set<output::Codec> tried;
     for (const Pictures& p : plan_.pictures)
         if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
@@ -77,26 +77,26 @@ void SceneRun::try_encoders() {
         }
 }
 
-void SceneRun::find_impacts(double far) {
+void SceneRun::find_events(double motion_end) {
     if (!plan_.events_until) return;
     const auto start = Clock::now();
     resolve_event_times(
         plan_, scene_,
         [&](const sim::Problem& problem, const sim::Request& request) {
             return context_.motions.find_events(problem, request,
-                                                &problem == &scene_.problem ? far
+                                                &problem == &scene_.problem ? motion_end
                                                 : request.enough            ? 0
                                                                             : request.end_time);
         },
-        [&](std::size_t output, const std::string& why) { refuse(output, why); });
+        [&](std::size_t output, const std::string& why) { reject(output, why); });
     context_.times.simulate += seconds_since(start);
-    files_.claim(plan_);  // now that the number of frames is known
+    files_.claim(plan_);  // the number of frames is known now
 }
 
 // ---- the sweep ---------------------------------------------------------------------------------
 
-// Until all files are written the points stand beside the first of them.
-void SceneRun::make_sweep() {
+// The points are stored beside the first file that needs them until all files are written.
+void SceneRun::compute_sweep() {
     if (plan_.sweep.empty()) return;
     if (is_stdout(plan_.sweep)) {
         sweep_ = std::make_unique<SweepRun>(scene_);
@@ -108,29 +108,27 @@ void SceneRun::make_sweep() {
             SweepPart{static_cast<std::uint64_t>(selection.shard - 1), static_cast<std::uint64_t>(selection.shards)},
             store);
         if (sweep_->dropped_others())
-            context_.say(
-                "dropped the points in {}: another sweep, or another version of beamcam, was interrupted there\n",
-                store.string());
+            context_.print("discarded the points in {}: they are of another sweep or another version of beamcam\n",
+                           store.string());
     }
     for (const Output& output : scene_.outputs)
         if (const auto* finished = std::get_if<SweepOutput>(&output);
             finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_end_states)
-            sweep_->take_from(files_.path_of(finished->file));
-    if (sweep_->points_there() > 0) context_.say("{} points are there already\n", sweep_->points_there());
+            sweep_->reuse_points_of(files_.path_of(finished->file));
+    if (sweep_->points_there() > 0) context_.print("{} points exist already\n", sweep_->points_there());
     try {
         sweep_->make(context_.options.threads, context_.progress);
     } catch (const sim::Interrupted&) {
         context_.progress.end();
         if (!is_stdout(plan_.sweep))
-            context_.say("{} points are kept; the same command goes on from there\n", sweep_->points_there());
+            context_.print("{} points are stored; the same command continues from there\n", sweep_->points_there());
         throw;
     }
-    context_.say("{}\n", sweep_->summary());
+    context_.print("{}\n", sweep_->summary());
 }
 
 // ---- files -------------------------------------------------------------------------------------
 
-// What tells of the work comes last.
 void SceneRun::write_outputs() {
     for (const DataFile& d : plan_.data)
         if (!d.reports_work) write_data(d);
@@ -139,7 +137,7 @@ void SceneRun::write_outputs() {
         attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
     for (const DataFile& d : plan_.data)
         if (d.reports_work) write_data(d);
-    if (sweep_ && !refused_) sweep_->remove();
+    if (sweep_ && !rejected_) sweep_->remove();
 }
 
 void SceneRun::write_data(const DataFile& d) {
@@ -157,7 +155,7 @@ void SceneRun::write_data(const DataFile& d) {
         const output::Target target = files_.target(file, d.output);
         from.file = &target;
         files_.wrote(file, d.write(from));
-        if (d.numbers > 0) files_.note_work(data_work(d), static_cast<double>(d.numbers), start, {file});
+        if (d.numbers > 0) files_.record_cost(data_work(d), static_cast<double>(d.numbers), start, {file});
     }
     context_.times.write += seconds_since(start);
 }
@@ -175,7 +173,7 @@ void SceneRun::write_figure(std::size_t figure) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
         files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");
     }
-    files_.note_work(figure_work(f), 1, start, {files_.path_of(f.file)});
+    files_.record_cost(figure_work(f), 1, start, {files_.path_of(f.file)});
     ++context_.work.figures_drawn;
     ++context_.work.font_sets;
     context_.times.write += seconds_since(start);
@@ -183,9 +181,9 @@ void SceneRun::write_figure(std::size_t figure) {
 
 void SceneRun::write_pictures(std::size_t picture) {
     const Pictures& p = plan_.pictures[picture];
-    if (p.draw.empty()) return;  // a shard of fewer frames than there are shards
+    if (p.draw.empty()) return;  // more shards than frames
     stop_if_interrupted();
-    warn_of_missing(p);
+    warn_of_omissions(p);
     const auto start = Clock::now();
     render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
     if (p.kind == Pictures::Kind::page) return write_document(p, render::html_page(setup));
@@ -193,26 +191,25 @@ void SceneRun::write_pictures(std::size_t picture) {
     const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
                        film_track(setup, p.picture.view.lang)};
     render::Film film(std::move(setup));
-    if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields())
-        context_.say(
-            "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
-            "far from where it touches\n",
-            p.file, film.exaggeration(), *wanted);
+    if (const auto requested = p.picture.view.exaggeration; requested && film.yields())
+        context_.print(
+            "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam inside the cam or "
+            "far from its contact\n",
+            p.file, film.exaggeration(), *requested);
     if (film.exaggeration() > 1 && !p.picture.view.show.legend)
-        context_.say("note: {} shows deflection ×{:g} and does not say so; its caption has to\n", p.file,
-                     film.exaggeration());
+        context_.print("note: {} shows deflection ×{:g} without stating it; state it in the caption\n", p.file,
+                       film.exaggeration());
     if (film.cuts_title())
-        context_.say("warning: {} shows only the beginning of the title: {}\n", p.file,
-                     why_text_is_omitted(p.picture.size));
+        context_.print("warning: {} shows only the beginning of the title: {}\n", p.file,
+                       why_text_is_omitted(p.picture.size));
     if (const int empty = film.empty_frames(); empty > 0)
-        context_.say(
-            "warning: {} shows nothing of the mechanism in {} of {}: the camera looks past it; change \"follow\" or "
-            "\"zoom\"\n",
+        context_.print(
+            "warning: the mechanism is outside the picture in {1} of {2} of {0}; change \"follow\" or \"zoom\"\n",
             p.file, empty, counted(film.frames(), "frame"));
     const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
-    files_.note_work(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()), start,
-                     files_.files_of(p));
+    files_.record_cost(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()),
+                       start, files_.files_of(p));
 }
 
 void SceneRun::write_document(const Pictures& p, const std::string& bytes) {
@@ -221,31 +218,33 @@ void SceneRun::write_document(const Pictures& p, const std::string& bytes) {
     files_.wrote(file, fmt::format("{:.0f} kB", static_cast<double>(bytes.size()) / 1000));
 }
 
-// What was asked for and the picture does not show.
-void SceneRun::warn_of_missing(const Pictures& p) const {
+// Warns about requested parts that the picture does not show.
+void SceneRun::warn_of_omissions(const Pictures& p) const {
     if (!p.omitted_panels.empty())
-        context_.say("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.picture.size));
+        context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels,
+                       why_panels_are_omitted(p.picture.size));
     constexpr std::size_t kFewFrames = 12;
     if (const std::size_t frames = plan_.times(p).size();
         (p.kind == Pictures::Kind::video || p.kind == Pictures::Kind::frames) && p.span.real_time() &&
         frames < kFewFrames)
-        context_.say("warning: {} has {}; \"duration\": \"4 s\" (speed {:.2g}) would show its {:g} s in slow motion\n",
-                     p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
+        context_.print(
+            "warning: {} has only {}; \"duration\": \"4 s\" (speed {:.2g}) would show its {:g} s in slow motion\n",
+            p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
     if (!p.unreached_events.empty())
-        context_.say("warning: {} does not show {}: not within the film\n", p.file,
-                     fmt::join(p.unreached_events, " or "));
-    if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // they draw no letters
+        context_.print("warning: {} does not show {}: outside the film\n", p.file,
+                       fmt::join(p.unreached_events, " or "));
+    if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // without text
     std::string written = scene_.title;
     for (const render::Callout& words : p.callouts) written += words.text;
     for (const Compared& motion : p.picture.compare) written += motion.label;
     if (const std::string lost = render::characters_without_font(written); !lost.empty())
-        context_.say("warning: {} leaves out {}: no font has them\n", p.file, lost);
+        context_.print("warning: {} omits {}: no font has these characters\n", p.file, lost);
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = omitted_text(p, scene_); !what.empty())
-        context_.say("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.picture.size));
+        context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.picture.size));
 }
 
-void SceneRun::keep_partial_tables() {
+void SceneRun::write_partial_tables() {
     const sim::Result* partial = motions_.partial_results();
     if (!partial) return;
     for (const DataFile& d : plan_.data) {
@@ -255,28 +254,28 @@ void SceneRun::keep_partial_tables() {
         fs::path file = files_.path_of(d.file);
         file.replace_extension(".partial.csv");
         output::write_csv(files_.target(file), reached_rows(table));
-        files_.wrote(file, "as far as the solver came");
+        files_.wrote(file, "until the solver failed");
     }
 }
 
-// ---- outputs that cannot be made ---------------------------------------------------------------
+// ---- outputs that cannot be written ------------------------------------------------------------
 
-// A picture that cannot be drawn costs its own output alone.
+// An error of a picture rejects only its own output.
 void SceneRun::attempt(std::size_t output, const std::function<void()>& work) {
     try {
         work();
     } catch (const render::PictureError& error) {
-        refuse(output, error.what());
+        reject(output, error.what());
     }
 }
 
-void SceneRun::refuse(std::size_t output, const std::string& why) {
+void SceneRun::reject(std::size_t output, const std::string& why) {
     context_.progress.end();
     const bool listed = output < scene_.output_places.size();
     output::print_message("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
                           file_of(scene_.outputs[output]), why);
-    ++context_.refused;
-    refused_ = true;
+    ++context_.rejected;
+    rejected_ = true;
 }
 
 }  // namespace beamcam::scenes

@@ -13,13 +13,17 @@ namespace beamcam::scenes {
 
 void ShapesOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, {".csv", ".npz"}),
-            "Name of the file; the scene's name with -shapes.csv when left out.");
+            "Name of the file; by default NAME-shapes.csv, where NAME is the name of the scene.");
     v.number(sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
-             "Instants at k/rate, and at the end.");
-    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Exactly these instants, in this order.");
+             "Rows at the times k/rate, and at the end.");
+    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
     v.exclusive("rate", "times");
-    v.integer("stations", stations, 2, 1001, "Places along the beam, equally spaced from its root to its tip.");
-    v.check([this](ObjectReader& r) { check_shapes(r, *this); });
+    v.integer("stations", stations, 2, 1001,
+              "Number of points along the beam, equally spaced from the root to the tip.");
+    v.check([this](ObjectReader& r) {
+        name_after_scene(r, file, "-shapes.csv");
+        limit_rows(r, rate, stations);
+    });
 }
 
 void ShapesOutput::plan(Planner& planner, std::size_t output) const {
@@ -29,7 +33,7 @@ void ShapesOutput::plan(Planner& planner, std::size_t output) const {
     std::vector<sim::PoseRequest>& poses = planner.request().poses;
     poses.push_back({.times = std::move(instants), .stations = stations});
     DataFile data{output, file, "shapes", {}};
-    data.content = fmt::format("{} places at {} instants", stations, poses.back().times.size());
+    data.content = fmt::format("{} points at {} times", stations, poses.back().times.size());
     data.numbers = 3 * static_cast<std::size_t>(stations) * poses.back().times.size();
     data.write = [index = poses.size() - 1](const DataSource& from) {
         output::NamedTable table{{"t", "x", "v"}, {{}, {}, {}}};

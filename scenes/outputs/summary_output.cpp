@@ -1,4 +1,4 @@
-// Output "summary": counts, extremes, energy balance and warnings of the run, and what was done for all outputs.
+// Output "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.
 #include "output/data/records.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/format/checks.hpp"
@@ -9,10 +9,10 @@ namespace beamcam::scenes {
 
 void SummaryOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, {".json"}),
-            "Name of the file; the scene's name with -summary.json when left out.");
-    v.boolean(
-        "horizon", horizon,
-        "State during which intervals the motion is reproducible; costs further runs, tighter and by another method.");
+            "Name of the file; by default NAME-summary.json, where NAME is the name of the scene.");
+    v.boolean("horizon", horizon,
+              "Adds the intervals in which the motion is reproducible; needs further runs with tighter tolerances and "
+              "another method.");
     v.check([this](ObjectReader& r) { name_after_scene(r, file, "-summary.json"); });
 }
 

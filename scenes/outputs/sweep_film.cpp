@@ -1,5 +1,5 @@
-// Output "sweep-film": the bifurcation diagram of the scene's sweep grows, and beside it the beam moves as it does at
-// the value that the diagram has reached.
+// Output "sweep-film": the growing bifurcation diagram of the scene's sweep, and beside it the motion at the value that
+// the diagram has reached.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,10 +36,10 @@ constexpr double kMargin = 18;          // around the diagram, at the design siz
 constexpr double kDesignWidth = 1920, kDesignHeight = 1080, kSmallestUnit = 0.5;
 constexpr double kDiagramResolution = 234;  // at the design size: letters of 8 pt are 26 pixels [1/in]
 constexpr double kMillimetresPerInch = 25.4;
-constexpr double kNarrowestDiagram = 80, kLowestDiagram = 96;  // in which axes, numbers and legends have room [mm]
-constexpr int kLongSide = 640, kShortSide = 360;               // of the smallest picture whose words can be read [px]
+constexpr double kNarrowestDiagram = 80, kLowestDiagram = 96;  // smallest that fits axes, numbers and legends [mm]
+constexpr int kLongSide = 640, kShortSide = 360;               // of the smallest picture with readable text [px]
 
-// Where the two halves of a picture stand.
+// The two halves of a picture.
 struct Halves {
     render::Box diagram, beam;
     double unit = 1;
@@ -69,8 +69,8 @@ void put(const render::Image& part, const render::Box& box, render::Image& whole
 
 constexpr render::Shown kBesideDiagram{.clock = false, .legend = false};  // beside the beam
 
-// What a film of this size has no room to write beside the beam; empty: nothing.
-std::string without_room(const Size& size) {
+// Texts beside the beam that do not fit into a film of this size; empty if all fit.
+std::string omitted_texts(const Size& size) {
     const render::Box beam = halves_of(size).beam;
     const render::Layout places =
         render::layout(static_cast<int>(beam.w), static_cast<int>(beam.h), render::LayoutNode{}, kBesideDiagram);
@@ -94,7 +94,7 @@ class SweepFilm {
           figure_(figure_output()),
           diagram_({&grid_.scene(), &data}, figure_, order_.place) {}
 
-    // Returns how many frames there are.
+    // Returns the number of frames.
     int write(const output::Target& file, Progress& progress) {
         progress.begin("motions", static_cast<double>(shots_.size()), "values");
         for (std::size_t i = 0; i < shots_.size(); ++i) {
@@ -168,7 +168,7 @@ class SweepFilm {
                                 *factor_);
         return text;
     }
-    // Every shot has the same: that which none has to yield.
+    // All shots have the same factor: the smallest that any shot needs.
     std::optional<double> smallest_factor() const {
         std::optional<double> least;
         for (const SweepShot& shot : shots_) {
@@ -206,7 +206,7 @@ class SweepFilm {
     const FigureOutput figure_;
     const GrowingDiagram diagram_;
     render::FilmSetup setup_;
-    std::optional<double> factor_;  // of deflection; absent: not known yet, or there is none
+    std::optional<double> factor_;  // of the deflection; nullopt before it is computed, or without deflection
 };
 
 void judge(ObjectReader& r, SweepFilmOutput& film) {
@@ -215,23 +215,23 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
     if (r.diagnostics().any()) return;
     if (!scene.sweep || scene.sweep->over.size() != 1)
         return r.fail(*r.node(), "type",
-                      fmt::format("{}: the scene has no \"sweep\" over one key, which it would show", r.object_name()));
+                      fmt::format("{}: the scene has no key \"sweep\" over one key; add it, or remove this output",
+                                  r.object_name()));
     const output::Codec codec = *output::default_codec(std::filesystem::path(film.file).extension().string());
-    const auto refuse = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.fail(r.place(key), key, fmt::format("{}: {}", r.path(key), problem));
+    const auto reject = [&](const char* key, const std::string& problem) {
+        if (!problem.empty()) r.fail(key, fmt::format("{}: {}", r.path(key), problem));
     };
-    refuse("size", output::size_problem(codec, film.size.width, film.size.height));
+    reject("size", output::size_problem(codec, film.size.width, film.size.height));
     if (std::max(film.size.width, film.size.height) < kLongSide ||
         std::min(film.size.width, film.size.height) < kShortSide)
-        refuse("size", fmt::format("{}x{} is too small for a diagram beside the beam: at least {}x{}", film.size.width,
-                                   film.size.height, kLongSide, kShortSide));
-    if (const std::string missing = without_room(film.size); !missing.empty())
-        r.diagnostics().warning(
-            r.has("size") ? r.place("size").place : r.node()->place,
-            fmt::format("{} leaves no room to write {}; a larger \"size\" would", r.object_name(), missing));
-    refuse("value", problem_with_value("bifurcation", film.value, scene));
-    refuse("fps", output::rate_problem(codec, film.fps.value()));
-    if (film.crf && !output::quality_scale(codec)) refuse("crf", "this codec has no quality to choose; remove it");
+        reject("size", fmt::format("{}x{} is too small for a diagram beside the beam; use at least {}x{}",
+                                   film.size.width, film.size.height, kLongSide, kShortSide));
+    if (const std::string missing = omitted_texts(film.size); !missing.empty())
+        r.diagnostics().warning(r.has("size") ? r.place("size").place : r.node()->place,
+                                fmt::format("{} is too small to show {}; increase \"size\"", r.object_name(), missing));
+    reject("value", problem_with_value("bifurcation", film.value, scene));
+    reject("fps", output::rate_problem(codec, film.fps.value()));
+    if (film.crf && !output::quality_scale(codec)) reject("crf", "this codec has no crf; remove the key");
 }
 
 }  // namespace
@@ -239,28 +239,28 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
 void SweepFilmOutput::visit(SceneVisitor& v) {
     using render::Style;
     v.value("file", file_format(file, kSweepFilmEndings),
-            "Name of the film; the scene's name with -sweep.mp4 when left out.");
+            "Name of the file; by default NAME-sweep.mp4, where NAME is the name of the scene.");
     v.value("size", size_format(size), "Width and height in pixels, even.");
-    v.value("fps", frame_rate_format(fps), "Frames a second.");
+    v.value("fps", frame_rate_format(fps), "Frames per second.");
     v.number("duration", duration, dim::kTime, between(1, 3600, "is outside 1 s … 3600 s"),
-             "How long the film lasts; each value of the key that is shown has about a second.");
+             "Duration of the film; each value of the key that it shows takes about a second.");
     v.number("turns", turns, dim::kNone, between(0.01, 20, "is outside 0.01 … 20"),
-             "Turns of the cam in a second of the film.");
+             "Turns of the cam per second of the film.");
     v.choice("style", style, {{Style::lit, "lit"}, {Style::flat, "flat"}, {Style::solid, "solid"}},
-             "How the mechanism is drawn, as in films.");
+             "Style of the mechanism, as in films.");
     v.number(written_if(exaggeration.has_value(), "exaggeration"), exaggeration, sim::kPlainNumber,
-             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor on the deflection, as in films.", "auto");
+             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor of the deflection, as in films.", "auto");
     v.choice(written_if(lang != Lang::en, "lang"), lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
-             "Language of its words.");
+             "Language of the labels.");
     v.text(written_if(!value.empty(), "value"), value,
-           "Column of the samples that the diagram shows; of impacts v_n_before, else theta when left out.");
+           "Column of the samples that the diagram shows; by default v_n_before for impacts, else theta.");
     v.integer(written_if(crf.has_value(), "crf"), crf, 0, 63, "Quality, as in films.");
     v.check([this](ObjectReader& r) { judge(r, *this); });
 }
 
 void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
     if (planner.selection().shards > 1)
-        return planner.skip(file, "a part of a sweep has no film; collect the parts first");
+        return planner.skip(file, "a part of a sweep has no film; join the parts with `beamcam collect` first");
     DataFile film{output, file, "sweep-film", {}};
     film.content = fmt::format("{} frames of {} × {}", frames_of(*this), size.width, size.height);
     film.write = [how = *this, scene = planner.scene()](const DataSource& from) {

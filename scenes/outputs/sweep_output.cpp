@@ -14,14 +14,20 @@ namespace beamcam::scenes {
 
 void SweepOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, {".nc", ".csv", ".npz"}),
-            "Name of the file; the scene's name with -sweep.nc when left out.");
-    v.check([this](ObjectReader& r) { check_sweep(r, *this); });
+            "Name of the file; by default NAME-sweep.nc, where NAME is the name of the scene.");
+    v.check([this](ObjectReader& r) {
+        name_after_scene(r, file, "-sweep.nc");
+        if (!r.context().scene.sweep && !r.diagnostics().any())
+            r.fail(*r.node(), "type",
+                   fmt::format("{}: the scene has no key \"sweep\"; add it, or remove this output", r.object_name()));
+    });
 }
 
 void SweepOutput::plan(Planner& planner, std::size_t output) const {
     DataFile data{output, file, "sweep", {}};
     if (const Selection& selection = planner.selection(); selection.shards > 1) {
-        if (!file.ends_with(".nc")) return planner.skip(file, "parts of a sweep are .nc files, which collect joins");
+        if (!file.ends_with(".nc"))
+            return planner.skip(file, "parts of a sweep must be .nc files, which `beamcam collect` joins");
         data.file = shard_file(file, selection.shard, selection.shards);
         data.part = fmt::format("{}/{}", selection.shard, selection.shards);
     }

@@ -13,7 +13,7 @@ namespace {
 constexpr double kShotLength = 1;       // of the film, at one value, about [s]
 constexpr double kGrowingShare = 0.35;  // of the time at one value
 
-// 0…1: the diagram grows to the value whose beam is seen, and waits there.
+// 0…1: the diagram grows to the value of the shot, then stops.
 double growth_at(const SweepShot& shot, int frame) {
     return std::min(1.0, double(frame + 1 - shot.first) / (shot.end - shot.first) / kGrowingShare);
 }
@@ -78,8 +78,9 @@ void follow(const SweepFilmOutput& how, const output::StoredPoint& point, SweepS
     request.end_time = request.poses.back().times.back();
     const auto goes_on = [](double) { return !output::interrupted(); };
     const std::optional<sim::InitialState> end = end_of(point);
-    sim::Result result = end ? sim::motion_from(shot.problem, *end, request, goes_on)
-                             : sim::simulate(shot.problem, request, goes_on);  // from its own start: it came to no end
+    sim::Result result =
+        end ? sim::motion_from(shot.problem, *end, request, goes_on)
+            : sim::simulate(shot.problem, request, goes_on);  // without an end state: from its own start
     shot.poses = std::move(result.poses.front());
     shot.impacts = std::move(result.impacts);
 }

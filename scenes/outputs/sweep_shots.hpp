@@ -1,4 +1,4 @@
-// The shots of a film of a sweep: at one value each, the motion of the beam there, while the diagram grows to it.
+// The shots of a film of a sweep. Each shows the motion at one value while the diagram grows to it.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@
 
 namespace beamcam::scenes {
 
-// The order in which the points come: up through the values, and down where motions were carried so.
+// The order of the points: increasing values, then decreasing ones for motions that were carried down.
 struct SweepOrder {
-    std::vector<std::uint64_t> beams;  // the point whose beam moves, at each place of the order
+    std::vector<std::uint64_t> beams;  // the point whose motion is shown, at each place of the order
     std::vector<std::size_t> place;    // of each point
 };
 SweepOrder sweep_order(const SweepGrid& grid);
@@ -21,22 +21,22 @@ SweepOrder sweep_order(const SweepGrid& grid);
 // Frames at one value.
 struct SweepShot {
     int first = 0, end = 0;
-    std::size_t from = 0, last = 0;  // places by which the diagram grows meanwhile
-    std::uint64_t point = 0;         // whose beam is seen
+    std::size_t from = 0, last = 0;  // places by which the diagram grows
+    std::uint64_t point = 0;         // whose motion is shown
     sim::Problem problem;
     std::vector<sim::Pose> poses;
     std::vector<sim::Impact> impacts;
 
-    // How far the diagram has grown, by whole steps of `hold` frames, so that few diagrams are drawn.
+    // The place that the diagram has reached; it changes every `hold` frames, so that few diagrams are drawn.
     std::size_t grown(int frame, int hold) const;
 };
 
 int frames_of(const SweepFilmOutput& how);
 std::vector<SweepShot> sweep_shots(const SweepFilmOutput& how, const SweepGrid& grid, const SweepOrder& order);
-// Computes the shot's motion. The cam turns evenly through all shots: each begins where it stands then.
+// Computes the shot's motion. The cam angle is continuous from shot to shot.
 void follow(const SweepFilmOutput& how, const output::StoredPoint& point, SweepShot& shot);
 
-// All poses of the film, by which scales and camera are chosen.
+// All poses of the film, for the choice of scales and camera.
 class SweepPoses final : public render::PoseStore {
   public:
     explicit SweepPoses(const std::vector<SweepShot>& shots);

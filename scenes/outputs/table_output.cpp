@@ -16,14 +16,18 @@ namespace beamcam::scenes {
 namespace dim = sim::dimension;
 
 void TrajectoryOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".csv", ".npz"}), "Name of the file; the scene's name with .csv when left out.");
+    v.value("file", file_format(file, {".csv", ".npz"}),
+            "Name of the file; by default NAME.csv, where NAME is the name of the scene.");
     v.value("channels", channels_format(channels),
-            "Columns in this order; the time always comes first. All when left out.");
+            "Columns, in this order; the time is always the first. By default all channels.");
     v.number(sim::written_if(times.empty(), "rate"), rate, dim::kFrequency, sim::kPositive,
-             "Rows at k/rate, and at the end.");
-    v.numbers("times", times, dim::kTime, kFromStart, {1}, "Exactly these rows, in this order.");
+             "Rows at the times k/rate, and at the end.");
+    v.numbers("times", times, dim::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
     v.exclusive("rate", "times");
-    v.check([this](ObjectReader& r) { check_table(r, *this); });
+    v.check([this](ObjectReader& r) {
+        name_after_scene(r, file, ".csv");
+        limit_rows(r, rate, 1);
+    });
 }
 
 namespace {

@@ -12,7 +12,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// What a film's players show, in the keys that MP4 knows.
+// Metadata with the keys of MP4.
 std::map<std::string, std::string> film_metadata(const Pictures& p, const SinkFiles& to) {
     std::map<std::string, std::string> all = {{"comment", fmt::format("made by beamcam {}", kVersion)},
                                               {"beamcam-scene", to_json(to.scene)},
@@ -23,7 +23,7 @@ std::map<std::string, std::string> film_metadata(const Pictures& p, const SinkFi
     return all;
 }
 
-// A GIF's colours are those of a few of its frames.
+// The palette of a GIF, from some of its frames.
 std::vector<std::uint32_t> palette_of(render::Film& film) {
     constexpr int kSamples = 16;
     output::PaletteMaker maker;
@@ -44,13 +44,13 @@ output::VideoOptions options_of(const Pictures& p, render::Film& film, const Sin
     return options;
 }
 
-// Whether the encoder waits for pictures: then another thread that draws them helps. One that is not needed costs: it
-// keeps a picture of its own, in which it has to draw what moved since the last one it drew.
+// Decides whether another drawing thread helps, because the encoder waits for pictures. An unnecessary thread costs
+// time: it has to draw every change since its own last picture.
 class EncoderBacklog {
   public:
-    explicit EncoderBacklog(const output::VideoWriter& film) : film_(film) {}  // which outlives it
+    explicit EncoderBacklog(const output::VideoWriter& film) : film_(film) {}  // `film` must outlive this
 
-    // The encoder has been idle for most of the time since the last answer. Asked by several threads.
+    // True if the encoder was idle for most of the time since the last call. Several threads call this.
     bool operator()() {
         const std::lock_guard lock(mutex_);
         const output::VideoStatistics now = film_.statistics();
@@ -63,13 +63,13 @@ class EncoderBacklog {
     }
 
   private:
-    // An encoder takes its first pictures without encoding any: it looks ahead. Then, windows of so many.
+    // The encoder buffers its first pictures for its lookahead; after them the window of observation.
     static constexpr long kFirst = 48, kWindow = 16;
 
     const output::VideoWriter& film_;
     std::mutex mutex_;
-    long asked_ = 0;   // pictures encoded at the last answer; 0: none yet
-    double idle_ = 0;  // until then [s]
+    long asked_ = 0;   // pictures encoded at the last evaluation
+    double idle_ = 0;  // idle time until then [s]
     Clock::time_point then_;
 };
 
@@ -93,14 +93,14 @@ class VideoSink final : public PictureSink {
             gate.pass(k, [&] { converter->send(); });
         };
     }
-    // Not where it is wanted beside the film.
+    // A poster is always drawn.
     bool repeat(long k, const render::Film& film, Gate& gate) override {
         const auto at = static_cast<std::size_t>(k);
         if (k == 0 || p_.draw[at] != p_.draw[at - 1] + 1 || !film.repeats(p_.draw[at]) || is_poster(at)) return false;
         gate.pass(k, [&] { video_.repeat(); });
         return true;
     }
-    // An encoder has its own threads; few have to draw to keep it busy.
+    // The encoder has its own threads; a few drawing threads keep it busy.
     Crew crew(int most) const override {
         if (p_.picture.view.style == render::Style::solid) return {most, most};
         const int share = p_.picture.view.style == render::Style::flat ? 4 : 2;

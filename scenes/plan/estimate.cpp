@@ -11,7 +11,7 @@ namespace beamcam::scenes {
 
 std::vector<std::string> picture_work(const Pictures& p, int threads) {
     std::string how = fmt::format("{} {}", kind_name(p.kind), view_name(p.picture.view));
-    if (p.kind == Pictures::Kind::video) how += ", " + encoding_words(p.encoding);
+    if (p.kind == Pictures::Kind::video) how += ", " + encoding_text(p.encoding);
     if (!p.compared.empty()) how += fmt::format(", {} motions", p.compared.size());
     return {fmt::format("{}, {} x {}, {} threads", how, p.picture.size.width, p.picture.size.height, threads)};
 }

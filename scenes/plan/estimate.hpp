@@ -1,4 +1,4 @@
-// What the work of a plan takes, by what it took in earlier runs.
+// Estimates the cost of a plan from earlier runs.
 #pragma once
 
 #include <string>
@@ -9,12 +9,12 @@
 
 namespace beamcam::scenes {
 
-// Names of work: this kind of picture first, then those that are like it.
+// Names of work in the history, from the most specific to the most general.
 std::vector<std::string> picture_work(const Pictures& pictures, int threads);  // per picture
 std::vector<std::string> figure_work(const FigureFile& figure);                // per figure
 std::vector<std::string> data_work(const DataFile& data);                      // per number
 
-// Puts what past runs tell into the plan.
+// Fills the costs of the plan.
 void estimate(Plan& plan, const Scene& scene, const History& history, int threads);
 
 }  // namespace beamcam::scenes

@@ -7,7 +7,8 @@
 namespace beamcam::scenes {
 namespace {
 
-// A rebound's apex is known when the next collision begins. Nothing where all of the motion is looked at.
+// The events after which the run may end. The apex of a rebound is certain when the next collision begins. nullopt: the
+// whole motion is needed.
 std::optional<sim::EventCounts> enough_for(const Bounds& bounds) {
     sim::EventCounts enough;
     const auto raise = [](std::size_t& count, int number) {
@@ -54,7 +55,7 @@ sim::Result find_events(const sim::Problem& problem, sim::Request request, const
     sim::Result found = find(problem, request);
     const auto lacks = [&](const std::optional<Instant>& at) { return at && !find_instant(*at, found); };
     if (!(found.end_time < request.end_time) || std::ranges::none_of(bounds, lacks)) return found;
-    request.enough.reset();  // two collisions had no apex between them
+    request.enough.reset();  // two successive collisions had no apex between them
     return find(problem, request);
 }
 

@@ -1,4 +1,4 @@
-// A first look at a motion, for the instants of its events: no further than those that are asked for.
+// A first run of a motion that finds the times of its events, and ends as soon as the needed ones are found.
 #pragma once
 
 #include <optional>
@@ -8,14 +8,14 @@
 
 namespace beamcam::scenes {
 
-using Bounds = std::vector<std::optional<Instant>>;  // where something begins or ends; absent: not at an event
+using Bounds = std::vector<std::optional<Instant>>;  // events at which outputs begin or end
 
 Bounds bounds_of(const Pictures& p);
 Bounds bounds_of(const SeriesKeys& keys);
 
 sim::Request events_request(double end, bool apexes);
 
-// The motion as far as the request looks, or until it has all of these bounds; none: it is looked at until its end.
+// The motion until the end of the request, or until all bounds are found. Without bounds: until the end.
 sim::Result find_events(const sim::Problem& problem, sim::Request request, const Bounds& bounds,
                         const FindEvents& find);
 

@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 
 void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& how) {
     const Recipe* recipe = recipe_named(how.figure);
-    if (!recipe) throw std::logic_error("a figure that the reader does not know: " + how.figure);
+    if (!recipe) throw std::logic_error("unknown figure: " + how.figure);
     Studies studies;
     figure.make = [make = recipe->prepare(scene, how, studies), height = how.series.height](const Results& results) {
         render::figure::Figure made = make(results);
@@ -32,7 +32,7 @@ bool needs_apexes(const FigureOutput& how) {
 }
 
 FigureOutput with_event_times(FigureOutput how, const sim::Result& motion, double end_time) {
-    const auto words = [](const std::optional<Instant>& event, double t) {
+    const auto text = [](const std::optional<Instant>& event, double t) {
         return event ? fmt::format("{} at {:g} s", name_of(*event), t) : fmt::format("{:g} s", t);
     };
     const auto from_event = how.series.from_event, to_event = how.series.to_event;
@@ -41,8 +41,8 @@ FigureOutput with_event_times(FigureOutput how, const sim::Result& motion, doubl
         series.from = at->kind == Instant::Kind::last ? end_time : instant_of(*at, motion), series.to = series.from;
     const double end = series.to.value_or(end_time);
     if (!(series.from < end) && !(how.figure == "strobe" && series.from == end))
-        throw render::PictureError(fmt::format("figure {}: its begin, {}, is not before its end, {}", how.figure,
-                                               words(from_event, series.from), words(to_event, end)));
+        throw render::PictureError(fmt::format("figure {}: \"from\" = {} is not before \"to\" = {}", how.figure,
+                                               text(from_event, series.from), text(to_event, end)));
     how.series = std::move(series);
     return how;
 }

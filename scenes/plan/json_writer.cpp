@@ -1,4 +1,4 @@
-// JSON that scenes/ writes: a resolved scene in its own format, and a plan.
+// The plan as JSON.
 #include <nlohmann/json.hpp>
 
 #include "scenes/plan/plan.hpp"

@@ -14,8 +14,9 @@
 namespace beamcam::scenes {
 namespace {
 
-// A still of an instant is chosen by what led to it; one of an impact, which is found in the whole motion, by that.
-double surveyed_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
+// End of the motion that determines the scales of a still [s]: its instant, or the end of the scene if it shows an
+// event.
+double scales_until(const Pictures& p) { return p.at.kind == Instant::Kind::time ? p.at.t : p.end_time; }
 
 void end_at_event(Pictures& p, const sim::Result& motion) {
     if (!p.ends_at_event()) return;
@@ -38,7 +39,7 @@ FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& moti
     return times;
 }
 
-// Slow around the impacts of all that is shown; "impact:N" counts those of the first.
+// Slow motion is around the impacts of all motions; "impact:N" counts those of the first motion.
 FilmTimes times_of_compared(Pictures& p, const FindEvents& find) {
     const sim::Result first = find_events(p.compared.front().problem, events_request(p.end_time, needs_apexes(p)),
                                           p.ends_at_event() ? bounds_of(p) : Bounds(), find);
@@ -51,7 +52,7 @@ FilmTimes times_of_compared(Pictures& p, const FindEvents& find) {
     }
     std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
     return with_moves(p,
-                      p.kind == Pictures::Kind::still ? still_times(p.at, first, surveyed_until(p))
+                      p.kind == Pictures::Kind::still ? still_times(p.at, first, scales_until(p))
                                                       : film_times(p.span, p.end_time, first, all),
                       first);
 }
@@ -59,14 +60,14 @@ FilmTimes times_of_compared(Pictures& p, const FindEvents& find) {
 }  // namespace
 
 FrameRate rate_of_page(FrameRate fps, double from, double to) {
-    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // of a short motion; [Hz]
+    constexpr double kFewestPoses = 1000, kHighestRate = 1e9;  // [Hz]
     const double rate = kFewestPoses / std::max(to - from, 1e-9);
     return rate > fps.value() ? FrameRate{static_cast<int>(std::min(std::ceil(rate), kHighestRate)), 1} : fps;
 }
 
 FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
     return with_moves(p,
-                      p.kind == Pictures::Kind::still ? still_times(p.at, motion, surveyed_until(p), p.collisions)
+                      p.kind == Pictures::Kind::still ? still_times(p.at, motion, scales_until(p), p.collisions)
                                                       : film_times(p.span, p.end_time, motion, p.collisions),
                       motion);
 }
@@ -87,7 +88,7 @@ void choose_frames(Pictures& p, const FilmTimes& times) {
         p.part = fmt::format("{}:{} of {}:{}", from, to, begin, end);
     p.draw.clear();
     for (long k = from; k < to; ++k)
-        if (!p.there.contains(k)) p.draw.push_back(static_cast<int>(k - begin));
+        if (!p.existing.contains(k)) p.draw.push_back(static_cast<int>(k - begin));
 }
 
 void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
@@ -123,17 +124,17 @@ bool needs_apexes(const Plan& plan, const Scene& scene) {
            std::ranges::any_of(plan.figures, figure_does);
 }
 
-// What cannot be settled is refused, and leaves the list.
+// An output whose events do not occur is rejected and removed.
 template <class T, class Resolve>
-void resolve_each(std::vector<T>& all, const RejectOutput& refuse, const Resolve& resolve) {
+void resolve_each(std::vector<T>& all, const RejectOutput& reject, const Resolve& resolve) {
     for (T& each : all) {
         if (each.times_known) continue;
         try {
             resolve(each);
             each.times_known = true;
         } catch (const render::PictureError& error) {
-            if (!refuse) throw;
-            refuse(each.output, error.what());
+            if (!reject) throw;
+            reject(each.output, error.what());
         }
     }
     std::erase_if(all, [](const T& each) { return !each.times_known; });
@@ -141,7 +142,7 @@ void resolve_each(std::vector<T>& all, const RejectOutput& refuse, const Resolve
 
 }  // namespace
 
-void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find, const RejectOutput& refuse) {
+void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find, const RejectOutput& reject) {
     Bounds bounds;
     const auto add_bounds = [&](const Bounds& more) { bounds.insert(bounds.end(), more.begin(), more.end()); };
     for (const Pictures& p : plan.pictures)
@@ -157,14 +158,14 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
                 find_events(scene.problem, events_request(*plan.events_until, needs_apexes(plan, scene)), bounds, find);
         return *found;
     };
-    resolve_each(plan.pictures, refuse, [&](Pictures& p) {
+    resolve_each(plan.pictures, reject, [&](Pictures& p) {
         sim::Request none;
         if (!p.compared.empty()) return put_times(p, none, times_of_compared(p, find));
         end_at_event(p, own());
         put_times(p, plan.simulation->request, times_of(p, own()));
         plan.simulation->simulate_until(p.end_time, p.file);
     });
-    resolve_each(plan.figures, refuse, [&](FigureFile& f) {
+    resolve_each(plan.figures, reject, [&](FigureFile& f) {
         const FigureOutput& how = output_of(f, scene);
         const bool of_scene = how.series.compare.empty();
         prepare_figure(f, scene,

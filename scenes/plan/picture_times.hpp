@@ -1,4 +1,4 @@
-// The instants of a picture: at once where its keys say them, after a first look at the motion where impacts do.
+// The times of pictures. They are known from the keys, or after a first run if they depend on events.
 #pragma once
 
 #include "scenes/plan/plan.hpp"
@@ -6,14 +6,14 @@
 
 namespace beamcam::scenes {
 
-// `motion`: where the impacts are; empty for pictures that are settled.
+// `motion` contains the events; it is empty for pictures whose times are known.
 FilmTimes times_of(const Pictures& p, const sim::Result& motion);
-// Chooses which of the frames are drawn: those asked for and not there yet.
+// Chooses the frames to draw: the selected ones that are not up to date.
 void choose_frames(Pictures& p, const FilmTimes& times);
-// Puts the instants where the motions are asked for them; `request` is that of the scene's own.
+// Adds the times to the requests for the motions; `request` is that of the scene's motion.
 void put_times(Pictures& p, sim::Request& request, FilmTimes times);
 
-// Of a page that goes from one instant to the other [s]: `fps`, or more where the motion is short.
+// Poses per second of a page between two times [s]: `fps`, or more for a short motion.
 FrameRate rate_of_page(FrameRate fps, double from, double to);
 
 }  // namespace beamcam::scenes

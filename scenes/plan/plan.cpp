@@ -93,13 +93,12 @@ void assign_ends(Plan& plan) {
 }
 
 std::string why_panels_are_omitted(const Size& size) {
-    return fmt::format(
-        "{} × {} is too small for them; a larger \"size\", larger shares or fewer panels would show them", size.width,
-        size.height);
+    return fmt::format("{} × {} is too small for them; increase \"size\" or their shares, or remove panels", size.width,
+                       size.height);
 }
 
 std::string why_text_is_omitted(const Size& size) {
-    return fmt::format("{} × {} leaves no room to write them; a larger \"size\" would", size.width, size.height);
+    return fmt::format("{} × {} is too small for them; increase \"size\"", size.width, size.height);
 }
 
 std::string omitted_text(const Pictures& p, const Scene& scene) {
@@ -121,7 +120,7 @@ void add_omitted_text(Plan& plan, const Scene& scene) {
             if (const std::string what = omitted_text(p, scene); !what.empty())
                 notes.push_back({fmt::format("{} on {}", what, p.file), why_text_is_omitted(p.picture.size)});
     } catch (const render::FontError&) {
-        return;  // told by whoever draws
+        return;  // drawing reports this
     }
     plan.skipped.insert(plan.skipped.begin(), notes.begin(), notes.end());
 }

@@ -1,4 +1,4 @@
-// A plan in words.
+// The plan as text.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -38,26 +38,25 @@ const char* kind_name(Pictures::Kind kind) {
     return "?";
 }
 
-std::string encoding_words(const Encoding& encoding) {
-    std::string words = output::title(encoding.codec);
-    if (encoding.crf) words += fmt::format(", crf {}", *encoding.crf);
-    if (encoding.codec == output::Codec::h264) words += ", " + encoding.preset;
-    if (encoding.variable_rate) words += ", variable frame rate";
-    return words;
+std::string encoding_text(const Encoding& encoding) {
+    std::string text = output::title(encoding.codec);
+    if (encoding.crf) text += fmt::format(", crf {}", *encoding.crf);
+    if (encoding.codec == output::Codec::h264) text += ", " + encoding.preset;
+    if (encoding.variable_rate) text += ", variable frame rate";
+    return text;
 }
 
 namespace {
 
-std::string model_words(const sim::Problem& problem) {
-    std::string words = name(problem.beam.model);
+std::string model_text(const sim::Problem& problem) {
+    std::string text = name(problem.beam.model);
     const sim::ModelKind model = problem.beam.model;
     if (model == sim::ModelKind::exact)
-        words += fmt::format(", {} shape functions", problem.beam.modes);
+        text += fmt::format(", {} shape functions", problem.beam.modes);
     else if (model != sim::ModelKind::rigid)
-        words +=
-            fmt::format(", {}", counted(problem.beam.modes, fmt::format("{} mode", name(resolved_basis(problem)))));
-    words += problem.cam ? fmt::format(", {} contact", name(problem.contact.model)) : ", no contact";
-    return words;
+        text += fmt::format(", {}", counted(problem.beam.modes, fmt::format("{} mode", name(resolved_basis(problem)))));
+    text += problem.cam ? fmt::format(", {} contact", name(problem.contact.model)) : ", no contact";
+    return text;
 }
 
 // Two digits: "0.31", "5200".
@@ -72,7 +71,7 @@ std::string motion_cost(const std::optional<Cost>& cost) {
     return cost ? fmt::format("; about {} s, {} steps", about(cost->seconds), about(cost->amount)) : "";
 }
 
-std::string size_words(double bytes) {
+std::string size_text(double bytes) {
     return bytes < 1e6   ? about(std::max(1.0, bytes / 1e3)) + " kB"
            : bytes < 1e9 ? about(bytes / 1e6) + " MB"
                          : about(bytes / 1e9) + " GB";
@@ -80,67 +79,66 @@ std::string size_words(double bytes) {
 
 // "; about 12 s, 3.1 MB"
 std::string file_cost(const std::optional<Cost>& cost) {
-    return cost ? fmt::format("; about {} s, {}", about(cost->seconds), size_words(cost->amount)) : "";
+    return cost ? fmt::format("; about {} s, {}", about(cost->seconds), size_text(cost->amount)) : "";
 }
 
-std::string simulation_words(const Simulation& simulation, const sim::Problem& problem) {
+std::string simulation_text(const Simulation& simulation, const sim::Problem& problem) {
     const double end = simulation.request.end_time;
-    std::string words = model_words(problem) + "; ",
-                events = fmt::format("{}", fmt::join(simulation.until_events, ", "));
-    if (end > 0) words += fmt::format("until {:g} s, because of {}", end, simulation.until_because);
-    if (!events.empty()) words += fmt::format("{}until {}", end > 0 ? ", or, if that is later, " : "", events);
-    if (!(end > 0) && events.empty()) words += "the initial state only, nothing to integrate";
-    if (simulation.from_cache) words += "; kept from an earlier run";
-    if (simulation.keep) words += "; kept for later runs, unless it is short";
-    if (simulation.horizon) words += "; further runs find until when it is reproducible";
-    return words + motion_cost(simulation.cost);
+    std::string text = model_text(problem) + "; ", events = fmt::format("{}", fmt::join(simulation.until_events, ", "));
+    if (end > 0) text += fmt::format("until {:g} s, needed by {}", end, simulation.until_because);
+    if (!events.empty()) text += fmt::format("{}until {}", end > 0 ? ", or, if later, " : "", events);
+    if (!(end > 0) && events.empty()) text += "the initial state only, without integration";
+    if (simulation.from_cache) text += "; from the cache";
+    if (simulation.keep) text += "; added to the cache, unless it is short";
+    if (simulation.horizon) text += "; further runs find the reproducible horizon";
+    return text + motion_cost(simulation.cost);
 }
 
-std::string span_words(const Pictures& p, const std::vector<double>& times) {
+std::string span_text(const Pictures& p, const std::vector<double>& times) {
     const bool still = p.kind == Pictures::Kind::still;
     if (!p.times_known) {
-        if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture of {:g} s", p.at.t);
-        if (still) return "one picture of " + name_of(p.at);
+        if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture at {:g} s", p.at.t);
+        if (still) return "one picture at " + name_of(p.at);
         if (p.span.real_time() && !p.span.from_event &&
-            !p.span.to_event) {  // only its charts or its poster ask for the impacts
+            !p.span.to_event) {  // only its charts or its poster depend on events
             FrameSpan alone = p.span;
             alone.poster.reset();
-            return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second",
+            return fmt::format("{} frames from {:g} s to {:g} s at {:g} per second",
                                film_times(alone, p.end_time, {}).frames.size(), p.span.from, p.end_time,
                                p.span.fps.value());
         }
         const auto bound = [](const std::optional<Instant>& event, double t) {
             return name_of(event.value_or(Instant{.t = t}));
         };
-        return fmt::format("frames of {} to {} at {:g} a second, as many as the impacts ask for",
+        return fmt::format("frames from {} to {} at {:g} per second; their number depends on the events",
                            bound(p.span.from_event, p.span.from), bound(p.span.to_event, p.end_time),
                            p.span.fps.value());
     }
-    if (still) return fmt::format("one picture of {:g} s", times.front());
-    return fmt::format("{} frames of {:g} s to {:g} s at {:g} a second", p.draw.size(),
+    if (still) return fmt::format("one picture at {:g} s", times.front());
+    return fmt::format("{} frames from {:g} s to {:g} s at {:g} per second", p.draw.size(),
                        times[static_cast<std::size_t>(p.draw.front())], times[static_cast<std::size_t>(p.draw.back())],
                        p.span.fps.value());
 }
 
-std::string pace_words(const Speed& speed) {
-    if (!speed.intervals.empty()) return fmt::format(", other speeds in {} of its intervals", speed.intervals.size());
+std::string pace_text(const Speed& speed) {
+    if (!speed.intervals.empty()) return fmt::format(", other speeds in {} intervals", speed.intervals.size());
     if (!speed.around) return speed.factor == 1 ? "" : fmt::format(", {:g} times real speed", speed.factor);
     return fmt::format(", {:g} times real speed around impacts", speed.around->factor);
 }
 
-std::string picture_words(const Pictures& p, const std::vector<double>& times) {
-    std::string words = fmt::format("{}: {}{}", p.file, span_words(p, times), pace_words(p.span.speed));
-    words += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
-    if (p.picture.view.transparent) words += ", transparent";
-    if (p.kind == Pictures::Kind::video) words += "; " + encoding_words(p.encoding);
+std::string picture_text(const Pictures& p, const std::vector<double>& times) {
+    std::string text = fmt::format("{}: {}{}", p.file, span_text(p, times), pace_text(p.span.speed));
+    text += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
+    if (p.picture.view.transparent) text += ", transparent";
+    if (p.kind == Pictures::Kind::video) text += "; " + encoding_text(p.encoding);
     if (p.makes_poster())
-        words +=
-            fmt::format("; its frame at {:g} s as {} too", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
+        text +=
+            fmt::format("; the frame at {:g} s also as {}", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
     else if (!p.times_known && !p.poster_file.empty())
-        words += fmt::format("; one of its frames as {} too", p.poster_file);
+        text += fmt::format("; one of its frames also as {}", p.poster_file);
     if (const double memory = memory_of(p.picture); memory >= kMuchMemory)
-        words += fmt::format("; takes {} of memory for each thread", size_words(memory));
-    return words + file_cost(p.cost);
+        text += fmt::format("; needs {} of memory for each thread", size_text(memory));
+    return text + file_cost(p.cost);
 }
 
 }  // namespace
@@ -149,27 +147,26 @@ std::string to_text(const Plan& plan, const Scene& scene) {
     std::string text = "to do\n";
     auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
     if (plan.events_until)
-        line("impacts",
-             fmt::format("a first run until {:g} s{} finds them: outputs below begin, end, stand or slow down at them",
-                         *plan.events_until, plan.all_events ? "" : ", or until it has them,"));
-    if (plan.simulation) line("simulate", simulation_words(*plan.simulation, scene.problem));
+        line("events",
+             fmt::format("a first run until {:g} s{} finds the events at which outputs begin, end, freeze or slow down",
+                         *plan.events_until, plan.all_events ? "" : " at most"));
+    if (plan.simulation) line("simulate", simulation_text(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared)
-            line("simulate", fmt::format("{}; until {:g} s, as \"{}\" of {}", model_words(motion.problem),
+            line("simulate", fmt::format("{}; until {:g} s, motion \"{}\" of {}", model_text(motion.problem),
                                          motion.request.end_time, motion.label, p.file) +
                                  motion_cost(motion.cost));
-        line(kind_name(p.kind), picture_words(p, plan.times(p)));
+        line(kind_name(p.kind), picture_text(p, plan.times(p)));
     }
-    for (const Variant& variant : plan.variants)
-        line("simulate", simulation_words(variant.simulation, variant.problem));
+    for (const Variant& variant : plan.variants) line("simulate", simulation_text(variant.simulation, variant.problem));
     for (const FigureFile& f : plan.figures)
         line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const DataFile& d : plan.data)
         line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
     const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.times_known; });
     if (const auto cost = plan.cost())
-        line("in all", fmt::format("{}{}, as past runs tell", some ? "besides pictures that look at impacts, " : "",
-                                   file_cost(cost).substr(2)));
+        line("total", fmt::format("{}{}, estimated from earlier runs",
+                                  some ? "without pictures that depend on events, " : "", file_cost(cost).substr(2)));
     text += "skipped\n";
     for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
     return text;

@@ -35,7 +35,7 @@ std::string omitted_panels(const Picture& picture) {
     return out;
 }
 
-// One collision after the other, which takes more rows than the whole time does.
+// A strip of one collision at a time needs more rows than one of the whole time.
 bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
     return p.picture.compare.empty() && problem.cam &&
            std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
@@ -43,11 +43,12 @@ bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
 
 sim::PoseRequest survey() {
     sim::PoseRequest request;
-    request.contacts = 400;  // ten collisions of a flexible beam: the hardest are among them, since each takes energy
+    request.contacts =
+        400;  // about ten collisions; the hardest are among them, because every collision dissipates energy
     return request;
 }
 
-// What a panel draws of the chart's table as a curve.
+// The curve that a panel draws from the chart's table.
 std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vector<render::PanelSpec>& panels) {
     for (const render::PanelSpec& panel : panels)
         if (const render::PanelType& type = type_of(panel.kind); type.draws_curve)
@@ -55,7 +56,7 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
     return std::nullopt;
 }
 
-// Films, sequences and sweeps are what shards share.
+// Shards divide films, sequences and sweeps.
 bool is_shared(const Output& output) {
     return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output) ||
            std::holds_alternative<SweepOutput>(output);
@@ -73,11 +74,11 @@ Plan Planner::make() {
         const Output& output = scene_.outputs[i];
         if (existing_.finished.contains(i)) {
             ++finished_;
-            skip(file_of(output), "it is there already, made from the same inputs");
+            skip(file_of(output), "up to date");
         } else if (selection_.shard > 1 && !is_shared(output)) {
-            skip(file_of(output), "the first shard makes it");
+            skip(file_of(output), "the first shard writes it");
         } else {
-            std::visit([&](const auto& wanted) { wanted.plan(*this, i); }, output);
+            std::visit([&](const auto& each) { each.plan(*this, i); }, output);
         }
     }
     if (needed_) finish_simulation();
@@ -88,20 +89,20 @@ Plan Planner::make() {
     }
     // In the order of the types.
     std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
-    note_skipped();
+    add_skipped_stages();
     return std::move(plan_);
 }
 
 void Planner::finish_simulation() {
     simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
-    for (const sim::Request& of_figure : figures_ask_)
+    for (const sim::Request& of_figure : figure_requests_)
         simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
     resolve_cache_use(simulation_, existing_.kept_until);
     plan_.simulation = std::move(simulation_);
     assign_ends(plan_);
 }
 
-// `keep` says so far whether it is worth it.
+// On entry `keep` is true if the motion is worth caching.
 void Planner::resolve_cache_use(Simulation& simulation, std::optional<double> kept_until) const {
     simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time && simulation.until_events.empty();
     simulation.keep = simulation.keep && existing_.keeps && !simulation.from_cache;
@@ -126,10 +127,10 @@ std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Chann
     return simulation_.request.tables.size() - 1;
 }
 
-void Planner::add(Pictures p, double ends) {
-    p.end_time = ends;
+void Planner::add(Pictures p, double end) {
+    p.end_time = end;
     p.selection = selection_;
-    if (const auto there = existing_.frames.find(p.output); there != existing_.frames.end()) p.there = there->second;
+    if (const auto found = existing_.frames.find(p.output); found != existing_.frames.end()) p.existing = found->second;
     if (p.kind == Pictures::Kind::video && selection_.shards > 1)
         p.file = shard_file(p.file, selection_.shard, selection_.shards);
     const bool still = p.kind == Pictures::Kind::still;
@@ -144,23 +145,23 @@ void Planner::add(Pictures p, double ends) {
     if (p.times_known) {
         times = times_of(p, {});
         choose_frames(p, times);
-        note_left_frames(p, times.frames.size());
+        add_skipped_frames(p, times.frames.size());
         if (p.draw.empty()) return;
     }
     if (p.picture.compare.empty())
-        add_own_motion(p, ends);
+        add_own_motion(p, end);
     else
         add_compared(p);
     if (p.times_known)
         put_times(p, simulation_.request, std::move(times));
     else
-        find_events(ends, !p.ends_at_event());
+        find_events(end, !p.ends_at_event());
     plan_.pictures.push_back(std::move(p));
 }
 
-void Planner::add_own_motion(Pictures& p, double ends) {
+void Planner::add_own_motion(Pictures& p, double end) {
     sim::Request& request = simulation_.request;
-    p.ends_at_event() ? simulate_until(*p.span.to_event, p.file) : simulate_until(ends, p.file);
+    p.ends_at_event() ? simulate_until(*p.span.to_event, p.file) : simulate_until(end, p.file);
     if (p.picture.horizon) require_horizon();
     p.poses = request.poses.size();
     request.poses.push_back({});
@@ -194,12 +195,12 @@ void Planner::find_events(double until, bool all) {
     plan_.all_events = plan_.all_events || all;
 }
 
-// A figure's run joins others of its motion.
+// Studies of the same motion share one run.
 void Planner::add_study(const Study& study, const FigureFile& figure) {
     if (study.of_scene) {
         figure.ends_at ? simulate_until(*figure.ends_at, figure.file)
                        : simulate_until(end_of(study.request), figure.file);
-        figures_ask_.push_back(study.request);
+        figure_requests_.push_back(study.request);
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
     }
@@ -218,41 +219,39 @@ void Planner::add_study(const Study& study, const FigureFile& figure) {
 
 // ---- what is skipped ---------------------------------------------------------------------------
 
-void Planner::note_left_frames(const Pictures& p, std::size_t count) {
-    if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.there.size() < count))
-        skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.there.size(), count, p.file),
-             p.selection.frames ? "outside the frames asked for" : "other shards draw them");
-    if (!p.there.empty())
-        skip(fmt::format("{} frames of {}", p.there.size(), p.file),
-             "they are there already, made from the same inputs");
+void Planner::add_skipped_frames(const Pictures& p, std::size_t count) {
+    if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.existing.size() < count))
+        skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.existing.size(), count, p.file),
+             p.selection.frames ? "outside the selected frames" : "other shards draw them");
+    if (!p.existing.empty()) skip(fmt::format("{} frames of {}", p.existing.size(), p.file), "up to date");
 }
 
-void Planner::note_skipped() {
+void Planner::add_skipped_stages() {
     const bool compares = std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
     if (!needed_ && !compares && !plan_.variants.empty())
-        return skip("simulation of the scene itself", "its figures look at variants of it");
+        return skip("simulation of the scene itself", "its figures show only variants of it");
     if (!needed_)
         return skip(compares || !plan_.sweep.empty() ? "simulation of the scene itself" : "simulation",
                     compares               ? "only compared motions are shown"
                     : !plan_.sweep.empty() ? "only the sweep is shown"
-                    : finished_ > 0        ? "everything is there already"
-                                           : "no output looks at the motion");
+                    : finished_ > 0        ? "all outputs are up to date"
+                                           : "no output needs the motion");
     const double end = plan_.simulation->request.end_time;
     if (end < scene_.end_time && plan_.simulation->until_events.empty())
-        skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output looks that far");
+        skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output needs it");
     if (!scene_.problem.cam) skip("contact", "the scene has no cam");
-    if (plan_.simulation->from_cache) skip("integration", "the motion is kept from an earlier run");
-    note_unread_channels();
+    if (plan_.simulation->from_cache) skip("integration", "the motion is in the cache");
+    add_unread_channels();
     if (plan_.pictures.empty())
         skip(plan_.figures.empty() ? "pictures, fonts and OpenGL" : "films and OpenGL", "no output is a picture");
     else if (!plan_.needs_gl())
         skip("OpenGL", "every view is flat");
     if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
     if (!plan_.simulation->request.turning_points) skip("extrema and turning points", "no output is a summary");
-    if (!plan_.simulation->horizon) skip("further runs for the reproducible horizon", "nothing asks for it");
+    if (!plan_.simulation->horizon) skip("further runs for the reproducible horizon", "no output needs it");
 }
 
-void Planner::note_unread_channels() {
+void Planner::add_unread_channels() {
     const std::vector<sim::Channel> every = all_channels(scene_.problem);
     auto read = [&](const sim::Channel& channel) {
         const sim::Request& request = plan_.simulation->request;
@@ -262,11 +261,11 @@ void Planner::note_unread_channels() {
         const auto in_tables = [&](const sim::Request& some) {
             return std::ranges::any_of(some.tables, [&](const sim::TableRequest& t) { return holds(t.channels); });
         };
-        return holds(request.extrema) || in_tables(request) || std::ranges::any_of(figures_ask_, in_tables);
+        return holds(request.extrema) || in_tables(request) || std::ranges::any_of(figure_requests_, in_tables);
     };
     const auto unread = std::count_if(every.begin(), every.end(),
                                       [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });
-    if (unread > 0) skip(fmt::format("{} of {} channels", unread, every.size() - 1), "no output reads them");
+    if (unread > 0) skip(fmt::format("{} of {} channels", unread, every.size() - 1), "no output needs them");
 }
 
 }  // namespace beamcam::scenes

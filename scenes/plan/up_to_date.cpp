@@ -19,20 +19,20 @@ class UpToDateCheck {
         found_.inputs.resize(scene.outputs.size());
     }
 
-    UpToDate look(const Cache* cache, bool afresh) {
+    UpToDate run(const Cache* cache, bool ignore_files) {
         const double until = whole_.simulation ? whole_.simulation->request.end_time : 0;
         for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
             if (file_of(scene_.outputs[i]) != "-") found_.inputs[i] = inputs_key(scene_, i, until, part_of(i));
         found_.motion = motion_key(scene_.problem);
         found_.existing.until = until;
         found_.existing.keeps = cache && cache->limit() > 0;
-        if (cache) look_at_kept(*cache);
-        if (!afresh) look_at_files();
+        if (cache) check_cache(*cache);
+        if (!ignore_files) check_files();
         return std::move(found_);
     }
 
   private:
-    void look_at_kept(const Cache& cache) {
+    void check_cache(const Cache& cache) {
         found_.existing.kept_until = cache.reach(found_.motion);
         for (const Variant& variant : whole_.variants)
             if (const auto until = cache.reach(motion_key(variant.problem)))
@@ -47,45 +47,45 @@ class UpToDateCheck {
         return {};
     }
 
-    bool is_there(const std::string& file, std::size_t output) {
+    bool is_up_to_date(const std::string& file, std::size_t output) {
         return file != "-" && manifest_.is_up_to_date(place_of(directory_, file), found_.inputs[output]);
     }
 
-    void look_at_files() {
+    void check_files() {
         for (const Pictures& p : whole_.pictures)
             if (p.kind == Pictures::Kind::frames)
-                look_at_frames(p);
-            else if (!awaits_poster(p))
-                look_at(p.file, p.output);
-        for (const FigureFile& f : whole_.figures) look_at_figure(f);
-        for (const DataFile& d : whole_.data) look_at(d.file, d.output);
+                check_frames(p);
+            else if (!lacks_poster(p))
+                check(p.file, p.output);
+        for (const FigureFile& f : whole_.figures) check_figure(f);
+        for (const DataFile& d : whole_.data) check(d.file, d.output);
     }
 
-    // A film whose poster is not there is not finished. Which part of it has the poster, only the impacts may tell.
-    bool awaits_poster(const Pictures& p) {
+    // A film without its poster is not up to date. The part that has the poster may depend on events.
+    bool lacks_poster(const Pictures& p) {
         const bool has = p.times_known ? p.makes_poster() : p.selection.shards <= 1;
-        return !p.poster_file.empty() && has && !is_there(p.poster_file, p.output);
+        return !p.poster_file.empty() && has && !is_up_to_date(p.poster_file, p.output);
     }
 
-    void look_at(const std::string& file, std::size_t output) {
-        if (is_there(file, output)) found_.existing.finished.insert(output);
+    void check(const std::string& file, std::size_t output) {
+        if (is_up_to_date(file, output)) found_.existing.finished.insert(output);
     }
 
-    void look_at_figure(const FigureFile& f) {
+    void check_figure(const FigureFile& f) {
         const auto files = files_of(std::get<FigureOutput>(scene_.outputs[f.output]));
-        if (std::ranges::all_of(files, [&](const std::string& file) { return is_there(file, f.output); }))
+        if (std::ranges::all_of(files, [&](const std::string& file) { return is_up_to_date(file, f.output); }))
             found_.existing.finished.insert(f.output);
     }
 
-    void look_at_frames(const Pictures& p) {
+    void check_frames(const Pictures& p) {
         std::set<long> there;
-        if (!p.times_known) {  // how many there are only the impacts tell
-            there = frames_there(p);
+        if (!p.times_known) {  // their number depends on events
+            there = existing_frames(p);
             if (!there.empty()) found_.existing.frames[p.output] = std::move(there);
             return;
         }
         for (int k : p.draw)
-            if (const long number = p.first_frame + k; is_there(numbered_file(p.file, number), p.output))
+            if (const long number = p.first_frame + k; is_up_to_date(numbered_file(p.file, number), p.output))
                 there.insert(number);
         if (there.size() == p.draw.size())
             found_.existing.finished.insert(p.output);
@@ -93,15 +93,15 @@ class UpToDateCheck {
             found_.existing.frames[p.output] = std::move(there);
     }
 
-    // Of all numbers.
-    std::set<long> frames_there(const Pictures& p) {
+    // Numbers of the up-to-date frames, whatever their range.
+    std::set<long> existing_frames(const Pictures& p) {
         std::set<long> there;
         const fs::path pattern = p.file, folder = place_of(directory_, pattern.parent_path().string());
         std::error_code failed;  // no folder, no frames
         for (fs::directory_iterator at(folder.empty() ? "." : folder, failed), end; !failed && at != end;
              at.increment(failed))
             if (const auto number = number_of(pattern.filename().string(), at->path().filename().string());
-                number && is_there(numbered_file(p.file, *number), p.output))
+                number && is_up_to_date(numbered_file(p.file, *number), p.output))
                 there.insert(*number);
         return there;
     }
@@ -116,8 +116,8 @@ class UpToDateCheck {
 }  // namespace
 
 UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
-                          output::Manifest& manifest, const Cache* cache, bool afresh) {
-    return UpToDateCheck(scene, selection, directory, manifest).look(cache, afresh);
+                          output::Manifest& manifest, const Cache* cache, bool ignore_files) {
+    return UpToDateCheck(scene, selection, directory, manifest).run(cache, ignore_files);
 }
 
 fs::path place_of(const std::string& directory, const std::string& file) {

@@ -1,4 +1,4 @@
-// Looks at what is there: which outputs were made from the same inputs already, and which motion is kept.
+// Finds the outputs that are up to date and the motions that are in the cache.
 #pragma once
 
 #include <filesystem>
@@ -17,14 +17,14 @@ struct UpToDate {
     std::string motion;               // key of the motion
 };
 
-// `directory` as in RunOptions. `cache`: null when there is none. `afresh`: nothing that is there counts.
+// `directory` as in RunOptions. `cache` may be null. `ignore_files`: no file counts as up to date.
 UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
-                          output::Manifest& manifest, const Cache* cache, bool afresh);
+                          output::Manifest& manifest, const Cache* cache, bool ignore_files);
 
-// Where an output's file is; `directory` empty: as it is named.
+// The path of an output's file; with an empty `directory` the name is the path.
 std::filesystem::path place_of(const std::string& directory, const std::string& file);
 
-// The cache of this user, unless there is none or `no_cache`.
+// The cache of this user; nullopt if there is none, or if `no_cache`.
 std::optional<Cache> open_cache(bool no_cache);
 
 }  // namespace beamcam::scenes

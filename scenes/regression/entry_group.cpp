@@ -4,7 +4,7 @@
 #include <iterator>
 
 #include "output/files/interrupt.hpp"
-#include "scenes/outputs/draw_callbacks.hpp"
+#include "scenes/outputs/run.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {

@@ -1,11 +1,11 @@
-// How the program ends, and what ends it before any work.
+// Exit codes, and the errors that end the program before any work.
 #pragma once
 
 #include <stdexcept>
 
 namespace beamcam::scenes {
 
-// What scripts rely on.
+// Part of the contract with scripts.
 enum ExitCode {
     kDone = 0,
     kBug = 1,
@@ -17,7 +17,7 @@ enum ExitCode {
     kDiffers = 7,
     kInterrupted = 130
 };
-// What each means, for people.
+// Their meanings in the help text.
 struct ExitMeaning {
     ExitCode code;
     const char* meaning;
@@ -38,7 +38,7 @@ inline constexpr ExitMeaning kExitCodes[] = {
 struct UsageError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-// Exit code 3. The report has one message or more, positioned and complete.
+// Exit code 3. The text contains one or more complete messages.
 struct SceneError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -45,7 +45,7 @@ void for_directories(const std::string& file, Visit visit) {
         visit(file.substr(0, slash));
 }
 
-// The claims, by what makes them clash; each entry is the first claim of its kind.
+// The claims, indexed by everything that can clash; each entry is the first claim.
 class ClaimIndex {
   public:
     using Claim = FileClaims::Claim;
@@ -101,17 +101,17 @@ class ClaimIndex {
 }  // namespace
 
 std::string problem_with_file(std::string_view file) {
-    if (file.empty()) return "the name is empty";
+    if (file.empty()) return "the name is empty; write one, or remove the key";
     if (std::any_of(file.begin(), file.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }))
-        return "the name holds a control character";
+        return "the name contains a control character; remove it";
     const std::filesystem::path path(file);
-    if (path.is_absolute()) return "an absolute path; name it relative to the output directory, which -o chooses";
+    if (path.is_absolute()) return "the path is absolute; write it relative to the output directory, which -o selects";
     for (const auto& part : path)
         if (part == "..")
-            return "it leaves the output directory; write a path without \"..\", and choose the directory with -o";
-    if (!path.has_filename() || path.filename() == ".") return "a directory; name a file";
+            return "the path leaves the output directory; remove \"..\", and select the directory with -o";
+    if (!path.has_filename() || path.filename() == ".") return "the path is a directory; write the name of a file";
     if (path.stem().empty() || path.filename().string().starts_with("."))
-        return "the name is only an ending; put a name before it";
+        return "the name is only an ending; write a name before it";
     // ext4, xfs and tmpfs end at 255 bytes; the temporary name beside it needs some of them.
     if (path.filename().string().size() > 200) return "the name is longer than 200 bytes; shorten it";
     return {};
@@ -120,14 +120,13 @@ std::string problem_with_file(std::string_view file) {
 bool is_numbered(std::string_view file) { return file.find('#') != std::string_view::npos; }
 
 std::string problem_with_numbering(std::string_view file) {
-    if (!is_numbered(file))
-        return "a sequence needs a place for the frame number; write it as '#', for example \"fall-####.png\"";
+    if (!is_numbered(file)) return "a sequence needs '#' for the frame number, for example \"fall-####.png\"";
     const std::size_t begin = file.find('#'), end = file.find_last_of('#') + 1;
     if (file.substr(begin, end - begin).find_first_not_of('#') != std::string_view::npos)
-        return "the frame number stands in two places; write one run of '#'";
+        return "'#' occurs in two places; write one run of '#'";
     if (file.find('/', begin) != std::string_view::npos)
-        return "the frame number stands in a directory's name; write '#' in the file's own name";
-    if (end - begin > 9) return "more than nine '#'; frame numbers are never that long";
+        return "'#' is in the name of a directory; write it in the name of the file";
+    if (end - begin > 9) return "more than nine '#'; write fewer";
     return {};
 }
 
@@ -142,7 +141,7 @@ std::optional<long> number_of(std::string_view pattern, std::string_view file) {
     if (!matches(parts, file)) return {};
     const std::string_view digits =
         file.substr(parts.before.size(), file.size() - parts.before.size() - parts.after.size());
-    if (digits.size() > 9) return {};  // no frame has such a number
+    if (digits.size() > 9) return {};  // no sequence is that long
     long number = 0;
     for (const char digit : digits) number = 10 * number + (digit - '0');
     return numbered_file(pattern, number) == file ? std::optional(number) : std::nullopt;

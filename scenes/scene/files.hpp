@@ -1,4 +1,4 @@
-// Names of output files: which are allowed, which numbered ones they stand for, which collide.
+// Names of output files: validity, numbering, conflicts.
 #pragma once
 
 #include <optional>
@@ -8,26 +8,26 @@
 
 namespace beamcam::scenes {
 
-// Why `file` cannot be the name of an output below the output directory; empty when it can.
+// Why `file` is not a valid name of an output; empty if it is valid.
 std::string problem_with_file(std::string_view file);
 
-// Why `file` cannot name a sequence: it needs one run of '#' in its last part; empty when it can.
+// Why `file` is not a valid name of a sequence, which needs one run of '#' in its last part; empty if it is valid.
 std::string problem_with_numbering(std::string_view file);
 bool is_numbered(std::string_view file);
 
-// "a-####.png" and 12 make "a-0012.png"; a number with more digits takes the room it needs.
+// "a-####.png" and 12 give "a-0012.png"; longer numbers get more digits.
 std::string numbered_file(std::string_view pattern, long number);
-// The number by which `file` is one of them; nothing when it is none.
+// The number of `file` in the sequence; nullopt if it is not a part of it.
 std::optional<long> number_of(std::string_view pattern, std::string_view file);
 
 // "fall.mp4" as the second of three parts: "fall.2of3.mp4".
 std::string shard_file(const std::string& file, int shard, int shards);
 
-// Who writes which files, and which of them could write the same path, or one a file where another needs a directory.
-// The time grows with the number of names, not with its square.
+// Finds owners that would write the same path, or a file where another needs a directory. The time is almost linear in
+// the number of names.
 class FileClaims {
   public:
-    // Owners claim their names in the order of their numbers; names of one owner do not clash.
+    // Owners must come in increasing order; names of one owner do not clash.
     void add(std::string_view file, std::size_t owner);
 
     struct Claim {
@@ -37,7 +37,7 @@ class FileClaims {
     struct Clash {
         Claim later, earlier;
     };
-    // At most one for each owner: with the earliest of the others. In the order of `later`.
+    // At most one clash for each owner, with the earliest other owner; in the order of `later`.
     std::vector<Clash> clashes() const;
 
   private:

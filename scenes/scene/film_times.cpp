@@ -12,15 +12,15 @@
 namespace beamcam::scenes {
 namespace {
 
-// Strip charts show steps down to a quarter of a millisecond, and never more points than a screen
-// of ten thousand columns could tell apart twice; but also a very short film has enough of them to be smooth.
+// Rows of strip charts: a resolution of a quarter of a millisecond, at most two points for each of ten thousand
+// columns, and enough for a smooth curve in a very short film.
 constexpr double kChartRate = 4000;  // [Hz]
 constexpr double kMostChartPoints = 20000, kFewestChartPoints = 2000;
-constexpr double kFinePoints = 40000;                   // more of them where time runs slowly
-constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still's instant
+constexpr double kFinePoints = 40000;                   // in slow motion
+constexpr double kLatest = 0.05, kLatestRate = 40'000;  // [s], [Hz]: rows before a still
 constexpr int kFineSteps = 8;                           // between two frames
 constexpr double kLongestCollision = 0.1;               // [s] that a strip shows of one
-// Vibration that lasts is met at all its phases; what a collision does within milliseconds is asked for apart.
+// Samples for the choice of scales; collisions have additional samples.
 constexpr int kSurveyed = 300;
 
 std::vector<double> surveyed(double from, double to) {
@@ -52,7 +52,7 @@ FilmTimes real_time(const FrameSpan& span, double to) {
     return out;
 }
 
-// Absent where the film is cut short before it; the whole motion has to have it.
+// nullopt for an event after an explicit end of the film; otherwise the event must occur.
 std::optional<double> reached(const Instant& at, const FrameSpan& span, double to, const sim::Result& motion) {
     if (at.kind == Instant::Kind::last) return to;
     return span.to ? find_instant(at, motion) : instant_of(at, motion);
@@ -63,18 +63,18 @@ struct ShownEvent {
     double t;
 };
 
-// Words without a time of their own give way to the next ones.
+// A text without a duration ends when the next one begins.
 std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, const TimeMap& map, double fps) {
-    constexpr double kUsual = 1.5;  // [s]
+    constexpr double kDefaultDuration = 1.5;  // [s]
     std::vector<render::Callout> out;
     std::vector<const FilmEvent*> events;
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const auto& [event, t] = shown[i];
         if (event->text.empty()) continue;
-        double from = map.film_time(t);  // one after the other where several are of one instant
+        double from = map.film_time(t);  // texts at the same instant follow each other
         for (std::size_t j = 0; j < i; ++j)
             if (shown[j].t == t) from += shown[j].event->freeze;
-        const double length = std::max(event->show.value_or(kUsual), event->freeze);
+        const double length = std::max(event->show.value_or(kDefaultDuration), event->freeze);
         const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),
                   last = static_cast<int>(std::floor((from + length) * fps + 1e-6));
         const int fade = std::min(static_cast<int>(std::lround(event->fade * fps)), (last - first) / 2);
@@ -87,7 +87,7 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
     return out;
 }
 
-// A wanted duration leaves the motion what freezes and the end do not take.
+// With a duration the speed is constant in the time outside of freezes and hold.
 Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
     if (!span.duration) {
         Speed speed = span.speed;
@@ -97,10 +97,9 @@ Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
         for (std::size_t i = 0; i < speed.intervals.size(); ++i) {
             const SpeedInterval& each = speed.intervals[i];
             if (!(each.from.t < each.to.t) || (i > 0 && each.from.t < speed.intervals[i - 1].to.t))
-                throw render::PictureError(
-                    fmt::format("the speed's interval from {:g} s to {:g} s {}", each.from.t, each.to.t,
-                                each.from.t < each.to.t ? "overlaps the one before it, or stands in front of it"
-                                                        : "ends before it begins"));
+                throw render::PictureError(fmt::format(
+                    "the speed's interval from {:g} s to {:g} s {}", each.from.t, each.to.t,
+                    each.from.t < each.to.t ? "overlaps or precedes the previous one" : "ends before it begins"));
         }
         return speed;
     }
@@ -108,53 +107,71 @@ Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
     for (const FilmEvent& event : span.events)
         if (const auto t = reached(event.at, span, to, motion); t && *t >= span.from && *t <= to) left -= event.freeze;
     if (!(left > 0))
-        throw render::PictureError(fmt::format(
-            "a film of {:g} s has no time left beside its freezes and its hold; raise \"duration\"", *span.duration));
+        throw render::PictureError(
+            fmt::format("the freezes and the hold fill the film of {:g} s; increase \"duration\"", *span.duration));
     return {.factor = (to - span.from) / left};
 }
 
-// Frames at the film's own k/fps. Where the motion runs at less than half its speed, charts get rows between frames.
-FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
-                 std::vector<double>& fine) {
-    TimeMap map(span.from, to, speed_of(span, to, motion), slowed);
-    FilmTimes out;
+// The events within the film, whose freezes go into the map. The others go into `unreached`.
+std::vector<ShownEvent> place_events(const FrameSpan& span, double to, const sim::Result& motion, TimeMap& map,
+                                     std::vector<std::string>& unreached) {
     std::vector<ShownEvent> shown;
     for (const FilmEvent& event : span.events) {
         const std::optional<double> t = reached(event.at, span, to, motion);
         if (t && *t >= span.from && *t <= to) {
             shown.push_back({&event, *t});
             if (event.freeze > 0) map.freeze(*t, event.freeze);
-        } else if (event.at.is_event()) {  // the reader has told of those
-            out.unreached_events.push_back(name_of(event.at));
+        } else if (event.at.is_event()) {  // the reader has warned about times
+            unreached.push_back(name_of(event.at));
         }
     }
-    if (span.speed.around)
-        for (const double number : span.speed.around->collisions) {
-            const bool slow = std::ranges::any_of(slowed, [&](const sim::Impact& i) {
-                return i.collision + 1 == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
-            });
-            if (slow) continue;
-            const Instant collision{.kind = Instant::Kind::collision, .number = static_cast<int>(number)};
-            (void)reached(collision, span, to, motion);
-            out.unreached_events.push_back("the slow motion of " + name_of(collision));
-        }
-    map.freeze(to, span.hold);
-    const double fps = span.fps.value(), count = std::round(map.duration() * fps);
+    return shown;
+}
+
+// Adds the collisions of `span.speed` without an impact in the film to `unreached`.
+void find_unreached_collisions(const FrameSpan& span, double to, const sim::Result& motion,
+                               const std::vector<sim::Impact>& slowed, std::vector<std::string>& unreached) {
+    if (!span.speed.around) return;
+    for (const double number : span.speed.around->collisions) {
+        const bool slow = std::ranges::any_of(slowed, [&](const sim::Impact& i) {
+            return i.collision + 1 == number && i.t_start <= to && i.t_end.value_or(to) >= span.from;
+        });
+        if (slow) continue;
+        const Instant collision{.kind = Instant::Kind::collision, .number = static_cast<int>(number)};
+        (void)reached(collision, span, to, motion);  // throws if it does not occur at all
+        unreached.push_back("the slow motion of " + name_of(collision));
+    }
+}
+
+double frame_count(const TimeMap& map, double fps) {
+    const double count = std::round(map.duration() * fps);
     if (count > kMostFrames)
-        throw render::PictureError(
-            fmt::format("the film would have {:.0f} frames, more than {:.0f}; give it a \"to\", a larger \"speed\", or "
-                        "fewer frames "
-                        "a second",
-                        count, kMostFrames));
-    if (!(count >= 1)) throw render::PictureError("the film has no frame at that speed; lower it, or raise \"fps\"");
+        throw render::PictureError(fmt::format(
+            "the film would have {:.0f} frames, but the maximum is {:.0f}; reduce \"to\" or \"fps\", or increase "
+            "\"speed\"",
+            count, kMostFrames));
+    if (!(count >= 1))
+        throw render::PictureError("the film has no frame at this speed; reduce the speed, or increase \"fps\"");
+    return count;
+}
+
+// Frames at film times k/fps. Where the speed is below one half, charts get rows between frames.
+FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
+                 std::vector<double>& fine) {
+    TimeMap map(span.from, to, speed_of(span, to, motion), slowed);
+    FilmTimes out;
+    const std::vector<ShownEvent> shown = place_events(span, to, motion, map, out.unreached_events);
+    find_unreached_collisions(span, to, motion, slowed, out.unreached_events);
+    map.freeze(to, span.hold);
+    const double fps = span.fps.value(), count = frame_count(map, fps);
     const int steps = std::clamp(static_cast<int>(kFinePoints / count), 1, kFineSteps);
     double previous = span.from;
     for (long k = 0; k < static_cast<long>(count); ++k) {
         const double film = static_cast<double>(k) * span.fps.denominator / span.fps.numerator;
-        // Freezes begin between frames: rounding must not step back by an ulp.
+        // Rounding at a freeze between frames must not decrease the time.
         previous = std::max(previous, map.instant(film));
         out.frames.push_back(previous);
-        // The last picture stands, but nobody has frozen it.
+        // The hold at the end is not a freeze.
         out.speeds.push_back(span.hold > 0 && previous >= to ? map.speed_at(to) : map.speed(film));
         for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
             fine.push_back(map.instant(film + i / (steps * fps)));
@@ -163,7 +180,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
     return out;
 }
 
-// As many rows for each collision as a strip of it has columns; with very many collisions fewer.
+// One row for each column of a strip of a collision; fewer if there are many collisions.
 std::vector<double> rows_of_collisions(const sim::Result& motion, double from, double to) {
     struct Span {
         double low, high;
@@ -188,7 +205,7 @@ std::vector<double> rows_of_collisions(const sim::Result& motion, double from, d
     return out;
 }
 
-// Of the collision that is under way at `t`, with a little of what follows; `t` itself where none is.
+// The end of the collision at `t` with a short margin; `t` if there is none.
 double end_of_collision(const sim::Result& motion, double t) {
     std::optional<int> which;
     double begin = t, end = t;
@@ -199,7 +216,7 @@ double end_of_collision(const sim::Result& motion, double t) {
     return end + 0.15 * (end - begin);
 }
 
-// The first frame at this instant or after it, else the last: what an impact has begun shows.
+// The first frame at or after this time, else the last one.
 int first_at(const std::vector<double>& frames, double t) {
     const auto at = std::ranges::lower_bound(frames, t - 1e-12 * std::max(1.0, t));
     return static_cast<int>(std::min(at - frames.begin(), std::ssize(frames) - 1));
@@ -213,7 +230,7 @@ std::vector<double> rows(double from, double to, double rate) {
     times.reserve(static_cast<std::size_t>(std::max(0.0, last - first)) + 2);
     for (long k = 0; first + static_cast<double>(k) <= last; ++k)
         times.push_back((first + static_cast<double>(k)) / rate);
-    // k/rate and `to` may be one instant, written twice by rounding.
+    // k/rate and `to` may be equal except for rounding.
     if (!times.empty() && std::abs(times.back() - to) < 1e-9 * std::min(1 / rate, to)) times.back() = to;
     if (times.empty() || times.back() < to) times.push_back(to);
     return times;
@@ -223,9 +240,9 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
     return film_times(span, end_time, motion, motion.impacts, collisions);
 }
 
-FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result& motion,
+FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions) {
-    const FrameSpan span = with_times(asked, motion);
+    const FrameSpan span = with_times(with_events, motion);
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);
@@ -236,8 +253,8 @@ FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result&
             out.unreached_events.push_back(name_of(*span.poster) + ", its poster");
     }
     out.chart = rows(span.from, to, chart_rate(to - span.from));
-    out.trace = rows(0, to, chart_rate(to));  // the trace keeps what happened before the film began
-    // A frame's own instant is a row: the curve under the cursor has the value that the frame tells.
+    out.trace = rows(0, to, chart_rate(to));  // the trace includes the time before the film
+    // The frames' times are rows, so that the curve agrees with the values of each frame.
     merge(out.chart, out.frames);
     if (!fine.empty()) {
         fine.insert(fine.end(), out.frames.begin(), out.frames.end());
@@ -253,7 +270,7 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
     FilmTimes out;
     const double t = instant_of(at, motion);
     out.frames = {t};
-    // At the first touch of an impact nothing of it can be seen yet: the charts go on to where it is over.
+    // An impact is not visible at its first touch: the charts continue to the end of its collision.
     const double ahead = at.kind == Instant::Kind::time ? t : std::max(t, std::min(end_of_collision(motion, t), until));
     out.chart = rows(0, t, chart_rate(t));
     if (ahead > t) merge(out.chart, rows(t, ahead, 600 / (ahead - t)));
@@ -265,7 +282,7 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
     return out;
 }
 
-// Where an instant is among the frames; before and after them as at real time.
+// The frame number of a time; before and after the film at real time.
 static double frame_at(const std::vector<double>& frames, double t, double fps) {
     const auto last = static_cast<double>(frames.size() - 1);
     if (t < frames.front()) return (t - frames.front()) * fps;
@@ -284,8 +301,8 @@ void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result
         }
         if (latest && *t <= *latest)
             throw render::PictureError(
-                fmt::format("the camera's keyframe at {}, {:g} s, is not after the one before it, {:g} s; list the "
-                            "keyframes in the order of time",
+                fmt::format("the camera's keyframe at {}, {:g} s, is not after the previous one, {:g} s; list the "
+                            "keyframes in order of time",
                             name_of(key.at), *t, *latest));
         latest = t;
         keys.emplace_back(frame_at(times.frames, *t, fps), &key);
@@ -307,16 +324,16 @@ void add_exposures(FilmTimes& times, const View& view, double fps, double end) {
     for (std::size_t k = 0; k < frames.size(); ++k) {
         const double t = frames[k];
         if (view.shutter) {
-            const double before = k > 0 ? t - frames[k - 1] : 1 / fps;  // the last goes on as it came
+            const double before = k > 0 ? t - frames[k - 1] : 1 / fps;  // the last frame is as long as the one before
             double whole = k + 1 < frames.size() ? frames[k + 1] - t : before;
-            if (frames.size() == 1) whole = -whole;  // a still looks back: the motion may end with it
+            if (frames.size() == 1) whole = -whole;  // a still uses the time before it: the motion may end there
             for (int i = 0; i < view.exposures; ++i)
                 times.exposures.push_back(
                     std::clamp(t + whole * *view.shutter / (2 * std::numbers::pi) * i / view.exposures, 0.0, end));
             continue;
         }
         times.exposures.push_back(t);
-        const double flash = std::ceil(t / *view.strobe_every) - 1;  // the latest before now
+        const double flash = std::ceil(t / *view.strobe_every) - 1;  // the latest before t
         for (int i = view.exposures - 1; i >= 0; --i) {
             const double at = (flash - i) * *view.strobe_every;
             times.exposures.push_back(at < 0 ? t : at);

@@ -1,5 +1,5 @@
-// The instants of a picture's frames, and of the charts and traces beside them: k/fps in real time, or through the
-// TimeMap of slow motion and freezes, which may have to know the impacts first.
+// The times of a picture's frames and of its charts and traces: k/fps in real time, or through the TimeMap of slow
+// motion and freezes, which may depend on events.
 #pragma once
 
 #include <optional>
@@ -14,38 +14,38 @@ namespace beamcam::scenes {
 
 struct FilmTimes {
     std::vector<double> frames;     // [s] of the motion, not decreasing
-    std::vector<double> exposures;  // of each frame in turn, its own instant first; empty: that alone
+    std::vector<double> exposures;  // of each frame, its own time first; empty: only that
     long first = 0;                 // number of the first frame
     std::vector<double> speeds;     // of each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<render::CameraMove> moves;
-    std::vector<std::string> unreached_events;  // events that the film does not reach or begins after: "impact 3"
+    std::vector<std::string> unreached_events;  // events outside the film: "impact 3"
     std::optional<int> poster;                  // index into frames
     std::vector<double> chart, trace;           // rows [s], increasing
-    // Evenly over the time that is shown, whatever the frames: what scales are chosen by [s].
+    // Equally spaced over the shown time, independent of the frames, for the choice of scales [s].
     std::vector<double> survey;
 };
 
-// `motion` has the impacts and collisions until the span's end where the span looks at them; else it may be empty.
-// Throws render::PictureError for an impact that the whole motion does not have and for a film of too many frames.
-// `collisions`: the charts get more rows within each of the motion's.
+// `motion` contains the events until the end of the span if the span needs them; else it may be empty. Throws
+// render::PictureError for an event that does not occur and for too many frames. `collisions`: charts get more rows
+// within collisions.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions = false);
-// `slowed`: the impacts that time slows around, of all the motions that a picture compares; "impact:3" is `motion`'s.
-FilmTimes film_times(const FrameSpan& asked, double end_time, const sim::Result& motion,
+// `slowed`: impacts of all compared motions, for slow motion; "impact:3" counts those of `motion`.
+FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions = false);
-// `until`: how far the motion goes that gives the still its scales [s].
+// `until`: end of the motion that determines the scales [s].
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);
 
-// The moves to a view's keyframes. Throws render::PictureError for an impact that the whole motion does not have;
-// `shortened`: one that it does not have is left out.
+// The camera's movements to the keyframes. Throws render::PictureError for an event that does not occur; `shortened`:
+// such a keyframe is skipped.
 void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result& motion, bool shortened);
 
-// The instants of a view's shutter or strobe; none is before 0 or after `end`.
+// The times of a view's shutter or strobe, within 0 … `end`.
 void add_exposures(FilmTimes& times, const View& view, double fps, double end);
 
-// k / rate from `from`, and `to` itself.
+// The times k / rate between `from` and `to`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);
 
-constexpr double kMostFrames = 250'000;  // over an hour at 60 fps; their poses fill 0.6 GB of disk
+constexpr double kMostFrames = 250'000;  // more than an hour at 60 fps; their poses need 0.6 GB on disk
 
 }  // namespace beamcam::scenes

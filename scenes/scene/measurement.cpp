@@ -31,7 +31,7 @@ Measurement Measurement::within(double from, double to) const {
 }
 
 bool Measurement::is_line(std::size_t rows) const {
-    constexpr std::size_t kManyPoints = 300;  // beyond, marks are a band
+    constexpr std::size_t kManyPoints = 300;  // more marks would overlap
     return drawn == Drawn::line || (drawn == Drawn::automatic && rows > kManyPoints);
 }
 

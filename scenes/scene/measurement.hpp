@@ -1,4 +1,4 @@
-// Measured or foreign data of the scene's motion: columns of a file that are channels.
+// Measured data of the scene's motion: columns of a file that correspond to channels.
 #pragma once
 
 #include <optional>
@@ -17,24 +17,24 @@ struct Measurement {
     std::string file, label;
     std::string time_column = "t";
     std::vector<std::pair<sim::Channel, std::string>> columns;  // names in the file
-    std::vector<std::pair<std::string, std::string>> units;     // of columns, "deg"; SI units where left out
-    double offset = 0;                                          // the motion's time at the file's zero [s]
+    std::vector<std::pair<std::string, std::string>> units;     // of columns: "deg"; default: SI units
+    double offset = 0;                                          // time of the motion at time 0 of the file [s]
     Drawn drawn = Drawn::automatic;
 
-    // Of the file, in SI units and the motion's time; `values` as `columns`.
+    // Content of the file in SI units and the motion's time; `values` in the order of `columns`.
     std::vector<double> times;
     std::vector<std::vector<double>> values;
     std::string digest;
 
-    const std::vector<double>* find(sim::Channel channel) const;      // nullptr: it has none
-    Measurement of(const std::vector<sim::Channel>& channels) const;  // these alone
-    Measurement within(double from, double to) const;                 // the rows between these instants alone
-    bool is_line(std::size_t rows) const;                             // that many of them; else points
-    // Time and channels of the motion at its instants.
+    const std::vector<double>* find(sim::Channel channel) const;      // nullptr: not measured
+    Measurement of(const std::vector<sim::Channel>& channels) const;  // only these columns
+    Measurement within(double from, double to) const;                 // only the rows in between
+    bool is_line(std::size_t rows) const;                             // for this number of rows
+    // The motion at the times of the measurement.
     sim::TableRequest request() const;
 };
 
-// Of each channel; `table` is of the measurement's request.
+// The agreement for each channel; `table` is the result of request().
 std::vector<output::Agreement> agreements(const Measurement& measurement, const sim::Table& table,
                                           const sim::Result& result);
 

@@ -34,7 +34,7 @@ std::vector<std::string> written_by(const Output& output) {
 }
 
 double memory_of(const Picture& picture) {
-    // Measured on pictures of 8192 × 8192 pixels: three layers and the rows of a PNG; what OpenGL adds to them.
+    // Bytes per pixel, measured at 8192 × 8192 pixels: three layers and the rows of a PNG, and the buffers of OpenGL.
     const double pixels = double(picture.size.width) * picture.size.height;
     switch (picture.view.style) {
         case render::Style::flat:

@@ -1,7 +1,5 @@
-// What a scene says, resolved: every default filled in, every unit turned into SI.
-//
-// Plain values; nothing here reads, checks or runs. The format is described, key by key, in
-// beamcam-scene.schema.json; `reader.hpp` makes a Scene from a file.
+// A scene with resolved defaults and SI units: plain values without reading, checks or work. FORMAT.md describes the
+// keys; `reader.hpp` reads a Scene from a file.
 #pragma once
 
 #include <initializer_list>
@@ -21,7 +19,7 @@
 
 namespace beamcam::scenes {
 
-// Frames a second as a fraction, so that 30000/1001 stays exact.
+// Frames per second as a fraction, so that 30000/1001 is exact.
 struct FrameRate {
     int numerator = 60, denominator = 1;  // both > 0, in lowest terms
 
@@ -34,12 +32,12 @@ struct Size {
     bool operator==(const Size&) const = default;
 };
 
-// How a film is encoded. The file's ending names the container.
+// The encoding of a film; the ending of the file selects the container.
 struct Encoding {
     output::Codec codec = output::Codec::h264;
-    std::optional<int> crf;           // 0 (best) …; absent: the codec's usual one, or it has none
+    std::optional<int> crf;           // 0 is best; nullopt: the default of the codec, if it has a crf
     std::string preset = "veryfast";  // of x264
-    bool variable_rate = false;       // pictures that do not change are coded once and last longer
+    bool variable_rate = false;       // unchanged pictures are encoded once and last longer
 };
 
 // An instant of the motion: a time, the end, or an event counted from 1: the first touch of an impact or a collision,
@@ -53,11 +51,11 @@ struct Instant {
 
     bool is_event() const { return kind != Kind::time && kind != Kind::last; }
 };
-// How scenes write events: "impact:3", or a word that is enough for the first one, "touch".
+// Notation of events: "impact:3"; some words mean the first event, "touch".
 struct EventWord {
     std::string_view word;  // singular
     Instant::Kind kind;
-    bool alone = false;  // without a number: the first
+    bool alone = false;  // valid without a number, for the first event
 };
 inline constexpr EventWord kEventWords[] = {{"impact", Instant::Kind::impact},
                                             {"collision", Instant::Kind::collision},
@@ -66,14 +64,13 @@ inline constexpr EventWord kEventWords[] = {{"impact", Instant::Kind::impact},
                                             {"touch", Instant::Kind::impact, true}};
 std::string name_of(const Instant& at);  // "impact 3", "0.2 s"
 
-// How fast the motion runs in a film.
+// The playback speed of a film.
 struct SlowMotion {
     double factor = 0.02;  // of real time, around impacts
-    // All in seconds of the motion: slow from so long before the first touch of an impact …
-    double before = 2e-3;
-    double after = 10e-3;                 // … until so long after its release …
-    double ease = 20e-3;                  // … and on the way from one speed to the other for so long
-    std::vector<double> collisions = {};  // whose impacts are meant, counted from 1; none: all
+    // In seconds of the motion: slow motion from `before` the first touch of an impact to `after` its release, with a
+    // transition of `ease` on both sides.
+    double before = 2e-3, after = 10e-3, ease = 20e-3;
+    std::vector<double> collisions = {};  // only around the impacts of these, counted from 1; empty: all
     bool operator==(const SlowMotion&) const = default;
 };
 struct SpeedInterval {
@@ -82,81 +79,81 @@ struct SpeedInterval {
     bool operator==(const SpeedInterval&) const = default;
 };
 struct Speed {
-    double factor = 1;  // of real time, away from impacts and intervals
+    double factor = 1;  // of real time, outside of impacts and intervals
     std::optional<SlowMotion> around = {};
     std::vector<SpeedInterval> intervals = {};  // in place of `around`
-    double ease = 20e-3;                        // at their ends [s of the motion]
+    double ease = 20e-3;                        // transition at their ends [s of the motion]
     bool real_time() const { return factor == 1 && !around && intervals.empty(); }
     bool operator==(const Speed&) const = default;
 };
 
-// What the film does at an instant: stands still, says something.
+// A freeze or a text of a film at an instant.
 struct FilmEvent {
     Instant at;
     double freeze = 0;                          // [s] of the film
     std::string text;                           // plain, with formulas between dollars
-    std::optional<double> show = {};            // [s] of the film; absent: 1.5 s, or until the next words come
-    std::optional<render::Anchor> anchor = {};  // of the words
-    double fade = 0;                            // they come and go in so long [s] of the film
+    std::optional<double> show = {};            // [s] of the film; nullopt: 1.5 s, or until the next text
+    std::optional<render::Anchor> anchor = {};  // of the text
+    double fade = 0;                            // duration of fading in and out [s] of the film
 };
 
-// Another motion in the same picture: this scene with some of its mechanics changed.
+// One motion of a comparison: the mechanics of this or another scene with changes.
 struct Compared {
     std::string label;
     sim::Problem problem;
 };
 
-// What the camera has come to at an instant. What is absent stays as the keyframe before left it.
+// The camera at an instant. Absent values are those of the previous keyframe.
 struct Keyframe {
     Instant at;
     std::optional<double> zoom = {};
     std::optional<render::Anchor> follow = {};
     std::optional<double> yaw = {}, pitch = {};  // [rad]
-    std::optional<double> over = {};             // it moves for so long [s of the film]; absent: since the one before
+    std::optional<double> over = {};  // duration of the movement [s of the film]; nullopt: since the previous keyframe
     render::Ease ease = render::Ease::smooth;
 };
 struct View : render::View {
     std::vector<Keyframe> keyframes = {};
-    std::optional<double> shutter = {};       // open over so much of a frame, 2π: all of it [rad]
-    std::optional<double> strobe_every = {};  // flashes at the multiples of it [s of the motion]; excludes the shutter
-    int exposures = 8;                        // within the shutter's opening, or the latest flashes
+    std::optional<double> shutter = {};       // shutter angle; 2π is the whole frame [rad]
+    std::optional<double> strobe_every = {};  // interval of the flashes [s of the motion]; excludes the shutter
+    int exposures = 8;                        // while the shutter is open, or number of the latest flashes
 
-    // Poses that a frame shows.
+    // Number of poses in a frame.
     std::size_t poses() const {
         return static_cast<std::size_t>(shutter ? exposures : strobe_every ? exposures + 1 : 1);
     }
 };
 
-// What every picture has.
+// The keys of all pictures.
 struct Picture {
     Size size;
     View view;
-    std::optional<render::LayoutNode> layout;  // absent: the standard arrangement
-    // Absent: this motion alone. The first is the main one; the scene itself is one of them only if listed.
+    std::optional<render::LayoutNode> layout;  // nullopt: the standard layout
+    // Empty: only the motion of the scene. The first is the main motion; the scene itself must be listed to be shown.
     std::vector<Compared> compare;
     render::Comparison comparison = render::Comparison::panels;
     bool horizon = false;  // strip charts are paler where θ is not reproducible
-    std::string logo;      // file of a picture, from the scene's folder; may be empty
+    std::string logo;      // picture file relative to the scene's folder; may be empty
     std::string logo_digest;
     std::shared_ptr<const render::Image> logo_image;
 };
 
-// Pictures of the instants k / fps with from <= k/fps < to, by rounded frame numbers; with a speed other than real
-// time or with events, k / fps is the film's own time.
+// Frames at the times k / fps with from <= k / fps < to, by rounded frame numbers. With another speed than real time,
+// or with events, k / fps is film time.
 struct FrameSpan {
     FrameRate fps;
     double from = 0;                // [s] of the motion, >= 0
-    std::optional<double> to = {};  // [s], > from; absent: the end of the scene
+    std::optional<double> to = {};  // [s], > from; nullopt: the end of the scene
     Speed speed = {};
-    std::optional<double> duration = {};  // wanted of the film, freezes and all, in place of a speed [s], > 0
-    double hold = 0;                      // the last picture stands so long [s]
+    std::optional<double> duration = {};  // of the film with its freezes, in place of a speed [s], > 0
+    double hold = 0;                      // duration of the last picture [s]
     std::vector<FilmEvent> events = {};
     std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
-    std::optional<Instant> poster = {};                     // of a video: its frame that is put beside it as a picture
+    std::optional<Instant> poster = {};                     // of a video: the frame that is also written as a picture
 
     bool real_time() const { return speed.real_time() && events.empty() && !duration && hold == 0; }
-    std::vector<Instant> instants() const;  // all that it names
-    bool needs_events() const;              // events have to be known before the frames' instants are
+    std::vector<Instant> instants() const;  // all that its keys name
+    bool needs_events() const;              // the frames depend on events
 };
 
 using render::Lang;
@@ -165,16 +162,16 @@ enum class Subtitles { none, vtt, srt };
 class Planner;       // plan/planner.hpp
 class SceneVisitor;  // format/keys.hpp
 
-// What decides until when an output looks at the motion: its own keys, the scene's end, or the run of all outputs.
+// What determines the end of the motion that an output needs: its keys, the scene's end, or the run of all outputs.
 enum class Extent { keys, scene, run };
 
-// The types of outputs. Each is complete in a file of its own (outputs/): `visit` names its keys, `plan` says what it
-// needs of the motion and how its file is written. A new type is such a file, a struct here, and a line in Output.
+// The output types. Each is implemented in one file in outputs/: `visit` describes its keys, `plan` adds its needs and
+// the writer of its file to the plan. A new type is such a file, a struct here, and an entry in Output.
 
 struct VideoOutput : Picture {
-    static constexpr const char *kType = "video", *kMeaning = "A film; the ending of its name decides the format.";
-    static constexpr bool kIsData = false;  // holds numbers alone: the scene's title is not in it
-    std::string file;                       // relative to the output directory, as in every output
+    static constexpr const char *kType = "video", *kMeaning = "A film; the ending of its name selects the format.";
+    static constexpr bool kIsData = false;  // contains only numbers, not the title of the scene
+    std::string file;                       // relative to the output directory
     FrameSpan span;
     Encoding encoding;
     Subtitles subtitles = Subtitles::none;  // a file beside it
@@ -204,7 +201,7 @@ struct StillOutput : Picture {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-// The poses looked at are thinned by what the page can interpolate; its keys are few, since it fits any window.
+// The page leaves out poses that it can interpolate, and adapts to any window size.
 struct PageOutput : Picture {
     static constexpr const char *kType = "page", *kMeaning = "A self-contained HTML page that plays the motion.";
     static constexpr bool kIsData = false;
@@ -218,7 +215,7 @@ struct PageOutput : Picture {
 struct ModelOutput : Picture {
     static constexpr const char *kType = "model",
                                 *kMeaning =
-                                    "The moving mechanism as a three-dimensional model, for Blender and slides.";
+                                    "An animated three-dimensional model of the mechanism, for Blender and slides.";
     static constexpr bool kIsData = false;
     std::string file;  // .glb
     FrameSpan span;
@@ -231,9 +228,9 @@ struct TrajectoryOutput {
     static constexpr const char *kType = "trajectory", *kMeaning = "A table of channels against time.";
     static constexpr bool kIsData = true;
     std::string file;                    // .csv or .npz
-    std::vector<sim::Channel> channels;  // in this order; the time comes first in any case
-    double rate = 1000;                  // [Hz], rows k/rate and the end; unless there are times
-    std::vector<double> times;           // [s], rows in this order
+    std::vector<sim::Channel> channels;  // in this order, always after the time
+    double rate = 1000;                  // [Hz]: rows k/rate and the end, unless `times` is given
+    std::vector<double> times;           // [s]: rows in this order
 
     Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
@@ -241,12 +238,12 @@ struct TrajectoryOutput {
 };
 struct ShapesOutput {
     static constexpr const char *kType = "shapes",
-                                *kMeaning = "The deflection along the beam in time: a row for each instant and place.";
+                                *kMeaning = "The deflection along the beam in time: one row for each time and point.";
     static constexpr bool kIsData = true;
     std::string file;                // .csv or .npz
-    double rate = 1000;              // [Hz], instants k/rate and the end
-    std::vector<double> times = {};  // [s]; not empty: these instants instead
-    int stations = 33;               // places along the beam, both ends included
+    double rate = 1000;              // [Hz]: times k/rate and the end
+    std::vector<double> times = {};  // [s]; replaces `rate` unless empty
+    int stations = 33;               // points along the beam, both ends included
 
     Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
@@ -262,7 +259,7 @@ struct ImpactsOutput {
     void plan(Planner& planner, std::size_t output) const;
 };
 struct SummaryOutput {
-    static constexpr const char *kType = "summary", *kMeaning = "Counts, extremes, energy balance, warnings.";
+    static constexpr const char *kType = "summary", *kMeaning = "Counts, extrema, energy balance, warnings.";
     static constexpr bool kIsData = true;
     std::string file;  // .json
     bool horizon = false;
@@ -272,7 +269,8 @@ struct SummaryOutput {
     void plan(Planner& planner, std::size_t output) const;
 };
 struct SweepOutput {
-    static constexpr const char *kType = "sweep", *kMeaning = "The points of the scene's sweep: a row for each sample.";
+    static constexpr const char *kType = "sweep",
+                                *kMeaning = "The points of the scene's sweep: one row for each sample.";
     static constexpr bool kIsData = true;
     std::string file;  // .nc, .csv or .npz
 
@@ -284,75 +282,75 @@ inline constexpr std::initializer_list<const char*> kSweepFilmEndings{".mp4", ".
 struct SweepFilmOutput {
     static constexpr const char *kType = "sweep-film",
                                 *kMeaning =
-                                    "A film of the scene's sweep over one key: the bifurcation diagram grows "
-                                    "while the beam of that value moves beside it.";
+                                    "A film of the scene's sweep over one key: a growing bifurcation diagram "
+                                    "beside the motion at that value.";
     static constexpr bool kIsData = false;
     std::string file;  // .mp4, .mov, .mkv or .webm
     Size size;
     FrameRate fps{30, 1};
     double duration = 30;  // [s]
-    double turns = 2;      // of the cam in a second of the film
+    double turns = 2;      // of the cam per second of the film
     render::Style style = render::Style::lit;
     std::optional<double> exaggeration = {};
     Lang lang = Lang::en;
-    std::string value = {};  // what the diagram shows; empty: the usual
+    std::string value = {};  // column of the diagram; empty: default
     std::optional<int> crf = {};
 
     Extent extent() const { return Extent::keys; }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-// One of the panels of the figure "series": curves of channels of one unit, and of another one at the right axis.
+// A panel of the figure "series": curves of one unit, and of another unit on the right axis.
 struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
     bool logarithmic = false;
-    std::optional<double> low = {}, high = {};  // of the axis at the left, in SI units
-    std::vector<double> lines = {};             // across the panel, at these values of that axis
-    std::string label = {};                     // of that axis, before the unit; empty: the channels' symbols
+    std::optional<double> low = {}, high = {};  // of the left axis, in SI units
+    std::vector<double> lines = {};             // horizontal, at these values of the left axis
+    std::string label = {};                     // of the left axis, without unit; empty: the channels' symbols
     std::string title = {};
 };
-// A line at an instant, with words.
+// A vertical line with a text.
 struct SeriesNote {
     Instant at;
     std::string text;
 };
-// What the figure "series" shows; other figures have content of their own.
+// The keys of the figure "series".
 struct SeriesKeys {
     std::vector<SeriesPanel> panels = {};
     std::string against = "t";                              // "t", "turns" of the cam, "frequency", or a channel
-    std::optional<double> x_low = {}, x_high = {};          // of its axis; SI units or turns
+    std::optional<double> x_low = {}, x_high = {};          // ends of the abscissa; SI units or turns
     double from = 0;                                        // [s]
-    std::optional<double> to = {};                          // [s]; absent: the end of the scene
+    std::optional<double> to = {};                          // [s]; nullopt: the end of the scene
     std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
-    std::optional<Instant> at = {};                         // of a strobe: the one instant, in place of both
-    std::vector<Compared> compare = {};                     // absent: this motion alone
-    bool apart = false;                                     // each of these in panels of its own
-    bool impacts = false;                                   // lines where impacts begin
-    bool residuals = false;                                 // below each panel with data, what the data differ by
-    std::optional<double> height = {};                      // [m]; absent: what suits the panels
+    std::optional<Instant> at = {};                         // of a strobe: the only instant, in place of both
+    std::vector<Compared> compare = {};                     // empty: only the motion of the scene
+    bool apart = false;                                     // separate panels for each of them
+    bool impacts = false;                                   // lines at the beginnings of impacts
+    bool residuals = false;                                 // a panel of differences below each panel with data
+    std::optional<double> height = {};                      // [m]; nullopt: suits the panels
     std::vector<SeriesNote> notes = {};
-    std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; absent: what suits the motion
+    std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; nullopt: suits the motion
 
     bool needs_events() const { return from_event || to_event || (at && at->is_event()); }
 };
 inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
 struct FigureOutput {
     static constexpr const char *kType = "figure",
-                                *kMeaning = "A figure for print: one of those that `beamcam figure SCENE` lists.";
+                                *kMeaning = "A figure for print; `beamcam figure SCENE` lists all figures.";
     static constexpr bool kIsData = false;
     std::string file;                 // of one of kFigureEndings
     std::string figure;               // its name, see figures/recipes.hpp
-    std::string column = "elsevier";  // a journal's, see render/plot/style.hpp
-    std::optional<double> width;      // [m]; absent: the column's
+    std::string column = "elsevier";  // of a journal, see render/plot/style.hpp
+    std::optional<double> width;      // [m]; nullopt: that of the column
     Lang lang = Lang::en;
-    std::optional<double> dpi;  // of pixels; absent: 300 of .png, 600 of .tif
-    bool editable = false;      // text of .svg as text
-    bool serif = false;         // letters as those of text set by LaTeX
-    bool dark = false;          // on the dark theme's paper, for slides
+    std::optional<double> dpi;  // nullopt: 300 for .png, 600 for .tif
+    bool editable = false;      // .svg contains text, not outlines
+    bool serif = false;         // serif font, as in LaTeX documents
+    bool dark = false;          // dark theme, for slides
     SeriesKeys series;
-    int collision = 1;                    // which one the figure "collision" shows, counted from 1
-    std::string value = {};               // of a diagram of a sweep: what it shows; empty: the usual
-    std::string data_file, caption_file;  // beside it; empty: none
+    int collision = 1;                    // number of the collision in the figure "collision", from 1
+    std::string value = {};               // column of a sweep's diagram; empty: default
+    std::string data_file, caption_file;  // empty: none
 
     Extent extent() const {
         const bool ends = series.to || (series.at && series.at->kind == Instant::Kind::time);
@@ -366,27 +364,27 @@ struct FigureOutput {
 using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, ModelOutput, FigureOutput,
                             TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput, SweepFilmOutput, SummaryOutput>;
 
-// About what a thread needs to draw it [bytes], and from where on people are told.
+// Estimated memory of a drawing thread [bytes], and the value above which a warning is printed.
 double memory_of(const Picture& picture);
 constexpr double kMuchMemory = 1e9;
 
 const std::string& file_of(const Output& output);
 std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
 std::string subtitles_file(const VideoOutput& video);       // "fall.vtt"; empty: none
-std::vector<std::string> written_by(const Output& output);  // its file, and what stands beside it
+std::vector<std::string> written_by(const Output& output);  // its file and its secondary files
 bool is_data(const Output& output);
 bool is_picture(const Output& output);
 
 struct Scene {
     std::string name = "scene";  // the file's name without its ending
     std::string title;
-    render::Units units;  // that films write
+    render::Units units;  // of the labels in films
     sim::Problem problem;
     double end_time = 1.5;  // [s], > 0
     std::optional<Sweep> sweep;
     std::vector<Measurement> data;
     std::vector<Output> outputs;
-    // Where each stands, for messages: "fall.json:12:5"; none of those that a command adds.
+    // Position of each output in the file, for messages: "fall.json:12:5". Outputs of commands have none.
     std::vector<std::string> output_places;
 
     void set_outputs(std::vector<Output> others) {
@@ -395,11 +393,11 @@ struct Scene {
     }
 };
 
-// The film that a scene without outputs yields.
+// The output of a scene without outputs.
 VideoOutput default_film(const Scene& scene);
 
-// The scene as JSON text in the scene format, every default written out: it reads back to the same
-// scene, and goes into the metadata of what was made from it. Without `outputs`: physics only.
+// The scene as JSON in the scene format with all defaults. It reads back to the same scene, and is the metadata of
+// files made from it.
 std::string to_json(const Scene& scene);
 
 }  // namespace beamcam::scenes

@@ -34,7 +34,7 @@ std::string text_of_sample(const sim::Sampling& sampling) {
                        sampling.rising ? "rising" : "falling");
 }
 
-static void write_out(SweptKey& over) {
+static void resolve_table(SweptKey& over) {
     if (over.file.empty()) return;
     const output::NamedTable table = output::read_table(over.file);
     const std::vector<double>* column = table.find(over.column);
@@ -47,6 +47,6 @@ static void write_out(SweptKey& over) {
     over.column.clear();
 }
 
-void write_out_tables(Sweep& sweep) { std::ranges::for_each(sweep.over, write_out); }
+void resolve_tables(Sweep& sweep) { std::ranges::for_each(sweep.over, resolve_table); }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// A sweep as a scene says it: which keys take which values, what is kept of each motion, where each motion starts.
+// A sweep: the keys and their values, the samples of each motion, and the start of each motion.
 #pragma once
 
 #include <optional>
@@ -9,7 +9,7 @@
 
 namespace beamcam::scenes {
 
-// A key and its values: a range, a list, or a column of a table. In the key's SI unit.
+// A key and its values in SI units: a range, a list, or a column of a table.
 struct SweptKey {
     std::string key;
     std::optional<double> from, to;  // both ends are values
@@ -20,7 +20,7 @@ struct SweptKey {
     bool operator==(const SweptKey&) const = default;
 };
 
-// A key that takes a random number between two.
+// A key with a random value between two bounds.
 struct RandomKey {
     std::string key;
     double from = 0, to = 0;
@@ -28,16 +28,16 @@ struct RandomKey {
 };
 
 enum class SeedKind {
-    same,        // each motion starts as the scene says
-    carry_up,    // from where that of the value before ended, in the order of the values
-    carry_down,  // in the opposite order
+    same,        // the initial state of the scene
+    carry_up,    // the end of the motion at the previous value, in increasing order
+    carry_down,  // the same in decreasing order
     random
 };
 
 struct SweepSeeds {
-    std::vector<SeedKind> kinds{SeedKind::same};  // one motion each; of `random` so many as `random` says
+    std::vector<SeedKind> kinds{SeedKind::same};  // one motion each; `random` motions for SeedKind::random
     int random = 0;
-    std::vector<RandomKey> keys;  // none: initial.angle and initial.angular_velocity, see FORMAT.md
+    std::vector<RandomKey> keys;  // empty: initial.angle and initial.angular_velocity, see FORMAT.md
     bool operator==(const SweepSeeds&) const = default;
 };
 
@@ -48,11 +48,10 @@ struct Sweep {
     bool operator==(const Sweep&) const = default;
 };
 
-// The motions at one value of the keys, in the order of their points.
+// The starts at one value of the keys, in the order of their points.
 std::vector<SeedKind> starts_of(const SweepSeeds& seeds);
-// Puts the values of the tables that the sweep names in place of them: what is made depends on these. Throws SceneError
-// where there is no such column, UnreadableFile, IoError.
-void write_out_tables(Sweep& sweep);
-std::string text_of_sample(const sim::Sampling& sampling);  // as the key "sample" is written
+// Replaces references to tables by their values. Throws SceneError for a missing column, UnreadableFile, IoError.
+void resolve_tables(Sweep& sweep);
+std::string text_of_sample(const sim::Sampling& sampling);  // in the notation of the key "sample"
 
 }  // namespace beamcam::scenes

@@ -34,7 +34,7 @@ TimeMap::TimeMap(double from, double to, const Speed& speed, const std::vector<s
                             impact.t_end.value_or(std::max(to, impact.t_start)) + slow.after, slow.factor, slow.ease,
                             slow.ease};
             if (span.to + slow.ease < from || span.from - slow.ease > to) continue;
-            // Spans whose eases would meet are one: speeding up for an instant tells nobody anything.
+            // Spans whose transitions would overlap are merged.
             if (!spans_.empty() && span.from - spans_.back().to < 2 * slow.ease)
                 spans_.back().to = std::max(spans_.back().to, span.to);
             else
@@ -47,7 +47,7 @@ TimeMap::TimeMap(double from, double to, const Speed& speed, const std::vector<s
             spans_.back().after = span.before = std::min(speed.ease, (span.from - spans_.back().to) / 2);
         spans_.push_back(span);
     }
-    std::vector<std::pair<double, bool>> cuts;  // where pieces begin, and whether the speed stays constant in them
+    std::vector<std::pair<double, bool>> cuts;  // beginnings of pieces, and whether their speed is constant
     cuts.emplace_back(from, true);
     for (const Span& s : spans_) {
         for (int side = 0; side < 2; ++side) {
@@ -82,7 +82,7 @@ double TimeMap::speed_at(double t) const {
     return base_ * std::pow(factor / base_, weight);
 }
 
-// Gauss and Legendre's five points; within a piece the integrand is smooth.
+// Gauss–Legendre quadrature with five points; within a piece the integrand is smooth.
 double TimeMap::elapsed(const Piece& piece, double t) const {
     if (piece.flat) return (t - piece.t0) / speed_at((piece.t0 + piece.t1) / 2);
     static constexpr std::array<double, 5> kNodes{0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640,
@@ -127,18 +127,18 @@ double TimeMap::unfrozen(double film, bool& frozen) const {
 double TimeMap::instant(double film) const {
     bool frozen = false;
     const double tau = unfrozen(film, frozen);
-    if (frozen)  // every frame of a freeze shows one and the same instant
+    if (frozen)  // all frames of a freeze show the same instant
         for (const Freeze& f : freezes_)
             if (f.tau == tau) return f.t;
     if (pieces_.empty() || tau <= 0) return from_;
     auto at = std::ranges::upper_bound(pieces_, tau, {}, &Piece::tau0);
     const Piece& piece = *(at - 1);
-    const double wanted = tau - piece.tau0;
-    double t = piece.t0 + wanted * speed_at(piece.flat ? (piece.t0 + piece.t1) / 2 : piece.t0);
+    const double target = tau - piece.tau0;
+    double t = piece.t0 + target * speed_at(piece.flat ? (piece.t0 + piece.t1) / 2 : piece.t0);
     if (!piece.flat) {
         t = std::clamp(t, piece.t0, piece.t1);
         for (int i = 0; i < 20; ++i) {
-            const double step = (wanted - elapsed(piece, t)) * speed_at(t);
+            const double step = (target - elapsed(piece, t)) * speed_at(t);
             t = std::clamp(t + step, piece.t0, piece.t1);
             if (std::abs(step) <= 1e-15 * std::max(1.0, std::abs(t))) break;
         }
@@ -162,8 +162,8 @@ double TimeMap::film_time(double t) const {
     return film;
 }
 
-// The highest apex of each rebound: between the beginnings of two collisions, or after the last. Without collisions
-// each apex counts.
+// The highest apex of each rebound, between the beginnings of two collisions or after the last one. Without collisions
+// every apex is a rebound.
 static std::vector<sim::Apex> rebounds(const sim::Result& motion) {
     std::vector<sim::Apex> out;
     if (motion.collisions.empty()) return motion.apexes;
@@ -209,8 +209,8 @@ double instant_of(const Instant& instant, const sim::Result& motion) {
                               : instant.kind == Instant::Kind::collision ? motion.collisions.size()
                               : instant.kind == Instant::Kind::release   ? static_cast<std::size_t>(released)
                                                                          : motion.impacts.size();
-    throw render::PictureError(
-        fmt::format("there is no {}: the motion has {} until {:g} s", name_of(instant), count, motion.end_time));
+    throw render::PictureError(fmt::format("{} does not occur: the motion has {} of them until {:g} s",
+                                           name_of(instant), count, motion.end_time));
 }
 
 }  // namespace beamcam::scenes

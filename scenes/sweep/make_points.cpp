@@ -18,7 +18,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// Columns of impacts are empty in other samples, and left out.
+// Samples other than impacts have no impact columns.
 std::vector<std::size_t> kept_columns(const sim::Sampling& sampling) {
     std::vector<std::size_t> kept;
     for (std::size_t c = 0; c < sim::kSampleColumns; ++c)
@@ -26,7 +26,7 @@ std::vector<std::size_t> kept_columns(const sim::Sampling& sampling) {
     return kept;
 }
 
-// A state to go on from, and back.
+// The end state as numbers; end_of is the inverse.
 std::vector<double> numbers_of(const sim::InitialState& s) {
     std::vector<double> out{double(s.phase.touching), double(s.phase.held), s.phase.approach,
                             double(int(s.phase.friction)), s.phase.gap_offset};
@@ -47,7 +47,7 @@ output::StoredPoint stored(std::uint64_t index, const sim::SweepPoint& made, con
     out.samples.reserve(made.motion.samples.size() * columns.size());
     for (const sim::MotionSample& sample : made.motion.samples)
         for (const std::size_t c : columns) out.samples.push_back(sample[c]);
-    // What has left the cam or failed is no place to go on from.
+    // A motion over the top or with an error has no end state.
     if (!made.motion.over_the_top && out.failure.empty()) out.state = numbers_of(made.motion.end);
     return out;
 }
@@ -90,7 +90,7 @@ class PointMaker {
     const SweepGrid& grid_;
     output::PointStore& store_;
     Progress& progress_;
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards done_
     std::uint64_t done_ = 0;
 };
 

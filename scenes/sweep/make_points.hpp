@@ -1,4 +1,4 @@
-// Makes the points of a sweep, on several threads, into a store that survives the program.
+// Computes the points of a sweep on several threads and stores them in a file that survives an interruption.
 #pragma once
 
 #include <optional>
@@ -11,31 +11,31 @@
 
 namespace beamcam::scenes {
 
-// The part of the tasks that this program makes: those whose number is `part` modulo `parts`.
+// The tasks of this process: those with number ≡ `part` (mod `parts`).
 struct SweepPart {
     std::uint64_t part = 0, parts = 1;
     bool has_task(std::uint64_t task) const { return task % parts == part; }
     bool whole() const { return parts == 1; }
 };
-std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part);  // by point
+std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part);  // true for its points
 
-// Those that the store has not. The bits of a point depend on neither the threads nor the parts. Throws Interrupted,
-// IoError.
+// Computes the points that the store lacks. The bits of a point are independent of threads and parts. Throws
+// Interrupted, IoError.
 void make_points(const SweepGrid& grid, const SweepPart& part, int threads, Progress& progress,
                  output::PointStore& store);
 
-// The state at the end of the point's motion; nothing where that left the cam or failed, and where the point was read
-// from a NetCDF file.
+// The end state of the point's motion; nullopt if the beam went over the top, the motion failed, or the point is from a
+// NetCDF file.
 std::optional<sim::InitialState> end_of(const output::StoredPoint& point);
 
-// What one point takes, by a few short motions; for plans.
+// The estimated cost of all points, from a few short motions.
 struct SweepCost {
-    double seconds = 0;  // of one thread, for all points
-    double rows = 0;     // samples of all points
+    double seconds = 0;  // on one thread
+    double rows = 0;     // samples
 };
 SweepCost cost_of(const SweepGrid& grid);
 
-// What a sweep's files are made from.
+// The content of a sweep's files.
 output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const SweepPart& part);
 
 }  // namespace beamcam::scenes

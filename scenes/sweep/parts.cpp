@@ -23,7 +23,7 @@ SweepPart part_of(std::uint64_t number, std::uint64_t parts, const std::string& 
     return {number - 1, parts};
 }
 
-// The variables of an engine: number of the task, first, last or count, step.
+// The variables of an engine: number of the task, first, last, count, step.
 struct ArrayTask {
     const char *number, *first, *last, *count, *step;
 };
@@ -35,7 +35,7 @@ constexpr ArrayTask kArrayTasks[] = {
     {"PBS_ARRAYID", nullptr, nullptr, nullptr, nullptr},
 };
 
-// One file of a sweep that was cut.
+// The file of one part.
 struct Part {
     std::filesystem::path file;
     output::SweepData data;
@@ -45,14 +45,14 @@ struct Part {
 Part open_part(const std::filesystem::path& file) {
     Part found{file, output::netcdf_library().open(file), {}};
     const std::string *which = found.data.attribute("beamcam_part"), *scene = found.data.attribute("beamcam_scene");
-    if (!scene) throw output::IoError(file.string() + ": is no sweep of beamcam");
-    if (!which) throw output::IoError(file.string() + ": is a whole sweep and no part of one");
+    if (!scene) throw output::IoError(file.string() + ": not a sweep of beamcam");
+    if (!which) throw output::IoError(file.string() + ": a complete sweep, not a part");
     found.part = part_argument(*which, [](const char*) { return nullptr; });
     return found;
 }
 
-// Every number from 1 to N once, all of one sweep.
-void require_whole(const std::vector<Part>& parts) {
+// Requires each number from 1 to N once, all of the same sweep.
+void require_complete(const std::vector<Part>& parts) {
     const Part& first = parts.front();
     std::map<std::uint64_t, const Part*> found;
     for (const Part& part : parts) {
@@ -60,28 +60,28 @@ void require_whole(const std::vector<Part>& parts) {
             const std::string *one = first.data.attribute(name), *other = part.data.attribute(name);
             if (!one || !other || *one != *other)
                 throw output::IoError(fmt::format(
-                    "{}: is part of another {} than {}", part.file.string(),
-                    std::string_view(name) == "beamcam_sweep" ? "sweep" : "program's sweep", first.file.string()));
+                    "{}: part of another {} than {}", part.file.string(),
+                    std::string_view(name) == "beamcam_sweep" ? "sweep" : "program version", first.file.string()));
         }
         if (part.part.parts != first.part.parts)
-            throw output::IoError(fmt::format("{}: is one of {} parts, {} one of {}", part.file.string(),
+            throw output::IoError(fmt::format("{}: one of {} parts, but {} is one of {}", part.file.string(),
                                               part.part.parts, first.file.string(), first.part.parts));
         if (const auto [there, added] = found.emplace(part.part.part, &part); !added)
             throw output::IoError(
-                fmt::format("{}: is the same part as {}", part.file.string(), there->second->file.string()));
+                fmt::format("{}: the same part as {}", part.file.string(), there->second->file.string()));
     }
     std::vector<std::uint64_t> missing;
     for (std::uint64_t k = 0; k < first.part.parts; ++k)
         if (!found.contains(k)) missing.push_back(k + 1);
     if (!missing.empty())
         throw output::IoError(fmt::format(
-            "of {} parts these are missing: {}", first.part.parts,
+            "these of {} parts are missing: {}", first.part.parts,
             fmt::join(missing.begin(),
                       missing.begin() + std::ssize(missing) - std::max<std::ptrdiff_t>(0, std::ssize(missing) - 20),
                       ", ")));
 }
 
-// A command within a string of Python whose braces Snakemake fills in.
+// A command as a Python string of a Snakefile, with escaped braces.
 std::string in_snakefile(const std::string& command) {
     std::string text;
     for (const char c : command) {
@@ -112,31 +112,32 @@ SweepPart part_argument(const std::string& text, const std::function<const char*
         if (!count) count = value(task.count);
         if (!count && value(task.last)) count = (*value(task.last) - first) / step + 1;
         if (!count)
-            throw UsageError(fmt::format("--shard {}: {} does not tell of how many; write auto/N", text, task.number));
+            throw UsageError(
+                fmt::format("--shard {}: {} is set, but not the number of tasks; write auto/N", text, task.number));
         return part_of(*number < first ? 0 : (*number - first) / step + 1, *count, text);
     }
     throw UsageError(
-        fmt::format("--shard {}: no task of an array: neither SLURM_ARRAY_TASK_ID, SGE_TASK_ID nor "
-                    "PBS_ARRAY_INDEX is set; write I/N",
+        fmt::format("--shard {}: this is not an array task, since SLURM_ARRAY_TASK_ID, SGE_TASK_ID and "
+                    "PBS_ARRAY_INDEX are not set; write I/N",
                     text));
 }
 
 CollectedSweep collect(const std::vector<std::filesystem::path>& files) {
     auto parts = std::make_shared<std::vector<Part>>();
     for (const std::filesystem::path& file : files) parts->push_back(open_part(file));
-    require_whole(*parts);
+    require_complete(*parts);
     Reading reading =
         read_scene({"scene of " + files.front().string(), *parts->front().data.attribute("beamcam_scene"), true});
     if (!reading.scene || !reading.scene->sweep)
         throw output::IoError(files.front().string() + ": its scene has no sweep");
     CollectedSweep out{std::move(*reading.scene), parts->front().data};
     std::erase_if(out.data.attributes, [](const auto& each) { return each.first == "beamcam_part"; });
-    // Which part has which point.
+    // The part of each point.
     auto owner = std::make_shared<std::vector<std::uint32_t>>(out.data.points(), 0);
     for (std::uint64_t point = 0; point < owner->size(); ++point) {
         const auto found = std::ranges::find_if(*parts, [&](const Part& part) { return part.data.has(point); });
         if (found == parts->end())
-            throw output::IoError(fmt::format("point {} is in none of the parts: one of them was not finished", point));
+            throw output::IoError(fmt::format("point {} is missing in all parts; one of them is not finished", point));
         (*owner)[point] = static_cast<std::uint32_t>(found - parts->begin());
     }
     out.data.has = [](std::uint64_t) { return true; };
@@ -153,14 +154,14 @@ std::string engine_script(const std::string& engine, const std::string& command,
         return fmt::format(
             "#!/bin/sh\n#SBATCH --job-name=sweep\n#SBATCH --array=1-{0}\n#SBATCH --cpus-per-task=1\n"
             "#SBATCH --output=%x.%A_%a.log\n"
-            "# sbatch this file; a part that was killed goes on where it was, a finished one is left alone. Then:\n"
+            "# sbatch this file; a killed part continues, a finished part is kept. Then:\n"
             "#   sbatch --dependency=afterok:JOB --wrap 'beamcam collect {1} -o {2}'\n"
             "exec {3} -o {2} --shard auto -j \"${{SLURM_CPUS_PER_TASK:-1}}\" --progress plain\n",
             parts, all, file, command);
     if (engine == "parallel")
         return fmt::format(
             "#!/bin/sh\n# GNU parallel on all cores; several hosts: add --sshlogin HOST,HOST --workdir .\n"
-            "# Run again, it makes what failed or is missing: finished parts are left alone.\nset -e\n"
+            "# Run it again to compute failed or missing parts; finished parts are kept.\nset -e\n"
             "seq {0} | parallel --joblog {1}.joblog --retries 3 -I _PART_ --quote \\\n"
             "    {2} -o {3} --shard _PART_/{0} -j1 -q\n"
             "beamcam collect {4} -o {3}\n",

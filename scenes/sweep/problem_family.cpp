@@ -11,7 +11,7 @@ namespace beamcam::scenes {
 sim::Problem ProblemFamily::at(double value) const {
     sim::Problem problem = problem_;
     if (!sim::set_number(problem, key_, value))
-        throw SceneError(fmt::format("{} = {:.10g} is outside its range or no whole number", key_, value));
+        throw SceneError(fmt::format("{} = {:.10g} is outside its range or not a whole number", key_, value));
     for (const sim::Issue& finding : sim::validate(problem))
         if (finding.fatal)
             throw SceneError(fmt::format("at {} = {:.10g}: {}: {}", key_, value, finding.path, finding.message));

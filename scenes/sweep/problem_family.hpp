@@ -1,4 +1,4 @@
-// The problem of a scene at values of one of its keys.
+// The problem of a scene as a function of one of its keys.
 #pragma once
 
 #include <string>
@@ -12,8 +12,8 @@ class ProblemFamily {
   public:
     ProblemFamily(sim::Problem problem, std::string key) : problem_(std::move(problem)), key_(std::move(key)) {}
 
-    sim::Problem at(double value) const;          // throws SceneError where the problem is impossible
-    sim::Problem operator()(double value) const;  // throws sim::StepFailure there, as an integration does
+    sim::Problem at(double value) const;          // throws SceneError for an impossible problem
+    sim::Problem operator()(double value) const;  // throws sim::StepFailure instead
 
   private:
     sim::Problem problem_;

@@ -16,7 +16,7 @@ namespace beamcam::scenes {
 namespace {
 
 constexpr std::uint64_t kMostPoints = 100'000'000;
-constexpr std::uint64_t kMostJudged = 100'000;         // problems that are judged before the work begins
+constexpr std::uint64_t kMostChecked = 100'000;        // problems to check before the work
 constexpr double kRandomAngle = 0.3, kRandomRate = 1;  // [rad], [rad/s] of random starts, as FORMAT.md says
 
 std::vector<double> values_of(const SweptKey& over) {
@@ -32,7 +32,7 @@ std::vector<double> values_of(const SweptKey& over) {
     return values;
 }
 
-// Equal numbers on every machine: SplitMix64 (Steele, Lea & Flood 2014) of the point and the key, 0 … 1.
+// The same numbers on every machine: SplitMix64 (Steele, Lea & Flood 2014) from point and key, 0 … 1.
 double random_share(std::uint64_t point, std::uint64_t key) {
     std::uint64_t z = (point + 1) * 0x9e3779b97f4a7c15 + (key + 1) * 0xd1b54a32d192ed03;
     z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9;
@@ -47,7 +47,7 @@ SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     scene_.output_places.clear();
     scene_.title.clear();
     scene_.end_time = Scene{}.end_time;
-    write_out_tables(*scene_.sweep);
+    resolve_tables(*scene_.sweep);
     const Sweep& sweep = *scene_.sweep;
     for (const SweptKey& over : sweep.over) {
         axes_.push_back({over.key, si_unit(sim::number_key(scene_.problem, over.key)->dimension), values_of(over)});
@@ -55,7 +55,7 @@ SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     }
     seeds_ = starts_of(sweep.seeds);
     if (points() > kMostPoints)
-        throw SceneError(fmt::format("sweep: {} points; at most {} fit into one sweep", points(), kMostPoints));
+        throw SceneError(fmt::format("sweep: {} points are too many; a sweep has at most {}", points(), kMostPoints));
     for (std::uint64_t s = 0; s < seeds_.size(); ++s)
         (seeds_[s] == SeedKind::carry_up || seeds_[s] == SeedKind::carry_down ? carried_ : single_).push_back(s);
     random_ = sweep.seeds.keys;
@@ -63,17 +63,18 @@ SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     if (random_.empty())
         random_ = {{"initial.angle", angle, angle + kRandomAngle},
                    {"initial.angular_velocity", -kRandomRate, kRandomRate}};
-    judge();
+    check();
 }
 
 void SweepGrid::set(sim::Problem& problem, const std::string& key, double value) const {
     if (!sim::set_number(problem, key, value))
-        throw SceneError(fmt::format("sweep.over: {} = {:.10g} is outside its range or no whole number", key, value));
+        throw SceneError(
+            fmt::format("sweep.over: {} = {:.10g} is outside its range or not a whole number", key, value));
 }
 
-// Every problem that can be judged in good time. Starts inside the cam are points of their own.
-void SweepGrid::judge() const {
-    const std::uint64_t stride = std::max<std::uint64_t>(1, cells_ / kMostJudged);
+// Checks as many problems as a short time allows. A start inside the cam is not an error here, but a failed point.
+void SweepGrid::check() const {
+    const std::uint64_t stride = std::max<std::uint64_t>(1, cells_ / kMostChecked);
     for (std::uint64_t cell = 0; cell < cells_; cell += stride) {
         const std::uint64_t point = cell * seeds_.size();
         for (const sim::Issue& finding : validate(problem(point))) {

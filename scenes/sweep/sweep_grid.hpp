@@ -1,4 +1,4 @@
-// The points of a sweep: which problem each has, where it starts, and which of them are made one after the other.
+// The points of a sweep: the problem and the start of each, and the tasks that can run in parallel.
 #pragma once
 
 #include <cstdint>
@@ -12,11 +12,11 @@ namespace beamcam::scenes {
 
 class SweepGrid {
   public:
-    // Of a scene with a sweep, whose tables are read. Throws SceneError: an impossible problem at one of the values,
-    // too many points; what write_out_tables throws.
+    // Reads the tables of the sweep. Throws SceneError for an impossible problem at one of the values and for too many
+    // points; what resolve_tables throws.
     explicit SweepGrid(const Scene& scene);
 
-    // Motions that are made one after the other: a row of carried starts, or a single one.
+    // Motions in sequence: a row of carried starts, or a single motion.
     struct Task {
         std::vector<std::uint64_t> points;
         bool carries = false;
@@ -32,13 +32,13 @@ class SweepGrid {
     const sim::Sampling& sampling() const { return scene_.sweep->sampling; }
     const Sweep& sweep() const { return *scene_.sweep; }
 
-    // The scene with nothing but what decides about the points, values of tables written out.
+    // The scene reduced to what determines the points, with the values of tables.
     const Scene& scene() const { return scene_; }
-    std::string digest() const;    // of it
-    std::string identity() const;  // the same with this program
+    std::string digest() const;    // of scene()
+    std::string identity() const;  // of scene() and this program
 
   private:
-    void judge() const;
+    void check() const;
     void set(sim::Problem& problem, const std::string& key, double value) const;
 
     Scene scene_;
@@ -46,7 +46,7 @@ class SweepGrid {
     std::vector<SeedKind> seeds_;
     std::vector<RandomKey> random_;
     std::uint64_t cells_ = 1;
-    std::vector<std::uint64_t> single_, carried_;  // seeds by whether they carry
+    std::vector<std::uint64_t> single_, carried_;  // seeds without and with carried starts
 };
 
 }  // namespace beamcam::scenes

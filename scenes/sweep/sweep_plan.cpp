@@ -13,7 +13,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// Of a sample in a CSV file and in memory order, beside the samples' own numbers [bytes].
+// Size of a number in CSV and NPZ files [bytes], and columns besides those of the samples.
 constexpr double kTextOfNumber = 19, kNumber = 8;
 constexpr double kCommonColumns = 9;
 

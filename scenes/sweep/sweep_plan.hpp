@@ -1,4 +1,4 @@
-// What a sweep would do: points, seconds, bytes.
+// The plan of a sweep: points, seconds, bytes.
 #pragma once
 
 #include <string>
@@ -12,8 +12,7 @@ struct PlannedFile {
     std::string file, content;
 };
 
-// `files`: what it would write. A few lines for people, or an object for programs. Follows a few short motions to know
-// what they cost.
+// As text or JSON. `files`: the planned files. Simulates a few short motions to estimate the cost.
 std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& files, int threads, bool json);
 
 }  // namespace beamcam::scenes

@@ -13,11 +13,12 @@
 namespace beamcam::scenes {
 namespace {
 
-// A new empty file with a name that nobody could guess.
+// A new empty file with a random name.
 std::filesystem::path temporary_store() {
     std::string name = (std::filesystem::temp_directory_path() / "beamcam-sweep-XXXXXX").string();
     const int descriptor = mkstemp(name.data());
-    if (descriptor < 0) throw output::IoError(name + ": cannot be made; points of the sweep would be kept there");
+    if (descriptor < 0)
+        throw output::IoError(name + ": this temporary file for the points of the sweep cannot be created");
     close(descriptor);
     return name;
 }
@@ -32,7 +33,7 @@ SweepRun::SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::p
 
 SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, SweepPart(), temporary_store()) { store_.remove(); }
 
-void SweepRun::take_from(const std::filesystem::path& file) try {
+void SweepRun::reuse_points_of(const std::filesystem::path& file) try {
     if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;
     const output::SweepData there = output::netcdf_library().open(file);
     for (const char* name : {"beamcam_sweep", "beamcam_program"}) {
@@ -41,7 +42,7 @@ void SweepRun::take_from(const std::filesystem::path& file) try {
     }
     for (std::uint64_t k = 0; k < there.points(); ++k)
         if (!store_.has(k) && there.has(k)) store_.add(there.read(k));
-} catch (const output::IoError&) {  // what could not be read is made again
+} catch (const output::IoError&) {  // points that cannot be read are computed again
 }
 
 void SweepRun::make(int threads, Progress& progress) {
@@ -65,7 +66,7 @@ std::string SweepRun::summary() const {
     for (const auto& [kind, n] : kinds)
         text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
                             name(static_cast<sim::AttractorClass>(kind)));
-    if (failed > 0) text += fmt::format("\n{} could not be followed to their ends; the first: {}", failed, why);
+    if (failed > 0) text += fmt::format("\n{} failed; the first: {}", failed, why);
     return text;
 }
 

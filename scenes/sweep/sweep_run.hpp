@@ -1,4 +1,4 @@
-// A sweep that is made: its points, in a file that keeps them until what is written from them is whole.
+// A sweep in progress: its points, in a file that keeps them until all output files are complete.
 #pragma once
 
 #include <filesystem>
@@ -12,22 +12,22 @@ namespace beamcam::scenes {
 
 class SweepRun {
   public:
-    // `store`: where the points stand until `remove`; what an earlier run left there is not made again. Throws what
-    // SweepGrid and PointStore throw.
+    // `store`: file of the points until `remove`; it may contain points of an interrupted run. Throws what SweepGrid
+    // and PointStore throw.
     SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store);
-    // The whole sweep, whose points no file keeps beyond this.
+    // The whole sweep, with a temporary store.
     explicit SweepRun(const Scene& scene);
 
-    bool dropped_others() const { return store_.dropped_others(); }  // points of another sweep or version in the store
+    bool dropped_others() const { return store_.dropped_others(); }  // the store had points of another sweep or version
     std::uint64_t points_there() const { return store_.count(); }
-    // The points of a finished .nc file of the same sweep by the same program; none of another or a damaged one.
-    void take_from(const std::filesystem::path& file);
-    void make(int threads, Progress& progress);  // as make_points
+    // Reuses the points of a finished .nc file of the same sweep and program; ignores other and damaged files.
+    void reuse_points_of(const std::filesystem::path& file);
+    void make(int threads, Progress& progress);  // see make_points
     const SweepGrid& grid() const { return grid_; }
-    const output::SweepData& data() const { return data_; }   // as long as this lives
+    const output::SweepData& data() const { return data_; }   // valid during the lifetime of this
     Swept swept() const { return {&grid_.scene(), &data_}; }  // for figures
     output::StoredPoint read(std::uint64_t point) const { return store_.read(point); }
-    // "601 points in 1.2 s: 24 following, 577 periodic", and what could not be followed.
+    // "601 points in 1.2 s: 24 following, 577 periodic", and the failures.
     std::string summary() const;
     void remove() { store_.remove(); }
 

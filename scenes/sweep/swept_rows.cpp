@@ -17,7 +17,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// The classes whose sections are of a motion that lasts, as a table numbers them.
+// The numbers of the classes whose sections belong to a lasting motion.
 std::vector<double> lasting_classes() {
     std::vector<double> numbers;
     for (const auto& [kind, name] : sim::names(sim::AttractorClass{}))
@@ -25,7 +25,7 @@ std::vector<double> lasting_classes() {
     return numbers;
 }
 
-// A NetCDF file has the rows that the same sweep has as .csv.
+// A NetCDF file gives the same rows as the .csv file of the sweep.
 output::NamedTable sweep_table(const std::string& file) {
     if (!file.ends_with(".nc")) return output::read_table(file);
     std::ostringstream text;
@@ -40,7 +40,7 @@ SweptImpacts swept_impacts(const std::string& file, const std::string& key, doub
     const auto column = [&](const std::string& name) -> const std::vector<double>& {
         if (const std::vector<double>* found = table.find(name)) return *found;
         throw UsageError(
-            fmt::format("--sweep {}: it has no column {}; write it by beamcam sweep --over {}=... "
+            fmt::format("--sweep {}: column {} is missing; write the file by beamcam sweep --over {}=... "
                         "--sample impacts -o {}",
                         file, name, key, file));
     };
@@ -64,14 +64,14 @@ sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int r
     const auto value = [&](const char* name) {
         const std::vector<double>* column = table.find(name);
         if (!column || std::isnan((*column)[index]))
-            throw UsageError(fmt::format("--row {}: there is no {} in this row of {}", row, name, file));
+            throw UsageError(fmt::format("--row {}: {} is missing in this row of {}", row, name, file));
         return (*column)[index];
     };
     for (const sim::NumberKey& key : sim::number_keys(problem))
         if (const std::vector<double>* column = table.find(key.path))
             problem = ProblemFamily(problem, key.path).at((*column)[index]);
     if (!problem.cam) throw UsageError("--row: the scene has no cam");
-    constexpr double kAbove = 1e-9;  // [rad] so that a row of impacts begins outside the cam
+    constexpr double kAbove = 1e-9;  // [rad]; a row of impacts must start outside the cam
     problem.cam->phase = value("cam_angle");
     problem.initial = {};
     problem.initial.angle = value("theta") + kAbove;

@@ -1,5 +1,4 @@
-// What the table of a sweep gives to the search of periodic orbits: impacts to stand beneath branches, and the state of
-// a row to begin in.
+// The input that the search of periodic orbits takes from the table of a sweep: impacts to plot, and an initial state.
 #pragma once
 
 #include <string>
@@ -9,12 +8,12 @@
 
 namespace beamcam::scenes {
 
-// The impacts of a .csv, .npz or .nc table of `sweep --sample impacts` where the key lies between two values. Throws
-// UsageError where a column is missing.
+// The impacts in a .csv, .npz or .nc table of `sweep --sample impacts` with the key between two values. Throws
+// UsageError for a missing column.
 SweptImpacts swept_impacts(const std::string& file, const std::string& key, double from, double to);
 
-// The problem in the state of a row (1, 2, …) of a sweep's table: the values of its keys, the cam's angle, θ and θ̇.
-// What else the beam has, its vibration, a transient brings. Throws UsageError, SceneError.
+// The problem in the state of row 1, 2, … of a sweep's table: the values of its keys, the cam's angle, θ and θ̇. The
+// state of vibration is not in the table; a transient restores it. Throws UsageError, SceneError.
 sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int row);
 
 }  // namespace beamcam::scenes

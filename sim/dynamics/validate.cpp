@@ -42,9 +42,9 @@ class RangeCheck final : public Visitor {
                  const char*) override {
         (void)std::all_of(values.begin(), values.end(), [&](double x) { return in_range(key, x, unit, range); });
     }
-    void integer(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
-        if (value && (*value < least || *value > most))
-            out_.error(path(key), fmt::format("must be {} to {}, is {}", least, most, *value));
+    void integer(const Key& key, std::optional<int>& value, int min, int max, const char*) override {
+        if (value && (*value < min || *value > max))
+            out_.error(path(key), fmt::format("must be {} to {}, is {}", min, max, *value));
     }
     void boolean(const Key&, bool&, const char*) override {}
     void text(const Key&, std::string&, const char*) override {}
@@ -63,18 +63,18 @@ class RangeCheck final : public Visitor {
 
     bool in_range(const Key& key, double value, const Unit& unit, const Range& range) {
         const bool finite = std::isfinite(value);
-        const bool bounded = std::isfinite(range.most);
+        const bool bounded = std::isfinite(range.max);
         if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargestNumber)) return true;
         out_.error(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
         return false;
     }
     static std::string problem(double value, const Unit& unit, const Range& range, bool bounded, bool finite) {
-        if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.least, range.most, value);
+        if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.min, range.max, value);
         if (finite && range.contains(value))
             return fmt::format("must lie within ±{:g}, is {:g}: products of larger numbers overflow", kLargestNumber,
                                value);
-        if (!std::isfinite(range.least)) return fmt::format("must be a finite number, is {:g}", value);
-        if (!range.without_least) return fmt::format("must not be negative, is {:g}", value);
+        if (!std::isfinite(range.min)) return fmt::format("must be a finite number, is {:g}", value);
+        if (!range.exclusive_min) return fmt::format("must not be negative, is {:g}", value);
         return fmt::format("must be a positive number of {}, is {:g}", unit_name(unit), value);
     }
     static std::string unit_name(const Unit& unit) {

@@ -19,8 +19,8 @@ static void visit(Visitor& v, HarmonicTorque& d) {
 }
 
 static void visit(Visitor& v, TorqueTable& d) {
-    v.numbers(required("t", "[0, 1]"), d.t, dim::kTime, kAny, {1}, "Instants, increasing.");
-    v.numbers(required("torque", "[0, 0.5]"), d.torque, dim::kTorque, kAny, {1}, "Torque at each instant.");
+    v.numbers(required("t", "[0, 1]"), d.t, dim::kTime, kAny, {1}, "Times, strictly increasing.");
+    v.numbers(required("torque", "[0, 0.5]"), d.torque, dim::kTorque, kAny, {1}, "Torque at each time.");
 }
 
 static void visit(Visitor& v, ConstantSpeed& d) {
@@ -34,8 +34,8 @@ static void visit(Visitor& v, SpinUp& d) {
 }
 
 static void visit(Visitor& v, AngleTable& d) {
-    v.numbers(required("t", "[0, 1, 2]"), d.t, dim::kTime, kAny, {2}, "Instants, increasing.");
-    v.numbers(required("theta", "[0, 0.5, 0]"), d.theta, dim::kAngle, kAny, {2}, "Hub angle at each instant.");
+    v.numbers(required("t", "[0, 1, 2]"), d.t, dim::kTime, kAny, {2}, "Times, strictly increasing.");
+    v.numbers(required("theta", "[0, 0.5, 0]"), d.theta, dim::kAngle, kAny, {2}, "Hub angle at each time.");
 }
 
 static void visit(Visitor& v, Drive& drive) {
@@ -45,19 +45,20 @@ static void visit(Visitor& v, Drive& drive) {
          alternative<HarmonicTorque>(drive, {{"type", "torque"}},
                                      "A harmonic torque: amplitude · sin(2π · frequency · t + phase)."),
          alternative<TorqueTable>(drive, {{"type", "torque"}},
-                                  "A torque by points: linear between them, constant outside."),
+                                  "A table of torques: linear between the points, constant outside."),
          alternative<ConstantSpeed>(drive, {{"type", "prescribed"}, {"law", "constant"}}, "Constant angular speed."),
          alternative<SpinUp>(drive, {{"type", "prescribed"}, {"law", "spin-up"}},
                              "Smooth spin-up: the speed is (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, then Ω."),
-         alternative<AngleTable>(drive, {{"type", "prescribed"}, {"law", "table"}},
-                                 "Hub angle by points: a natural cubic spline, continued at the end speeds outside.")});
+         alternative<AngleTable>(
+             drive, {{"type", "prescribed"}, {"law", "table"}},
+             "A table of hub angles: a natural cubic spline, continued at constant speed outside.")});
 }
 
 static void visit(Visitor& v, Hub& hub) {
     v.number("radius", hub.radius, dim::kLength, kAny,
              "Distance from the fixed axis O to the root of the beam; negative: the root lies beyond the axis.");
     v.number("inertia", hub.inertia, dim::kInertia, kNotNegative, "Moment of inertia about O.");
-    v.object("drive", hub.drive, "Drive of the hub.");
+    v.object("drive", hub.drive, "What drives the hub.");
 }
 
 // ---- beam ------------------------------------------------------------------------------------
@@ -79,10 +80,10 @@ static void visit(Visitor& v, Beam& beam) {
              "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
     v.integer("modes", beam.modes, 1, 40, "Number N of shape functions.");
     v.numbers("damping_ratio", beam.damping_ratio, dim::kNone, kNotNegative, {.or_one_number = true},
-              "Modal damping ratio ζ: one number for all modes, or one for each; none when left out. Excludes "
+              "Modal damping ratio ζ: one number for all modes, or one for each mode; by default none. Excludes "
               "kelvin_voigt.");
     v.number("kelvin_voigt", beam.kelvin_voigt, dim::kTime, kNotNegative,
-             "Kelvin–Voigt relaxation time η; none when left out. Excludes damping_ratio.");
+             "Kelvin–Voigt relaxation time η; by default none. Excludes damping_ratio.");
 }
 
 // ---- cam -------------------------------------------------------------------------------------
@@ -98,7 +99,7 @@ static void visit(Visitor& v, Cam& cam) {
     v.number("poisson_ratio", cam.poisson_ratio, dim::kNone, kPoissonRatio,
              "Poisson's ratio; used by the Hertz stiffness only.");
     v.number("youngs_modulus", cam.youngs_modulus, dim::kPressure, kPositive,
-             "Young's modulus, for the Hertz stiffness; the beam's when left out.");
+             "Young's modulus, for the Hertz stiffness; by default that of the beam.");
 }
 
 // ---- contact ---------------------------------------------------------------------------------
@@ -114,11 +115,11 @@ static void visit(Visitor& v, CoulombFriction& f) {
 static void visit(Visitor& v, StickSlipFriction& f) {
     v.number("coefficient", f.coefficient, dim::kNone, kNotNegative, "Kinetic coefficient of friction μ.");
     v.number("static_coefficient", f.static_coefficient, dim::kNone, kNotNegative,
-             "Static coefficient of friction μ_s, at least μ; μ when left out.");
+             "Static coefficient of friction μ_s, at least μ; by default μ.");
     v.number("stiffness", f.stiffness, dim::kSpringStiffness, kPositive,
-             "Stiffness of the bristle; derived from the contact when left out.");
+             "Stiffness of the bristle; by default derived from the contact stiffness.");
     v.number("damping", f.damping, dim::kSpringDamping, kNotNegative,
-             "Damping of the bristle; derived from its stiffness when left out.");
+             "Damping of the bristle; by default derived from its stiffness.");
 }
 
 static void visit(Visitor& v, Friction& friction) {
@@ -126,34 +127,35 @@ static void visit(Visitor& v, Friction& friction) {
         {alternative<NoFriction>(friction, {{"type", "none"}}, "No friction."),
          alternative<CoulombFriction>(friction, {{"type", "coulomb"}}, "Coulomb friction, regularized near zero slip."),
          alternative<StickSlipFriction>(friction, {{"type", "stick-slip"}},
-                                        "A bristle that sticks, slips and reverses.")});
+                                        "Stick-slip friction by a bristle model.")});
 }
 
 static void visit(Visitor& v, ApproachFloor& floor) {
     v.choice("policy", floor.policy,
-             "value: this speed; first-touch: the approach speed of the first touch of the collision.");
+             "value: the key \"value\"; first-touch: the approach speed of the first touch of the collision.");
     v.number("value", floor.value, dim::kSpeed, kPositive, "Smallest approach speed.");
 }
 
 static void visit(Visitor& v, Contact& contact) {
-    v.choice("model", contact.model, "compliant: a force over the penetration; restitution: impulses.");
+    v.choice("model", contact.model,
+             "compliant: a contact force as a function of the penetration; restitution: impulses.");
     v.number("stiffness", contact.stiffness, of_contact_stiffness(contact.exponent), kPositive,
-             "Contact stiffness K in F = K δⁿ; \"hertz\": from the materials.", "hertz");
+             "Contact stiffness K in F = K δⁿ; \"hertz\": computed from the materials.", "hertz");
     v.number("exponent", contact.exponent, dim::kNone, between(1, 2), "Exponent n in F = K δⁿ.");
     v.choice("damping", contact.damping, "Dissipation law of the model compliant.");
     v.number("restitution", contact.restitution, dim::kNone, between(0, 1),
-             "Coefficient of restitution that the dissipation or impact law is set to.");
+             "Coefficient of restitution, parameter of the dissipation law or the impact law.");
     v.choice("law", contact.law, "Impact law of the model restitution.");
     v.object("friction", contact.friction, "Friction between beam and cam.");
     v.number("offset", contact.offset, dim::kLength, kNotNegative,
              "Distance d of the touching face from the centre line; \"half-depth\": half the beam's depth.",
              "half-depth");
     v.object("approach_floor", contact.approach_floor,
-             "Dissipation laws divide by the approach speed of a touch; this replaces a tiny one.");
+             "Lower bound of the approach speed, by which dissipation laws divide.");
     v.number(
         "collision_gap", contact.collision_gap, dim::kTime, kNotNegative,
-        "Impacts closer in time than this form one collision. auto: for a beam of 1 m 20 ms, for others in proportion "
-        "to √(L/g), the time of a fall.",
+        "Impacts closer in time than this form one collision. auto: 20 ms for a beam of 1 m, else in proportion to "
+        "√(L/g), the time scale of a fall.",
         "auto");
 }
 
@@ -163,30 +165,30 @@ static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
     const bool angles = model == ModelKind::exact;
     v.number("angle", initial.angle, dim::kAngle, kAny, "Hub angle θ(0), counter-clockwise from the horizontal.");
     v.number("angular_velocity", initial.angular_velocity, dim::kAngularSpeed, kAny,
-             "Angular velocity of the given shape, at the hub.");
+             "Angular velocity of the hub; the beam rotates rigidly with it.");
     v.choice("shape", initial.shape,
-             "straight; static: in equilibrium with the hub held; resting: in equilibrium on the cam.");
-    v.numbers(
-        written_if(!initial.q.empty(), "q"), initial.q, angles ? dim::kAngle : dim::kLength, kAny, {0, 40},
-        "Coordinates of the first shapes (channels q1, q2 …) of a beam that is not straight at the start; in rad for "
-        "the model \"exact\". Together with \"angle\", \"angular_velocity\" and \"q_dot\" they are the whole state.");
+             "straight: undeformed; static: equilibrium with a fixed hub; resting: equilibrium on the cam.");
+    v.numbers(written_if(!initial.q.empty(), "q"), initial.q, angles ? dim::kAngle : dim::kLength, kAny, {0, 40},
+              "Coordinates of the first shape functions (channels q1, q2 …) in place of a straight beam; in rad for "
+              "the model "
+              "\"exact\". With \"angle\", \"angular_velocity\" and \"q_dot\" this is the complete state.");
     v.numbers(written_if(!initial.q_dot.empty(), "q_dot"), initial.q_dot, angles ? dim::kAngularSpeed : dim::kSpeed,
-              kAny, {0, 40}, "Their rates.");
+              kAny, {0, 40}, "Time derivatives of q.");
 }
 
 static void visit(Visitor& v, Solver& solver) {
     v.choice("method", solver.method, "Integrator.");
     v.number("rtol", solver.rtol, dim::kNone, between(1e-13, 1e-2), "Relative tolerance.");
-    // Below 1e-40 the tolerance would be zero in effect.
+    // A tolerance below 1e-40 would have the effect of 0.
     v.number("atol", solver.atol, dim::kNone, between(1e-40, 1e10), "Absolute tolerance.");
     v.integer("max_steps", solver.max_steps, 1, 2'000'000'000,
-              "Steps that a run may try before it stops with an error (exit code 4).");
+              "Largest number of attempted steps; beyond it the run stops with an error (exit code 4).");
 }
 
 void visit(Visitor& v, Problem& problem) {
     v.object("hub", problem.hub, "The hub, which turns about the fixed axis O.");
     v.object("beam", problem.beam, "The uniform beam, clamped radially to the hub.");
-    v.object("cam", problem.cam, "The cam, a disc that rotates about an axis off its centre; null: no cam.");
+    v.object("cam", problem.cam, "The cam, an eccentric rotating disc; null: no cam.");
     v.object("contact", problem.contact, "Contact between beam and cam.");
     v.number("gravity", problem.gravity, dim::kAcceleration, kAny, "Acceleration of gravity, downwards.");
     v.object(

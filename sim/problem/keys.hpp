@@ -1,5 +1,5 @@
-// The keys of a problem: name, unit, range and meaning of each, described once. Readers, writers, checks and the
-// reference are Visitors of these keys; a new key is one line in `visit` of its struct.
+// Every key of a problem, described once: name, unit, range and meaning. Readers, writers, checks and the reference are
+// Visitors of these descriptions; a new key is one line in `visit` of its struct.
 #pragma once
 
 #include <functional>
@@ -18,13 +18,13 @@ namespace beamcam::sim {
 
 struct Key {
     const char* name;
-    const char* example = nullptr;  // present only for a required key
-    bool written = true;            // false: writers leave out the key, because its value has no meaning here
+    const char* example = nullptr;  // of a required key; null: the key is optional
+    bool written = true;            // false: writers leave the key out, because it has no meaning here
     bool derived = false;           // the default depends on other keys
 
-    // NOLINTNEXTLINE(google-explicit-constructor): most keys are a name alone
+    // NOLINTNEXTLINE(google-explicit-constructor): most keys need only a name
     constexpr Key(const char* key) : name(key) {}
-    constexpr Key(const char* key, const char* needed, bool write) : name(key), example(needed), written(write) {}
+    constexpr Key(const char* key, const char* sample, bool write) : name(key), example(sample), written(write) {}
 };
 constexpr Key required(const char* name, const char* example) { return {name, example, true}; }
 constexpr Key written_if(bool condition, const char* name) { return {name, nullptr, condition}; }
@@ -36,10 +36,10 @@ constexpr Key derived(const char* name) {
 
 struct Unit {
     Dimension dimension;
-    const double* exponent = nullptr;  // of a stiffness in N/m^n: n, the value of another key
-    bool plain = false;                // only a JSON number, never a string with a unit
+    const double* exponent = nullptr;  // n of a stiffness in N/m^n; the value of another key
+    bool plain = false;                // JSON number only, no text with a unit
 
-    // NOLINTNEXTLINE(google-explicit-constructor): most units are a dimension alone
+    // NOLINTNEXTLINE(google-explicit-constructor): most units need only a dimension
     constexpr Unit(const Dimension& of) : dimension(of) {}
     constexpr Unit(const Dimension& of, const double* n, bool number) : dimension(of), exponent(n), plain(number) {}
     Dimension resolved() const { return exponent ? dimension::contact_stiffness(*exponent) : dimension; }
@@ -51,17 +51,17 @@ inline constexpr Unit kPlainNumber{dimension::kNone, nullptr, true};
 struct Range {
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-    double least = -kInfinity, most = kInfinity;
-    bool without_least = false, without_most = false;  // the interval is open at this end
-    const char* complaint = nullptr;  // follows "KEY = VALUE" in messages, in place of "is outside LEAST … MOST"
-    const char* remedy = "";          // ends the message
+    double min = -kInfinity, max = kInfinity;
+    bool exclusive_min = false, exclusive_max = false;
+    const char* message = nullptr;  // follows "KEY = VALUE"; null: "is outside MIN … MAX"
+    const char* remedy = "";        // ends the message of sim::validate
 
     bool contains(double value) const {
-        return (without_least ? value > least : value >= least) && (without_most ? value < most : value <= most);
+        return (exclusive_min ? value > min : value >= min) && (exclusive_max ? value < max : value <= max);
     }
 };
-constexpr Range between(double least, double most, const char* complaint = nullptr) {
-    return {least, most, false, false, complaint};
+constexpr Range between(double min, double max, const char* message = nullptr) {
+    return {min, max, false, false, message};
 }
 inline constexpr Range kAny{};
 inline constexpr Range kPositive{0, Range::kInfinity, true, false, "must be positive"};
@@ -72,7 +72,7 @@ struct Named {
     Enum value;
     const char* name;
 };
-// The names of an enumeration's values, in the order of the reference.
+// The names of an enumeration, in the order of its documentation.
 std::span<const Named<ModelKind>> names(ModelKind);
 std::span<const Named<Basis>> names(Basis);
 std::span<const Named<DampingLaw>> names(DampingLaw);
@@ -84,20 +84,20 @@ std::span<const Named<Method>> names(Method);
 
 class Visitor;
 
-// One of the variants of an object. Tags are keys with a fixed string, which distinguish the variants.
+// One of the shapes that an object may have. Tags are keys with a fixed value that select the shape.
 struct Alternative {
     std::vector<std::pair<const char*, const char*>> tags;
     const char* meaning;
-    bool chosen;                           // the value is of this variant
-    std::function<void(Visitor&)> fields;  // visits the fields, after a change to this variant if necessary
+    bool chosen;                           // true: the value has this shape
+    std::function<void(Visitor&)> fields;  // visits its keys, and first gives the value this shape
 };
 template <class Shape, class... Shapes>
 Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<const char*, const char*>> tags,
                         const char* meaning);
 
-// Number of entries of a list.
+// Length of a list of numbers.
 struct Length {
-    std::size_t least = 0, most = std::numeric_limits<std::size_t>::max();
+    std::size_t min = 0, max = std::numeric_limits<std::size_t>::max();
     bool or_one_number = false;  // a single number may replace the list
 };
 
@@ -106,26 +106,26 @@ class Visitor {
     virtual ~Visitor() = default;
 
     virtual void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) = 0;
-    // An absent value is not written, or as `word` if that is not null.
+    // An absent value is not written, or written as `word` if there is one.
     virtual void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                         const char* meaning, const char* word = nullptr) = 0;
     virtual void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
                          const Length& length, const char* meaning) = 0;
-    virtual void integer(const Key& key, std::optional<int>& value, int least, int most, const char* meaning) = 0;
+    virtual void integer(const Key& key, std::optional<int>& value, int min, int max, const char* meaning) = 0;
     virtual void boolean(const Key& key, bool& value, const char* meaning) = 0;
     virtual void text(const Key& key, std::string& value, const char* meaning) = 0;
     virtual void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
                          const char* meaning) = 0;
-    // An object. `present` is not null if the value may be null; it states whether the object exists.
+    // An object. With `present` the key may be null; `present` is then false.
     virtual void object(const Key& key, const std::function<void(Visitor&)>& fields, const char* meaning,
                         bool* present = nullptr) = 0;
-    // The visited object is one of these variants.
+    // The object that is visited has one of these shapes.
     virtual void alternatives(const std::vector<Alternative>& all) = 0;
 
-    // ---- built from the functions above ----
-    void integer(const Key& key, int& value, int least, int most, const char* meaning) {
+    // ---- in terms of those above ----
+    void integer(const Key& key, int& value, int min, int max, const char* meaning) {
         std::optional<int> some = value;
-        integer(key, some, least, most, meaning);
+        integer(key, some, min, max, meaning);
         value = some.value_or(value);
     }
     void numbers(const Key& key, Vec2& value, const Unit& unit, const char* meaning) {

@@ -32,9 +32,9 @@ class NumberWalk final : public Visitor {
             found_({path_ + key.name, unit.resolved(), false, values.size() == 1 ? values.front() : std::nan("")},
                    [&values](double to) { return values.assign(1, to), true; });
     }
-    void integer(const Key& key, std::optional<int>& value, int least, int most, const char*) override {
-        found_({path_ + key.name, {}, true, value ? *value : std::nan("")}, [&value, least, most](double to) {
-            if (std::floor(to) != to || to < least || to > most) return false;
+    void integer(const Key& key, std::optional<int>& value, int min, int max, const char*) override {
+        found_({path_ + key.name, {}, true, value ? *value : std::nan("")}, [&value, min, max](double to) {
+            if (std::floor(to) != to || to < min || to > max) return false;
             value = static_cast<int>(to);
             return true;
         });

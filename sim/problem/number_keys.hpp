@@ -1,4 +1,5 @@
-// The numerical keys of a problem by their path ("cam.speed", "cam.centre.0", "initial.angle"). Sweeps vary them.
+// The keys of a problem that are numbers, by their path ("cam.speed", "cam.centre.0", "initial.angle"). A sweep can
+// vary them.
 #pragma once
 
 #include <optional>
@@ -14,15 +15,15 @@ namespace beamcam::sim {
 struct NumberKey {
     std::string path;
     Dimension dimension;
-    bool whole = false;  // integers only
-    double value = 0;    // NaN where the key is absent
+    bool whole = false;  // only whole numbers are valid
+    double value = 0;    // NaN if the key has no value
 };
-// Only the keys of the problem's own variants of drive, friction and so on.
+// Includes the keys of the problem's own type of drive, friction and so on.
 std::vector<NumberKey> number_keys(const Problem& problem);
 std::optional<NumberKey> number_key(const Problem& problem, std::string_view path);
 
-// False where the problem has no such key, or the key takes only integers and the value is not one. `validate` checks
-// ranges.
+// False if the problem has no such key, or if the key needs a whole number and `value` is not one. `validate` checks
+// the ranges.
 bool set_number(Problem& problem, std::string_view path, double value);
 
 }  // namespace beamcam::sim

@@ -123,7 +123,7 @@ TEST(Stretch, OfAnEventThatDoesNotOccurIsRefusedAlone) {
     ASSERT_EQ(made.figures.size(), 1u);
     EXPECT_EQ(made.figures[0].file, "c.pdf");
     ASSERT_EQ(why.size(), 2u);
-    EXPECT_THAT(why[0], HasSubstr("0: there is no impact 7: the motion has 1 until 0.4 s"));
+    EXPECT_THAT(why[0], HasSubstr("0: impact 7 does not occur: the motion has 1 of them until 0.4 s"));
     EXPECT_THAT(why[1], HasSubstr("1: figure kymograph: its begin, release 1 at 0.28"));
     const auto report = [](const std::string& keys) {
         return testing::read(R"({"outputs": [{"type": "figure", )" + keys + "}]}").report();
@@ -194,10 +194,10 @@ TEST(Stretch, ThePlanNamesTheEventAtWhichItEnds) {
     const std::string alone = words(R"({"type": "video", "file": "a.mp4", "to": "impact:3"})");
     EXPECT_THAT(alone, HasSubstr("a first run until 2 s, or until it has them,"));
     EXPECT_THAT(alone, HasSubstr("; until impact 3, for a.mp4"));
-    EXPECT_THAT(alone, HasSubstr("frames of 0 s to impact 3 at 60 a second"));
+    EXPECT_THAT(alone, HasSubstr("frames from 0 s to impact 3 at 60 per second"));
     EXPECT_THAT(words(R"({"type": "figure", "figure": "strobe", "at": "release:2", "file": "a.pdf"},
                          {"type": "video", "file": "b.mp4", "to": 0.5})"),
-                HasSubstr("until 0.5 s, because of b.mp4, or, if that is later, until release 2, for a.pdf"));
+                HasSubstr("until 0.5 s, needed by b.mp4, or, if later, until release 2, for a.pdf"));
 }
 
 // A column of 5 ms holds most of a period of the first mode: an instant of it would show a vibration that is not there.

@@ -145,7 +145,7 @@ TEST(Series, ShowsMotionsApartOnOneScale) {
     EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "channels": ["theta"],
                                  "comparison": "panels"}]})")
                     .report(),
-                HasSubstr("needs motions"));
+                HasSubstr("needs several motions"));
 }
 
 // Without a cam the tip swings in its natural frequencies alone.
@@ -240,7 +240,7 @@ TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
     // Over what the data do not hold they are not drawn, which the caption and the messages say.
     const auto [none, told] = drawn("--channels theta --x theta_dot");
     EXPECT_EQ(none.size(), 0u);
-    EXPECT_THAT(told, HasSubstr("warning: --x = \"theta_dot\": the data \"rig\" do not hold theta_dot"));
+    EXPECT_THAT(told, HasSubstr("warning: --x = \"theta_dot\": the data \"rig\" have no theta_dot"));
     EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Data “rig” do not hold"));
 }
 
@@ -256,16 +256,16 @@ TEST(Measured, BadFilesAreToldWithTheirPlace) {
     EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err, HasSubstr("rig.csv\": No such file"));
     EXPECT_THAT(told("time,angle\n100,45\n200,x\n"), HasSubstr("rig.csv:3:5: \"x\" is not a number"));
     EXPECT_THAT(told("time,angle\n100,45\n90,44\n"), HasSubstr("line 3: the time does not increase"));
-    EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("there is no column \"angle\"; did you mean \"angel\"?"));
-    EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row is between 0 and 0.4 s"));
+    EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("the file has no column \"angle\"; did you mean \"angel\"?"));
+    EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row lies between 0 and 0.4 s"));
     EXPECT_THAT(told(""), HasSubstr("the file is empty"));
-    EXPECT_THAT(told("time,angle\n"), HasSubstr("there are no rows below the names of the columns"));
+    EXPECT_THAT(told("time,angle\n"), HasSubstr("the file has no rows below the names of the columns"));
     EXPECT_THAT(told("time,angle\n100,45\n200,inf\n"), HasSubstr("rig.csv:3:5: \"inf\" is no finite number"));
     EXPECT_THAT(told("time;angle\n100;45\n"), HasSubstr("rig.csv:1:5: columns are parted by semicolons"));
-    EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" has no number"));
+    EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" contains no number"));
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
-                HasSubstr("\"mm\" is no unit of theta, which is in rad"));
+                HasSubstr("\"mm\" is not a unit of theta, which is measured in rad"));
     EXPECT_THAT(shell(folder, R"(sed 's/rig.csv/./' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("not a regular file"));
 }
@@ -369,7 +369,7 @@ TEST(Measured, DataOfTheContactNeedACam) {
     folder.write("rig.csv", "t,gap\n0.1,0.05\n");
     folder.write("m.json", R"({"cam": null, "data": [{"file": "rig.csv"}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err,
-                HasSubstr("gap is of the contact, and the scene has no cam"));
+                HasSubstr("gap is a channel of the contact, but the scene has no cam"));
 }
 
 // Names in the summary are plain, in figures markup.

@@ -79,12 +79,12 @@ TEST(SweepKeys, AreRefusedWithTheRemedy) {
     };
     EXPECT_THAT(only(R"({"over": [{"key": "cam.spee", "from": 1, "to": 2, "count": 3}]})"),
                 HasSubstr("did you mean \"cam.speed\"?"));
-    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1}]})"), HasSubstr("give from, to and count"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1}]})"), HasSubstr("write from, to and count"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "values": ["3 mm"]}]})"), HasSubstr("rad/s"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": 1, "to": 2, "count": 1}]})"), HasSubstr("one value"));
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": -1, "to": 2, "count": 4, "spacing": "log"}]})"),
                 HasSubstr("one sign"));
-    EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + "," + kSpeed + "]}"), HasSubstr("stands twice"));
+    EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + "," + kSpeed + "]}"), HasSubstr("listed twice"));
     EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "seed": "random"})"), HasSubstr("carry-up"));
     EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "sample": {"section": "thet", "at": 0}})"),
                 HasSubstr("did you mean \"theta\"?"));

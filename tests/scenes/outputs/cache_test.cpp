@@ -22,7 +22,7 @@ TEST(Cache, GivesPlansTheDurationsOfEarlierRuns) {
     const std::string text = shell(folder, "$BEAMCAM plan s.json").out;
     EXPECT_THAT(text, HasSubstr(" steps\n"));
     EXPECT_THAT(text, HasSubstr("rows of 25 channels; about "));
-    EXPECT_THAT(text, HasSubstr("as past runs tell"));
+    EXPECT_THAT(text, HasSubstr("estimated from earlier runs"));
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --json").out, HasSubstr("\"seconds\":"));
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --no-cache").out, Not(HasSubstr("about")));
 }

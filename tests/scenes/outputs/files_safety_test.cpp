@@ -84,9 +84,10 @@ TEST(FileSafety, AnInstantThatIsNeverReachedCostsItsOwnOutputAlone) {
     folder.write("broken.json", R"({"time": {"end": -1}})");
     const Finished finished = shell(folder, "$BEAMCAM run missing.json s.json broken.json other.json -o out -q");
     EXPECT_EQ(finished.code, 3);
-    EXPECT_THAT(finished.err, HasSubstr("s.json:3:3: b.png: there is no impact 9"));
-    EXPECT_THAT(finished.err, HasSubstr("s.json:4:3: c.gif: there is no collision 9: the motion has 1 until 0.3 s"));
-    EXPECT_THAT(finished.err, HasSubstr("missing.json: there is no such file"));
+    EXPECT_THAT(finished.err, HasSubstr("s.json:3:3: b.png: impact 9 does not occur"));
+    EXPECT_THAT(finished.err,
+                HasSubstr("s.json:4:3: c.gif: collision 9 does not occur: the motion has 1 of them until 0.3 s"));
+    EXPECT_THAT(finished.err, HasSubstr("missing.json does not exist"));
     EXPECT_THAT(finished.err, HasSubstr("broken.json:1:18"));
     for (const char* made : {"out/a.png", "out/t.csv", "out/other.csv"}) EXPECT_TRUE(fs::exists(folder / made)) << made;
     EXPECT_EQ(shell(folder, "$BEAMCAM run missing.json other.json -o out -q").code, 6);
@@ -100,7 +101,7 @@ TEST(FileSafety, AMissingSceneCostsNoOther) {
     folder.write("b.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "summary", "file": "b-summary.json"}]})");
     const Finished run = shell(folder, "$BEAMCAM run a.json nowhere.json b.json -q");
     EXPECT_EQ(run.code, 6);
-    EXPECT_THAT(run.err, HasSubstr("nowhere.json: there is no such file"));
+    EXPECT_THAT(run.err, HasSubstr("nowhere.json does not exist"));
     EXPECT_TRUE(fs::exists(folder / "a-summary.json"));
     EXPECT_TRUE(fs::exists(folder / "b-summary.json"));
 }

@@ -118,7 +118,7 @@ TEST(Films, AStillOfAnImpactStandsAtItsTouch) {
     EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
     const Finished none = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:99");
     EXPECT_EQ(none.code, 3);
-    EXPECT_THAT(none.err, HasSubstr("there is no impact 99"));
+    EXPECT_THAT(none.err, HasSubstr("impact 99 does not occur"));
 }
 
 TEST(Films, EventsAreInstantsWhereverATimeIs) {
@@ -152,9 +152,9 @@ TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
     folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "at": 0, "size": [96, 96],
         "view": {"style": "flat"}}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at apex:3").err,
-                HasSubstr("there is no apex 3: the motion has 0 until 0.1 s"));
+                HasSubstr("apex 3 does not occur: the motion has 0 of them until 0.1 s"));
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x-##.png --from release --to last").err,
-                HasSubstr("there is no release 1: the motion has 0"));
+                HasSubstr("release 1 does not occur: the motion has 0"));
     const Finished wrong = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:0");
     EXPECT_EQ(wrong.code, 2);
     EXPECT_THAT(wrong.err, HasSubstr("events are counted from 1"));
@@ -243,7 +243,7 @@ TEST(Films, AStripWithoutChannelsIsToldToNameThem) {
 TEST(Films, KeysOfAnOutputAtTheTopAreToldWhereTheyBelong) {
     const Reading reading = testing::read(R"({"speed": {"around": "impacts"}, "layuot": 1})");
     ASSERT_EQ(testing::messages(reading).size(), 2u);
-    EXPECT_THAT(testing::messages(reading).front(), HasSubstr("it belongs into an output"));
+    EXPECT_THAT(testing::messages(reading).front(), HasSubstr("it belongs to an output"));
     EXPECT_THAT(testing::messages(reading).back(), Not(HasSubstr("belongs")));
 }
 
@@ -259,7 +259,7 @@ TEST(Films, APosterAtAnImpactLeavesTheNumberOfFramesKnown) {
     const Reading reading =
         testing::read(R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "fps": 30, "poster": "impact:1"}]})");
     ASSERT_TRUE(reading.scene);
-    EXPECT_THAT(to_text(plan(*reading.scene), *reading.scene), HasSubstr("15 frames of 0 s to 0.5 s"));
+    EXPECT_THAT(to_text(plan(*reading.scene), *reading.scene), HasSubstr("15 frames from 0 s to 0.5 s"));
 }
 
 TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
@@ -349,7 +349,7 @@ TEST(Films, WithoutALegendTheExaggerationIsToldOnTheCommandLine) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
     const std::string still = "$BEAMCAM render s.json --at 0.3 --size 320x180 --style flat --force -o s.png";
-    EXPECT_THAT(shell(folder, still + " --show clean").err, HasSubstr("and does not say so; its caption has to"));
+    EXPECT_THAT(shell(folder, still + " --show clean").err, HasSubstr("without stating it; state it in the caption"));
     EXPECT_THAT(shell(folder, still).err, Not(HasSubstr("does not say so")));
     EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err, Not(HasSubstr("does not say so")));
 }
@@ -384,7 +384,7 @@ TEST(Posters, AreAskedForAndRefusedInWords) {
     const Reading clash = testing::read(R"({"outputs": [{"type": "video", "file": "a.mp4", "poster": 0.1},
         {"type": "still", "file": "a.png", "at": 0.2}]})");
     EXPECT_FALSE(clash.scene);
-    EXPECT_THAT(clash.report(), HasSubstr("\"a.png\", which outputs.0 writes too"));
+    EXPECT_THAT(clash.report(), HasSubstr("would write the same file \"a.png\""));
 }
 
 // A film that ends before the scene's other pictures tells of itself as if the run had ended with it.
@@ -516,7 +516,7 @@ TEST(Films, CutShortTellOfCollisionsThatDoNotCome) {
     folder.write("s.json", R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96],
         "to": 0.4, "view": {"style": "flat"}, "speed": {"around": "impacts", "factor": 0.5, "collisions": [1, 9]}}]})");
     const std::string told = shell(folder, "$BEAMCAM run s.json").err;
-    EXPECT_THAT(told, HasSubstr("f.mkv does not show the slow motion of collision 9: not within the film"));
+    EXPECT_THAT(told, HasSubstr("f.mkv does not show the slow motion of collision 9: outside the film"));
     EXPECT_THAT(told, Not(HasSubstr("collision 1")));
 }
 
@@ -529,11 +529,12 @@ TEST(Films, TellOfSpeedsAndKeyframesOutOfPlace) {
     };
     const auto late = told(R"("speed": {"around": "intervals", "intervals": [{"from": 0.5, "to": 2}]})");
     EXPECT_TRUE(late.first);
-    EXPECT_THAT(late.second, HasSubstr("outputs.0.speed.intervals.0.to = 2 s is no instant of a film from 0 s to 1 s"));
+    EXPECT_THAT(late.second, HasSubstr("outputs.0.speed.intervals.0.to = 2 s is outside the film from 0 s to 1 s"));
     const auto mixed =
         told(R"("speed": {"around": "intervals", "intervals": [{"from": 0.5, "to": 0.7}, {"from": 0.1, "to": 0.2}]})");
     EXPECT_FALSE(mixed.first);
-    EXPECT_THAT(mixed.second, HasSubstr("outputs.0.speed.intervals.1.from = 0.1 s is before the end of the interval"));
+    EXPECT_THAT(mixed.second,
+                HasSubstr("outputs.0.speed.intervals.1.from = 0.1 s is before the end of the previous interval"));
     EXPECT_TRUE(
         told(R"("speed": {"around": "intervals", "intervals": [{"from": 0.5, "to": 0.7}, {"from": 0.7, "to": 0.8}]})")
             .second.empty());
@@ -541,10 +542,10 @@ TEST(Films, TellOfSpeedsAndKeyframesOutOfPlace) {
                 HasSubstr("outputs.0.speed.collisions.0 = 1.5 must be a whole number"));
     const auto beyond = told(R"("view": {"camera": {"keyframes": [{"at": 3}]}})");
     EXPECT_TRUE(beyond.first);
-    EXPECT_THAT(beyond.second, HasSubstr("view.camera.keyframes.0.at = 3 s is no instant of a film"));
+    EXPECT_THAT(beyond.second, HasSubstr("view.camera.keyframes.0.at = 3 s is outside the film"));
     const auto keyframes = told(R"("view": {"camera": {"keyframes": [{"at": 0.5}, {"at": 0.2}, {"at": "impact:1"}]}})");
     EXPECT_FALSE(keyframes.first);
-    EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.1.at = 0.2 s is not after the keyframe before it"));
+    EXPECT_THAT(keyframes.second, HasSubstr("view.camera.keyframes.1.at = 0.2 s is not after the previous keyframe"));
 }
 
 // Further runs alone know where the motion is not reproducible: nobody pays for it who does not ask.
@@ -565,7 +566,7 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
     EXPECT_THAT(still(R"(, "horizon": true)"), HasSubstr(" integrations=3 "));
     EXPECT_NE(digest(), plain);
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out,
-                HasSubstr("further runs find until when it is reproducible"));
+                HasSubstr("further runs find the reproducible horizon"));
 }
 
 // A logo is an input: another picture in the file makes another film.
@@ -587,7 +588,7 @@ TEST(Films, BearALogoAndColoursOfTheirOwn) {
     EXPECT_NE(digest(), first);
     folder.write("t.json", R"({"outputs": [{"type": "still", "at": 0, "palette": {"motion": "blue"}}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM check t.json").err,
-                HasSubstr("outputs.0.palette.motion = \"blue\" is no colour"));
+                HasSubstr("outputs.0.palette.motion = \"blue\" is not a colour"));
 }
 
 // Events out of order are known only when the motion is.
@@ -598,7 +599,7 @@ TEST(Films, RefuseKeyframesAtEventsOutOfOrder) {
     const Finished run = shell(folder, "$BEAMCAM run s.json");
     EXPECT_EQ(run.code, 3);
     EXPECT_THAT(run.err, HasSubstr("s.json:1:34: f.mkv: the camera's keyframe at impact 1, 0.277"));
-    EXPECT_THAT(run.err, HasSubstr("is not after the one before it"));
+    EXPECT_THAT(run.err, HasSubstr("is not after the previous one"));
 }
 
 TEST(Films, TellOfCamerasThatLookPast) {
@@ -607,7 +608,7 @@ TEST(Films, TellOfCamerasThatLookPast) {
                  R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "file": "f.mkv", "size": [96, 96], "fps": 20,
         "view": {"style": "flat", "camera": {"follow": [50, 50], "keyframes": [{"at": 0.2, "follow": "tip", "over": 0}]}}}]})");
     const std::string told = shell(folder, "$BEAMCAM run s.json").err;
-    EXPECT_THAT(told, HasSubstr("shows nothing of the mechanism in 4 of"));
+    EXPECT_THAT(told, HasSubstr("the mechanism is outside the picture in 4 of"));
 }
 
 TEST(Films, TellOfWhatTheyWillNotShow) {
@@ -617,29 +618,29 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     };
     const auto late = told(R"({"type": "video", "to": 0.3, "events": [{"at": 0.5, "text": "late"}]})");
     EXPECT_TRUE(late.first);
-    EXPECT_THAT(late.second, HasSubstr("outputs.0.events.0.at = 0.5 s is no instant of a film from 0 s to 0.3 s"));
+    EXPECT_THAT(late.second, HasSubstr("outputs.0.events.0.at = 0.5 s is outside the film from 0 s to 0.3 s"));
     const auto camera = told(R"({"type": "video", "view": {"camera": {"keyframes": [{"at": 5, "zoom": 2}]}}})");
-    EXPECT_THAT(camera.second, HasSubstr("outputs.0.view.camera.keyframes.0.at = 5 s is no instant of a film"));
+    EXPECT_THAT(camera.second, HasSubstr("outputs.0.view.camera.keyframes.0.at = 5 s is outside the film"));
     const auto slow = told(R"({"type": "video", "speed": {"around": "intervals",
         "intervals": [{"from": 0.5, "to": 4, "factor": 0.5}]}})");
-    EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is no instant of a film"));
+    EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is outside the film"));
     const auto exposed = told(R"({"type": "still", "at": 0.1, "view": {"exposures": 4}})");
     EXPECT_THAT(exposed.second, HasSubstr("outputs.0.view.exposures needs a \"shutter\" or \"strobe\""));
     const auto nowhere =
         told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})", R"("cam": null, )");
     EXPECT_FALSE(nowhere.first);
-    EXPECT_THAT(nowhere.second, HasSubstr("scene.json:1:111: outputs.0.events.0.anchor: there is no cam"));
+    EXPECT_THAT(nowhere.second, HasSubstr("scene.json:1:111: outputs.0.events.0.anchor: the scene has no cam"));
     const auto alone = told(R"({"type": "still", "at": 0.1, "comparison": "ghosts"})");
     EXPECT_TRUE(alone.first);
-    EXPECT_THAT(alone.second, HasSubstr("shows none without \"compare\""));
+    EXPECT_THAT(alone.second, HasSubstr("has no effect without \"compare\""));
     const auto flat = told(R"({"type": "still", "at": 0.1, "view": {"style": "flat", "camera": {"yaw": 0.5}}})");
     EXPECT_TRUE(flat.first);
-    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera.yaw turns the solid view alone"));
+    EXPECT_THAT(flat.second, HasSubstr("outputs.0.view.camera.yaw has an effect in the solid view only"));
     const auto followed =
         told(R"({"type": "still", "at": 0.1, "view": {"camera": {"keyframes": [{"at": 0.1, "follow": "contact"}]}}})",
              R"("cam": null, )");
     EXPECT_FALSE(followed.first);
-    EXPECT_THAT(followed.second, HasSubstr("there is no cam to follow"));
+    EXPECT_THAT(followed.second, HasSubstr("the scene has no cam to follow"));
     const auto formula = told(R"({"type": "video", "events": [{"at": 0.5, "text": "$\\nonsense$"}]})");
     EXPECT_TRUE(formula.first);
     EXPECT_THAT(formula.second, HasSubstr("\\nonsense is not among the commands"));
@@ -647,7 +648,7 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
     const auto collisions =
         told(R"({"type": "video", "layout": {"panel": "contact_force", "window": "collision"}, )" + two + "}");
     EXPECT_FALSE(collisions.first);
-    EXPECT_THAT(collisions.second, HasSubstr("is of one motion's collisions, and the picture compares 2"));
+    EXPECT_THAT(collisions.second, HasSubstr("needs one motion, but the picture compares 2"));
     EXPECT_TRUE(told(R"({"type": "video", "layout": {"rows": ["mechanism", "contact_force"]}, )" + two + "}").first);
     EXPECT_FALSE(
         told(R"({"type": "video", "layout": {"rows": ["mechanism", {"panel": "close-up", "motion": 2}]}, )" + two + "}")
@@ -668,7 +669,7 @@ TEST(Films, AFactorThatYieldsIsTold) {
                  R"({"time": {"end": 1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.7, "size": [160, 90],
         "view": {"style": "flat", "exaggeration": 1e6}}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err,
-                HasSubstr("instead of ×1e+06, which would draw the beam into the cam"));
+                HasSubstr("instead of ×1e+06, which would draw the beam inside the cam"));
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --force --set outputs.0.view.exaggeration=2").err,
                 ::testing::Not(HasSubstr("warning")));
 }

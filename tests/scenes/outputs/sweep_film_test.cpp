@@ -54,8 +54,8 @@ TEST(SweepFilm, RefusesWhatItCannotShow) {
     EXPECT_THAT(judged(kSwept, R"(, "size": [481, 301])"), HasSubstr("use 482x302"));
     EXPECT_THAT(judged(kSwept, R"(, "file": "f.gif")"), HasSubstr(".mp4"));
     EXPECT_EQ(judged(kSwept, "").find("error"), std::string::npos);
-    EXPECT_THAT(judged(kSwept, R"(, "size": [640, 360])"), HasSubstr("leaves no room to write"));
-    EXPECT_EQ(judged(kSwept, "").find("no room"), std::string::npos);
+    EXPECT_THAT(judged(kSwept, R"(, "size": [640, 360])"), HasSubstr("is too small to show"));
+    EXPECT_EQ(judged(kSwept, "").find("too small"), std::string::npos);
 }
 
 TEST(SweepFilm, OfTheCommandIsThatOfTheSceneAndOfOneKey) {

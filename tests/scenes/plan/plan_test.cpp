@@ -109,12 +109,12 @@ TEST(Plan, OneSimulationServesEveryOutput) {
 
 TEST(PlanText, AFilm) {
     EXPECT_EQ(text_of(R"({"time": {"end": 10}, "outputs": [{"type": "video"}]})"), R"(to do
-  simulate  first-order, 2 hub-beam modes, compliant contact; until 10 s, because of scene.mp4
-  video     scene.mp4: 600 frames of 0 s to 9.98333 s at 60 a second, 1920 × 1080, lit; H.264, crf 18, veryfast
+  simulate  first-order, 2 hub-beam modes, compliant contact; until 10 s, needed by scene.mp4
+  video     scene.mp4: 600 frames from 0 s to 9.98333 s at 60 per second, 1920 × 1080, lit; H.264, crf 18, veryfast
 skipped
-  20 of 24 channels: no output reads them
+  20 of 24 channels: no output needs them
   extrema and turning points: no output is a summary
-  further runs for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: no output needs it
 )");
 }
 
@@ -123,31 +123,31 @@ TEST(PlanText, ATableOfTheRigidBeamWithoutACam) {
         text_of(
             R"({"cam": null, "beam": {"model": "rigid"}, "outputs": [{"type": "trajectory", "channels": ["theta"], "times": [0.37]}]})"),
         R"(to do
-  simulate  rigid, no contact; until 0.37 s, because of scene.csv
+  simulate  rigid, no contact; until 0.37 s, needed by scene.csv
   table     scene.csv: 1 rows of 2 channels
 skipped
-  simulation from 0.37 s to 1.5 s: no output looks that far
+  simulation from 0.37 s to 1.5 s: no output needs it
   contact: the scene has no cam
-  21 of 22 channels: no output reads them
+  21 of 22 channels: no output needs them
   pictures, fonts and OpenGL: no output is a picture
   video encoder: no output is a video
   extrema and turning points: no output is a summary
-  further runs for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: no output needs it
 )");
 }
 
 TEST(PlanText, AFlatStillOfTheStart) {
     EXPECT_EQ(text_of(R"({"outputs": [{"type": "still", "at": 0, "view": {"style": "flat"}, "size": [800, 600]}]})"),
               R"(to do
-  simulate  first-order, 2 hub-beam modes, compliant contact; the initial state only, nothing to integrate
+  simulate  first-order, 2 hub-beam modes, compliant contact; the initial state only, without integration
   still     scene.png: one picture of 0 s, 800 × 600, flat
 skipped
-  simulation from 0 s to 1.5 s: no output looks that far
-  20 of 24 channels: no output reads them
+  simulation from 0 s to 1.5 s: no output needs it
+  20 of 24 channels: no output needs them
   OpenGL: every view is flat
   video encoder: no output is a video
   extrema and turning points: no output is a summary
-  further runs for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: no output needs it
 )");
 }
 
@@ -159,8 +159,8 @@ TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
     EXPECT_THAT(
         to_text(p, scene),
         HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10^8 N m^−1.5, c = 0.7; "
-                  "frictionless; colour scales on a.png: 320 × 180 leaves no room to write them; a larger \"size\" "
-                  "would\n  simulation from 0 s"));
+                  "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
+                  "  simulation from 0 s"));
 }
 
 TEST(PlanText, EveryOutputAtOnce) {
@@ -168,8 +168,8 @@ TEST(PlanText, EveryOutputAtOnce) {
         text_of(
             R"({"beam": {"model": "exact", "modes": 6}, "outputs": [{"type": "frames", "fps": 30, "from": 0.5}, {"type": "trajectory"}, {"type": "impacts"}, {"type": "summary", "horizon": true}]})"),
         R"(to do
-  simulate  exact, 6 shape functions, compliant contact; until 1.5 s, because of scene-####.png; further runs find until when it is reproducible
-  frames    scene-####.png: 30 frames of 0.5 s to 1.46667 s at 30 a second, 1920 × 1080, lit
+  simulate  exact, 6 shape functions, compliant contact; until 1.5 s, needed by scene-####.png; further runs find the reproducible horizon
+  frames    scene-####.png: 30 frames from 0.5 s to 1.46667 s at 30 per second, 1920 × 1080, lit
   table     scene.csv: 1501 rows of 29 channels
   impacts   scene-impacts.json
   summary   scene-summary.json
@@ -196,27 +196,27 @@ TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
     existing.keeps = true;
     existing.kept_until = 0.6;
     EXPECT_EQ(text_with(existing), R"(to do
-  simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, because of f-##.png; kept from an earlier run
-  frames    f-##.png: 6 frames of 0.15 s to 0.45 s at 20 a second, 320 × 180, flat
+  simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, needed by f-##.png; from the cache
+  frames    f-##.png: 6 frames from 0.15 s to 0.45 s at 20 per second, 320 × 180, flat
 skipped
-  4 frames of f-##.png: they are there already, made from the same inputs
-  t.csv: it is there already, made from the same inputs
-  simulation from 0.5 s to 1.5 s: no output looks that far
-  integration: the motion is kept from an earlier run
-  20 of 24 channels: no output reads them
+  4 frames of f-##.png: up to date
+  t.csv: up to date
+  simulation from 0.5 s to 1.5 s: no output needs it
+  integration: the motion is in the cache
+  20 of 24 channels: no output needs them
   OpenGL: every view is flat
   video encoder: no output is a video
   extrema and turning points: no output is a summary
-  further runs for the reproducible horizon: nothing asks for it
+  further runs for the reproducible horizon: no output needs it
 )");
     existing.kept_until = 0.4;  // too short
-    EXPECT_THAT(text_with(existing), HasSubstr("because of f-##.png; kept for later runs, unless it is short\n"));
+    EXPECT_THAT(text_with(existing), HasSubstr("needed by f-##.png; added to the cache, unless it is short\n"));
     existing.finished = {0, 1};
     EXPECT_EQ(text_with(existing), R"(to do
 skipped
-  f-##.png: it is there already, made from the same inputs
-  t.csv: it is there already, made from the same inputs
-  simulation: everything is there already
+  f-##.png: up to date
+  t.csv: up to date
+  simulation: all outputs are up to date
 )");
 }
 
@@ -225,9 +225,9 @@ TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
     selection.shard = 2;
     selection.shards = 3;
     const std::string text = text_with({}, selection);
-    EXPECT_THAT(text, HasSubstr("f-##.png: 3 frames of 0.15 s to 0.25 s"));
+    EXPECT_THAT(text, HasSubstr("f-##.png: 3 frames from 0.15 s to 0.25 s"));
     EXPECT_THAT(text, HasSubstr("  7 of 10 frames of f-##.png: other shards draw them\n"));
-    EXPECT_THAT(text, HasSubstr("  t.csv: the first shard makes it\n"));
+    EXPECT_THAT(text, HasSubstr("  t.csv: the first shard writes it\n"));
 }
 
 TEST(Plan, ShardsCoverEveryFrameOnce) {

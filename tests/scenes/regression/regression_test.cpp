@@ -350,14 +350,14 @@ TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
     folder.swap("b.json", R"("motion": {"scene": "s.json")", R"("motion": {"scene": "gone.json")");
     const Finished gone = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(gone.code, 3) << gone.out;
-    EXPECT_THAT(gone.err, HasSubstr(":25: entries.motion.scene: gone.json: there is no such file"));
+    EXPECT_THAT(gone.err, HasSubstr(":25: entries.motion.scene: gone.json does not exist"));
     for (const char* line : {"identical   fall", "identical   fast", "identical   hit", "missing     motion"})
         EXPECT_THAT(gone.out, HasSubstr(line));
     folder.write("b.json", right);
     folder.swap("b.json", R"("at": "0.2 s")", R"("at": "impact:9")");
     const Finished unreachable = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(unreachable.code, 7);
-    EXPECT_THAT(unreachable.out, HasSubstr("there is no impact 9"));
+    EXPECT_THAT(unreachable.out, HasSubstr("impact 9 does not occur"));
     for (const char* line : {"different   fall", "identical   hit", "identical   motion"})
         EXPECT_THAT(unreachable.out, HasSubstr(line));
 }

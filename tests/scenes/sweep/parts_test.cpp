@@ -88,8 +88,8 @@ TEST(SweepParts, AreRefusedByName) {
          {std::pair{"r.1of3.nc r.3of3.nc", "missing: 2"},
           std::pair{"r.1of3.nc r.2of3.nc copy.nc r.3of3.nc", "copy.nc: is the same part as r.2of3.nc"},
           std::pair{"r.1of3.nc other.2of3.nc r.3of3.nc", "other.2of3.nc: is part of another sweep"},
-          std::pair{"r.1of3.nc r.1of2.nc", "r.1of2.nc: is one of 2 parts"},
-          std::pair{"whole.nc", "whole.nc: is a whole sweep"}, std::pair{"s.json", "s.json"},
+          std::pair{"r.1of3.nc r.1of2.nc", "r.1of2.nc: one of 2 parts"},
+          std::pair{"whole.nc", "whole.nc: a complete sweep"}, std::pair{"s.json", "s.json"},
           std::pair{"none.nc", "none.nc"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM collect -o x.nc ") + parts);
         EXPECT_EQ(done.code, 6) << parts;

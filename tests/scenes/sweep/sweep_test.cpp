@@ -128,11 +128,11 @@ TEST(SweepCommand, TakesThePointsOfAFinishedFileForItsDiagram) {
     const std::string sweep = "$BEAMCAM sweep s.json --seed carry-up,same ";
     ASSERT_EQ(shell(folder, sweep + "-o a.nc -q && " + sweep + "--diagram fresh.svg -q").code, 0);
     const Finished drawn = shell(folder, sweep + "-o a.nc --diagram d.svg");
-    EXPECT_THAT(drawn.err, AllOf(HasSubstr("62 points are there already"), HasSubstr("left a.nc as it is")));
+    EXPECT_THAT(drawn.err, AllOf(HasSubstr("62 points exist already"), HasSubstr("kept a.nc: up to date")));
     EXPECT_EQ(slurp(folder / "d.svg"), slurp(folder / "fresh.svg"));
     // Not those of another sweep, nor where all is to be made anew.
-    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg").err, Not(HasSubstr("there already")));
-    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg --force").err, Not(HasSubstr("there already")));
+    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg").err, Not(HasSubstr("exist already")));
+    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg --force").err, Not(HasSubstr("exist already")));
 }
 
 TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
@@ -190,8 +190,8 @@ TEST(SweepCommand, RefusesInWords) {
          {std::tuple{"--over cam.spee=1:2:3", 2, "did you mean"},
           {"--over cam.speed", 2, "KEY=FIRST:LAST:COUNT"},
           {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
-          {"--over cam.speed=40:44:1n", 2, "one value, but two ends"},
-          {"--over cam.speed=40:44:1:log", 2, "one value, but two ends"},
+          {"--over cam.speed=40:44:1n", 2, "one value cannot have two ends"},
+          {"--over cam.speed=40:44:1:log", 2, "one value cannot have two ends"},
           {"--over cam.speed=40:44:0", 2, "0 is no step"},
           {"--over cam.speed=44:40:1", 2, "1 is no step"},
           {"--over cam.speed=40:44:0n", 2, "0 is no number of values"},
@@ -202,8 +202,8 @@ TEST(SweepCommand, RefusesInWords) {
           {"--sample never", 2, "impacts"},
           {"-o a.txt", 2, ".csv"},
           {"--transient -1", 2, "turns of the cam"},
-          {"--keep 0", 2, "at least one turn"},
-          {"--keep '0 s'", 2, "at least one turn"},
+          {"--keep 0", 2, "must be greater than 0"},
+          {"--keep '0 s'", 2, "must be greater than 0"},
           {"--transient 1e19", 2, "up to 1e+09"},
           {"--over initial.angle=0.4:0.5:2n --seed carry-up", 2, "use \"same\""},
           {"--caption c.txt", 2, "belongs to --diagram"},
