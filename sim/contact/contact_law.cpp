@@ -21,11 +21,6 @@ ForceAndSlopes NormalLaw::linearized(double penetration, double rate, double app
     return {f, exponent * f / penetration, stored * damping / approach};
 }
 
-double NormalLaw::penetration(double force, double rate, double approach) const {
-    const double depth = std::pow(std::fabs(force) / (stiffness * factor(rate, approach)), 1 / exponent);
-    return std::copysign(depth, force);
-}
-
 double NormalLaw::stored_energy(double penetration) const {
     return penetration > 0 ? elastic(penetration) * penetration / (exponent + 1) : 0;
 }

@@ -18,8 +18,6 @@ struct NormalLaw {
     double force(double penetration, double rate, double approach) const {  // [N]
         return linearized(penetration, rate, approach).force;
     }
-    // The inverse: the penetration under this force; an odd function of the force. NaN where the force is clamped.
-    double penetration(double force, double rate, double approach) const;
     double elastic(double penetration) const;        // K δⁿ [N]
     double stored_energy(double penetration) const;  // K δⁿ⁺¹/(n+1) [J]
     // 1 + D δ̇/δ̇₋; where it is negative the force is clamped.

@@ -12,9 +12,10 @@ namespace beamcam::sim {
 namespace {
 
 // Newton's method with a Jacobian by finite differences. scale[i] and size[i] are the natural magnitudes of unknown i
-// and of residual i, which make quantities of different units comparable.
+// and of residual i, which make quantities of different units comparable; `difference` is a share of the scale.
 template <class F>
-bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size) {
+bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size,
+            double difference = kNewtonDifference) {
     const Eigen::Index n = x.size();
     Eigen::VectorXd f(n), g(n);
     Eigen::MatrixXd jacobian(n, n);
@@ -26,12 +27,12 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
     for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
             const double kept = x[j];
-            x[j] = kept + kNewtonDifference * scale[j];
+            x[j] = kept + difference * scale[j];
             residual(x, g);
             jacobian.col(j) = g;
-            x[j] = kept - kNewtonDifference * scale[j];
+            x[j] = kept - difference * scale[j];
             residual(x, g);
-            jacobian.col(j) = (jacobian.col(j) - g) / (2 * kNewtonDifference);
+            jacobian.col(j) = (jacobian.col(j) - g) / (2 * difference);
             x[j] = kept;
         }
         const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
@@ -124,32 +125,50 @@ struct FollowingState {
 };
 
 // Solves for `s.xi`, the beam on the cam at time t in equilibrium with gravity, torque, friction and the inertia of the
-// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈. N is an unknown, too; it is the force of the penetration or, in
-// impulsive contact, keeps the gap at zero. False if there is no solution, or none with N >= 0. (S40)
+// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, with N = Kδⁿ or, in impulsive contact, the N that keeps the gap at
+// zero. False if there is no solution, or none with N >= 0.                                                   (S40)
 bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
     const int n = system.coordinates();
     const Problem& problem = system.problem();
-    const bool compliant = problem.contact.model == ContactModel::compliant;
+    const bool rigid_contact = problem.contact.model == ContactModel::restitution;
     const bool moves = !s.acceleration.isZero(0) || !s.rate.isZero(0);
-    const double approach = problem.contact.approach_floor.value;
+    Model& model = system.model();
     std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
     std::copy_n(s.rate.data(), n, y.begin() + n);
-    Eigen::VectorXd x(n + 1), scale(n + 1), size(n + 1), force(n);
-    scale << scales(problem, n), force_size(system);
-    size << (moves ? acceleration_sizes(system, n) : force_sizes(system, n)), problem.beam.length;
-    x << s.xi, 0.5 * scale[n];
+    const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
+    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), size(x.size()), force(n);
+    x.head(n) = s.xi;
+    scale.head(n) = scales(problem, n);
+    size.head(n) = moves ? acceleration_sizes(system, n) : force_sizes(system, n);
+    if (rigid_contact) {
+        scale[n] = force_size(system);
+        x[n] = 0.5 * scale[n];
+        size[n] = problem.beam.length;
+    }
     const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
         std::copy_n(at.data(), n, y.begin());
         const ContactState c = system.contact(t, y.data(), true);
-        const bool solvable = system.generalized_force(t, c, at[n], force.data());
-        if (moves && solvable) system.model().solve(force.data());
+        // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
+        const double normal = rigid_contact ? at[n]
+                              : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
+                                            : -c.gap * stiffness * kSeparatedPull;
+        const bool solvable = system.generalized_force(t, c, normal, force.data());
+        if (moves && solvable) model.solve(force.data());
         if (moves && !solvable) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // rejects the iterate
-        const double depth = compliant ? system.normal_law().penetration(at[n], moves ? -c.gap_rate : 0, approach) : 0;
-        r << force - s.acceleration, c.gap + depth;
+        r.head(n) = force - s.acceleration;
+        if (rigid_contact) r[n] = c.gap;
     };
-    const bool found = newton(residual, x, scale, size);
+    bool found = newton(residual, x, scale, size);
+    if (!found && !rigid_contact) {  // the differences may have exceeded the penetration in a stiff contact
+        const double depth = std::pow(force_size(system) / stiffness, 1 / problem.contact.exponent);
+        x = s.xi;
+        found = newton(residual, x, scale, size,
+                       std::min(kNewtonDifference, kShallowDifference * depth / problem.beam.length));
+    }
     s.xi = x.head(n);
-    return found && x[n] >= 0;
+    if (!found || rigid_contact) return found && x[n] >= -kBalanced * scale[n];
+    std::copy_n(x.data(), n, y.begin());
+    return system.contact(t, y.data(), true).gap <= kEquilibriumGap * problem.beam.length;
 }
 
 // The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates

@@ -119,9 +119,7 @@ void System::rhs(double t, const double* y, double* dy) {
         ledger[kWorkDrive] += constrain(t, c, acc, true);
     } else if (phase_.touching) {
         c = current_contact(t, y, false);
-        double jn[kMaxSize], jt[kMaxSize];
-        contact_rows(c, jn, jt);
-        for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];  // (S28)
+        add_contact_force(c, acc);
         if (has_bristle()) dy[2 * n_] = friction_.bristle_rate(phase_.friction, c.force, c.slip, bristle(y));
     }
     if (!phase_.held) ledger[kWorkDrive] += accelerate(t, acc);
@@ -247,6 +245,13 @@ void System::add_torque(double t, double* f) const {
     for (int i = 0; i < n_; ++i) f[i] += torque * model_->hub_row()[i];
 }
 
+// (S28)
+void System::add_contact_force(const ContactState& c, double* f) const {
+    double jn[kMaxSize], jt[kMaxSize];
+    contact_rows(c, jn, jt);
+    for (int i = 0; i < n_; ++i) f[i] += c.force * jn[i] + c.friction * jt[i];
+}
+
 bool System::generalized_force(double t, const ContactState& c, double normal, double* f) {
     double jn[kMaxSize], jt[kMaxSize];
     const bool positive = assemble(f);
@@ -266,11 +271,7 @@ void System::acceleration(double t, const double* y, double* acc) {
 void System::current_acceleration(double t, const ContactState& c, double* acc) {
     require_inertia(acc);
     add_torque(t, acc);
-    if (phase_.touching) {
-        double jn[kMaxSize], jt[kMaxSize];
-        contact_rows(c, jn, jt);
-        for (int i = 0; i < n_; ++i) acc[i] += c.force * jn[i] + c.friction * jt[i];
-    }
+    if (phase_.touching) add_contact_force(c, acc);
     accelerate(t, acc);
 }
 

@@ -115,6 +115,7 @@ class System final : public Ode {
     ContactState contact_geometry(double t, bool search);
     void contact_rows(const ContactState& c, double* jn, double* jt) const { geometry_.rows(*model_, c, jn, jt); }
     void add_torque(double t, double* f) const;
+    void add_contact_force(const ContactState& c, double* f) const;
     double accelerate(double t, double* acc) const;
     void respond(double* f) const;
     double constrain(double t, ContactState& c, double* acc, bool with_force);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cmath>
+#include <vector>
 
 #include "sim/base/lanes.hpp"
 
@@ -59,6 +60,18 @@ inline bool operator>(const Jet& a, const Jet& b) { return a.v > b.v; }
 inline bool operator<=(const Jet& a, const Jet& b) { return a.v <= b.v; }
 inline bool operator>=(const Jet& a, const Jet& b) { return a.v >= b.v; }
 inline bool operator==(const Jet& a, const Jet& b) { return a.v == b.v; }
+
+// Jets with int indices, as coordinates have.
+class JetVector {
+  public:
+    explicit JetVector(int size = 0) : jets_(static_cast<std::size_t>(size)) {}
+    int size() const { return static_cast<int>(jets_.size()); }
+    Jet& operator[](int i) { return jets_[static_cast<std::size_t>(i)]; }
+    const Jet& operator[](int i) const { return jets_[static_cast<std::size_t>(i)]; }
+
+  private:
+    std::vector<Jet> jets_;
+};
 
 // A vector of the plane.
 struct Jet2 {

@@ -1,12 +1,6 @@
 #include "sim/orbit/modal_jets.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-std::size_t entry(int i) { return static_cast<std::size_t>(i); }
-
-}  // namespace
-
 ModalJets::ModalJets(System& system)
     : problem_(system.problem()),
       model_(dynamic_cast<const ModalModel&>(system.model())),
@@ -18,22 +12,21 @@ ModalJets::ModalJets(System& system)
       modes_(n_ - 1),
       offset_(system.offset()),
       baumgarte_rate_(system.baumgarte_rate()),
-      damping_(model_.damping_matrix()),
-      q_(entry(modes_)),
-      dq_(entry(modes_)),
-      bq_(entry(modes_)),
-      force_(entry(n_)),
-      y_(entry(modes_)),
-      y1_(entry(modes_)),
-      y2_(entry(modes_)),
-      y3_(entry(modes_)),
-      h_(entry(modes_ * modes_)),
-      shape_(entry(modes_)),
-      slope_(entry(modes_)),
-      curve_(entry(modes_)),
-      shortening_(entry(modes_)) {
-    c_.jn.resize(entry(n_));
-    c_.jt.resize(entry(n_));
+      q_(modes_),
+      dq_(modes_),
+      force_(n_),
+      y_(modes_),
+      y1_(modes_),
+      y2_(modes_),
+      y3_(modes_),
+      shortening_matrix_(modes_, modes_),
+      shape_(modes_),
+      slope_(modes_),
+      curve_(modes_),
+      shortening_(modes_) {
+    c_.jn = c_.jt = JetVector(n_);
+    if (const std::vector<double> c = model_.damping_matrix(); !c.empty())
+        damping_ = Eigen::Map<const Eigen::MatrixXd>(c.data(), modes_, modes_);
 }
 
 void ModalJets::set(const JetState& s) {
@@ -48,10 +41,10 @@ void ModalJets::set(const JetState& s) {
     cos_ = cos(Theta_);
     alpha_ = alpha_dot_ = 0;
     for (int i = 0; i < modes_; ++i) {
-        q_[entry(i)] = s.xi[entry(1 + i)];
-        dq_[entry(i)] = s.rate[entry(1 + i)];
-        alpha_ += model_.hub_row()[1 + i] * q_[entry(i)];
-        alpha_dot_ += model_.hub_row()[1 + i] * dq_[entry(i)];
+        q_[i] = s.xi[1 + i];
+        dq_[i] = s.rate[1 + i];
+        alpha_ += model_.hub_row()[1 + i] * q_[i];
+        alpha_dot_ += model_.hub_row()[1 + i] * dq_[i];
     }
 }
 
@@ -64,44 +57,44 @@ void ModalJets::assemble(const JetState& s) {
     for (int i = 0; i < modes_; ++i) {
         Jet bq, gq, damping;
         for (int j = 0; j < modes_; ++j) {
-            bq += B(i, j) * q_[entry(j)];
-            if (shortened) gq += m_.G(i, j) * q_[entry(j)];
+            bq += B(i, j) * q_[j];
+            if (shortened) gq += m_.G(i, j) * q_[j];
         }
-        if (!damping_.empty())
-            for (int j = 0; j < modes_; ++j) damping += damping_[entry(j * modes_ + i)] * dq_[entry(j)];
-        coriolis += bq * dq_[entry(i)];
-        qbq += bq * q_[entry(i)];
-        wq += m_.W[i] * q_[entry(i)];
-        qgq += gq * q_[entry(i)];
-        force_[entry(1 + i)] =
-            Theta_dot_ * Theta_dot_ * bq + g * (sin_ * gq) - m_.K[i] * q_[entry(i)] - (g * m_.W[i]) * cos_ - damping;
+        if (damping_.size() > 0)
+            for (int j = 0; j < modes_; ++j) damping += damping_(i, j) * dq_[j];
+        coriolis += bq * dq_[i];
+        qbq += bq * q_[i];
+        wq += m_.W[i] * q_[i];
+        qgq += gq * q_[i];
+        force_[1 + i] =
+            Theta_dot_ * Theta_dot_ * bq + g * (sin_ * gq) - m_.K[i] * q_[i] - (g * m_.W[i]) * cos_ - damping;
     }
     inertia_ = m_.J + qbq;
     force_[0] = -2 * (Theta_dot_ * coriolis) - g * (m_.S * cos_ - wq * sin_ - 0.5 * (cos_ * qgq));
     if (!drive_.has_torque()) return;
     const double torque = drive_.torque(s.t.v);
-    for (int i = 0; i < n_; ++i) force_[entry(i)] += torque * model_.hub_row()[i];
+    for (int i = 0; i < n_; ++i) force_[i] += torque * model_.hub_row()[i];
 }
 
 // f ← M⁻¹f; a prescribed hub has its own acceleration if `driven`, else none.
-void ModalJets::solve(const JetState& s, std::vector<Jet>& f, bool driven) const {
+void ModalJets::solve(const JetState& s, JetVector& f, bool driven) const {
     const double mass = model_.mass();
     if (drive_.prescribed()) {
         f[0] = driven ? drive_.motion(s.t.v).acceleration : 0;
     } else if (model_.coupled()) {
         Jet hub = f[0];
-        for (int i = 0; i < modes_; ++i) hub -= (m_.U[i] / mass) * f[entry(1 + i)];
+        for (int i = 0; i < modes_; ++i) hub -= (m_.U[i] / mass) * f[1 + i];
         f[0] = hub / (inertia_ - m_.U.squaredNorm() / mass);
     } else {
         f[0] = f[0] / inertia_;
     }
     for (int i = 0; i < modes_; ++i) {
-        if (model_.coupled()) f[entry(1 + i)] -= m_.U[i] * f[0];
-        f[entry(1 + i)] = f[entry(1 + i)] / mass;
+        if (model_.coupled()) f[1 + i] -= m_.U[i] * f[0];
+        f[1 + i] = f[1 + i] / mass;
     }
 }
 
-void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& near, std::vector<Jet>& acceleration,
+void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& near, JetVector& acceleration,
                      Jet& bristle_rate) {
     set(s);
     assemble(s);
@@ -109,8 +102,7 @@ void ModalJets::flow(const JetState& s, const Phase& phase, const ContactState& 
     if (phase.touching) {
         contact(s, near);
         const Forces f = current_forces(s, phase, near.at_end);
-        for (int i = 0; i < n_; ++i)
-            force_[entry(i)] += f.normal * c_.jn[entry(i)] + f.friction * c_.jt[entry(i)];  // (S28)
+        for (int i = 0; i < n_; ++i) force_[i] += f.normal * c_.jn[i] + f.friction * c_.jt[i];  // (S28)
         if (friction_.bristle && phase.friction == FrictionState::stick)
             bristle_rate = f.slip;
         else if (friction_.lags)

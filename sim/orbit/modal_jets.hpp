@@ -5,7 +5,7 @@
 // the models rigid, zeroth-order and first-order in both bases; values agree with System to rounding.
 #pragma once
 
-#include <vector>
+#include <Eigen/Core>
 
 #include "sim/beam/modal_model.hpp"
 #include "sim/dynamics/system.hpp"
@@ -14,10 +14,9 @@
 namespace beamcam::sim {
 
 struct JetState {
-    explicit JetState(int coordinates)
-        : xi(static_cast<std::size_t>(coordinates)), rate(static_cast<std::size_t>(coordinates)) {}
+    explicit JetState(int coordinates) : xi(coordinates), rate(coordinates) {}
     Jet t;
-    std::vector<Jet> xi, rate;
+    JetVector xi, rate;
     Jet bristle, approach = 1;
 };
 
@@ -26,7 +25,7 @@ class ModalJets {
     explicit ModalJets(System& system);  // copies what it needs
 
     // ξ̈ and ż in this phase. In contact `near` is the contact at the value of the state.
-    void flow(const JetState& s, const Phase& phase, const ContactState& near, std::vector<Jet>& acceleration,
+    void flow(const JetState& s, const Phase& phase, const ContactState& near, JetVector& acceleration,
               Jet& bristle_rate);
     // Gap and its rate.
     struct Gap {
@@ -51,13 +50,13 @@ class ModalJets {
     struct Contact {
         Jet2 r, r1, r2, v, v1, normal, along;
         Jet distance, gap_rate, slip, bend;
-        std::vector<Jet> jn, jt;
+        JetVector jn, jt;
     };
     void set(const JetState& s);
     void line(const Jet& x);
     void contact(const JetState& s, const ContactState& near);
     void assemble(const JetState& s);
-    void solve(const JetState& s, std::vector<Jet>& f, bool driven) const;
+    void solve(const JetState& s, JetVector& f, bool driven) const;
     Forces current_forces(const JetState& s, const Phase& phase, bool at_end);
     Jet constraint_force(const JetState& s, bool at_end);
     Jet friction_ratio() const;
@@ -70,14 +69,15 @@ class ModalJets {
     const FrictionLaw friction_;
     int n_, modes_;
     double offset_, baumgarte_rate_;
-    std::vector<double> damping_;  // C_d, N² column-major; empty: none
+    Eigen::MatrixXd damping_;  // C_d; empty: none
 
     // Of the present state.
     Jet sin_, cos_, Theta_dot_, Theta_, alpha_, alpha_dot_, inertia_;
-    std::vector<Jet> q_, dq_, bq_, force_;
+    JetVector q_, dq_, force_;
     Contact c_;
-    std::vector<double> y_, y1_, y2_, y3_, h_;
-    std::vector<Jet> shape_, slope_, curve_, shortening_;
+    Eigen::VectorXd y_, y1_, y2_, y3_;
+    Eigen::MatrixXd shortening_matrix_;  // H (S5a)
+    JetVector shape_, slope_, curve_, shortening_;
 };
 
 }  // namespace beamcam::sim

@@ -7,8 +7,6 @@
 namespace beamcam::sim {
 namespace {
 
-std::size_t index_of(int i) { return static_cast<std::size_t>(i); }
-
 Jet power(const Jet& a, double n) {
     const double p = std::pow(a.v, n - 1);
     return chain(a, p * a.v, n * p);
@@ -35,30 +33,29 @@ void ModalJets::line(const Jet& x) {
     const bool shortened = model_.foreshortening() && modes_ > 0;
     const double a = problem_.hub.radius;
     model_.shapes().evaluate(x.v, y_.data(), y1_.data(), y2_.data(), y3_.data());
-    if (shortened) model_.shortening_matrix(x.v, h_.data());
+    if (shortened) model_.shortening_matrix(x.v, shortening_matrix_.data());
     Jet v, v1, v2, dv, dv1, u, du, u1, u2, du1, bend;
     for (int i = 0; i < modes_; ++i) {
-        shape_[index_of(i)] = {y_[index_of(i)], x.d * y1_[index_of(i)]};
-        slope_[index_of(i)] = {y1_[index_of(i)], x.d * y2_[index_of(i)]};
-        curve_[index_of(i)] = {y2_[index_of(i)], x.d * y3_[index_of(i)]};
-        v += shape_[index_of(i)] * q_[index_of(i)];
-        v1 += slope_[index_of(i)] * q_[index_of(i)];
-        v2 += curve_[index_of(i)] * q_[index_of(i)];
-        dv += shape_[index_of(i)] * dq_[index_of(i)];
-        dv1 += slope_[index_of(i)] * dq_[index_of(i)];
+        shape_[i] = {y_[i], x.d * y1_[i]};
+        slope_[i] = {y1_[i], x.d * y2_[i]};
+        curve_[i] = {y2_[i], x.d * y3_[i]};
+        v += shape_[i] * q_[i];
+        v1 += slope_[i] * q_[i];
+        v2 += curve_[i] * q_[i];
+        dv += shape_[i] * dq_[i];
+        dv1 += slope_[i] * dq_[i];
     }
     if (shortened) {
         for (int i = 0; i < modes_; ++i) {
-            Jet hq{0, x.d * (y1_[index_of(i)] * v1.v)},
-                hdq{0, x.d * (y1_[index_of(i)] * dv1.v)};  // H q, H q̇; ∂H/∂x = φ′φ′ᵀ
+            Jet hq{0, x.d * (y1_[i] * v1.v)}, hdq{0, x.d * (y1_[i] * dv1.v)};  // H q, H q̇; ∂H/∂x = φ′φ′ᵀ
             for (int j = 0; j < modes_; ++j) {
-                hq += h_[index_of(j * modes_ + i)] * q_[index_of(j)];
-                hdq += h_[index_of(j * modes_ + i)] * dq_[index_of(j)];
+                hq += shortening_matrix_(i, j) * q_[j];
+                hdq += shortening_matrix_(i, j) * dq_[j];
             }
-            shortening_[index_of(i)] = hq;
-            u -= 0.5 * (q_[index_of(i)] * hq);
-            du -= dq_[index_of(i)] * hq;
-            bend -= dq_[index_of(i)] * hdq;
+            shortening_[i] = hq;
+            u -= 0.5 * (q_[i] * hq);
+            du -= dq_[i] * hq;
+            bend -= dq_[i] * hdq;
         }
         u -= 0.5 * a * (alpha_ * alpha_);
         du -= a * (alpha_ * alpha_dot_);
@@ -81,12 +78,11 @@ void ModalJets::line(const Jet& x) {
     c_.jt[0] = c_.r.x;
     for (int i = 0; i < modes_; ++i) {
         Jet ui;
-        if (shortened) ui = -shortening_[index_of(i)] - (a * model_.hub_row()[1 + i]) * alpha_;
-        c_.jn[index_of(1 + i)] = ui * along.x + shape_[index_of(i)] * across.x;
-        c_.jt[index_of(1 + i)] = ui * along.y + shape_[index_of(i)] * across.y;
+        if (shortened) ui = -shortening_[i] - (a * model_.hub_row()[1 + i]) * alpha_;
+        c_.jn[1 + i] = ui * along.x + shape_[i] * across.x;
+        c_.jt[1 + i] = ui * along.y + shape_[i] * across.y;
         // curve_ now stores ∂χ/∂q; the curvature is no longer needed.
-        curve_[index_of(i)] =
-            ((1 + u1) * slope_[index_of(i)] + (shortened ? v1 * v1 * slope_[index_of(i)] : Jet())) / speed2;
+        curve_[i] = ((1 + u1) * slope_[i] + (shortened ? v1 * v1 * slope_[i] : Jet())) / speed2;
     }
 }
 
@@ -107,9 +103,9 @@ void ModalJets::contact(const JetState& s, const ContactState& near) {
     c_.gap_rate = dot(c_.normal, w);
     c_.slip = dot(tangent, w) + offset_ * (cross(c_.r1, c_.v1) / dot(c_.r1, c_.r1)) - cam.speed * cam.radius;
     for (int i = 0; i < n_; ++i) {
-        const Jet2 column{c_.jn[index_of(i)], c_.jt[index_of(i)]};
-        c_.jn[index_of(i)] = dot(c_.normal, column);
-        c_.jt[index_of(i)] = dot(tangent, column) + offset_ * (i == 0 ? Jet(1) : curve_[index_of(i - 1)]);
+        const Jet2 column{c_.jn[i], c_.jt[i]};
+        c_.jn[i] = dot(c_.normal, column);
+        c_.jt[i] = dot(tangent, column) + offset_ * (i == 0 ? Jet(1) : curve_[i - 1]);
     }
 }
 
@@ -129,14 +125,14 @@ Jet ModalJets::constraint_force(const JetState& s, bool at_end) {
     const Jet2 disc_acceleration = Jet(-cam.speed * cam.speed) * arm;
     Jet gap_acceleration = dot(n_rate, w) + dot(c_.normal, convective + rate * c_.v1 - disc_acceleration);  // (S44)
     const Jet ratio = friction_.none() ? Jet() : friction_ratio();
-    std::vector<Jet> free = force_, response(index_of(n_));
-    for (int i = 0; i < n_; ++i) response[index_of(i)] = c_.jn[index_of(i)] + ratio * c_.jt[index_of(i)];
+    JetVector free = force_, response(n_);
+    for (int i = 0; i < n_; ++i) response[i] = c_.jn[i] + ratio * c_.jt[i];
     solve(s, free, true);
     solve(s, response, false);
     Jet per_newton;
     for (int i = 0; i < n_; ++i) {
-        gap_acceleration += c_.jn[index_of(i)] * free[index_of(i)];
-        per_newton += c_.jn[index_of(i)] * response[index_of(i)];
+        gap_acceleration += c_.jn[i] * free[i];
+        per_newton += c_.jn[i] * response[i];
     }
     const Jet gap = c_.distance - (cam.radius + offset_);
     const Jet decay = baumgarte_rate_ * (2 * c_.gap_rate + baumgarte_rate_ * (gap - gap.v));
@@ -186,19 +182,18 @@ void ModalJets::apply_impact(JetState& s, const ContactState& near, double resti
     set(s);
     assemble(s);
     contact(s, near);
-    std::vector<Jet> by_n = c_.jn, by_t = c_.jt;
+    JetVector by_n = c_.jn, by_t = c_.jt;
     solve(s, by_n, false);
     solve(s, by_t, false);
     ComplianceOf<Jet> compliance{0, 0, 0};
     for (int i = 0; i < n_; ++i) {
-        compliance.nn += c_.jn[index_of(i)] * by_n[index_of(i)];
-        compliance.nt += 0.5 * (c_.jt[index_of(i)] * by_n[index_of(i)] + c_.jn[index_of(i)] * by_t[index_of(i)]);
-        compliance.tt += c_.jt[index_of(i)] * by_t[index_of(i)];
+        compliance.nn += c_.jn[i] * by_n[i];
+        compliance.nt += 0.5 * (c_.jt[i] * by_n[i] + c_.jn[i] * by_t[i]);
+        compliance.tt += c_.jt[i] * by_t[i];
     }
     const ImpactResultOf<Jet> impact =
         resolve_impact<Jet>(compliance, c_.gap_rate, c_.slip, friction_.kinetic, restitution, problem_.contact.law);
-    for (int i = 0; i < n_; ++i)
-        s.rate[index_of(i)] += impact.impulse_n * by_n[index_of(i)] + impact.impulse_t * by_t[index_of(i)];
+    for (int i = 0; i < n_; ++i) s.rate[i] += impact.impulse_n * by_n[i] + impact.impulse_t * by_t[i];
 }
 
 }  // namespace beamcam::sim

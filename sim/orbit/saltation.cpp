@@ -12,8 +12,8 @@ namespace {
 constexpr int kFlow = kDirections - 1;  // this direction of the jets carries the time derivative of the motion itself
 
 void seed(JetState& s, const double* y, const Phase& phase, bool bristle) {
-    const std::size_t n = s.xi.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    const int n = s.xi.size();
+    for (int i = 0; i < n; ++i) {
         s.xi[i] = y[i];
         s.rate[i] = y[n + i];
     }
@@ -22,8 +22,8 @@ void seed(JetState& s, const double* y, const Phase& phase, bool bristle) {
 }
 
 void seed_column(JetState& s, int direction, const double* column, const double* units) {
-    const std::size_t n = s.xi.size();
-    for (std::size_t i = 0; i < n; ++i) {
+    const int n = s.xi.size();
+    for (int i = 0; i < n; ++i) {
         s.xi[i].d[direction] = column[i] / units[i];
         s.rate[i].d[direction] = column[n + i] / units[n + i];
     }
@@ -58,8 +58,8 @@ void Saltation::start_on_cam(double t, const double* y, const Phase& is, Eigen::
     keep_on_cam(t, y, tangents);
 }
 
-std::vector<double> Saltation::flow_after(const Instant& at) {
-    std::vector<double> flow(static_cast<std::size_t>(probe_.size));
+Eigen::VectorXd Saltation::flow_after(const Instant& at) {
+    Eigen::VectorXd flow(probe_.size);
     probe_.set_phase(at.is);
     probe_.rhs(at.t, at.after, flow.data());
     return flow;
@@ -75,7 +75,7 @@ void Saltation::record_touch(const Instant& at) {
 // The state before an event as jets: the tangents from column `first` on and, in the last direction, the time
 // derivative of the motion.
 JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first) {
-    std::vector<double> flow(static_cast<std::size_t>(probe_.size));
+    Eigen::VectorXd flow(probe_.size);
     probe_.set_phase(at.was);
     probe_.rhs(at.t, at.before, flow.data());
     near_ = probe_.contact(at.t, at.before, true);
@@ -83,11 +83,11 @@ JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangen
     seed(s, at.before, at.was, probe_.has_bristle());
     s.t = at.t;
     s.t.d[kFlow] = 1;
-    for (std::size_t i = 0; i < s.xi.size(); ++i) {
+    for (int i = 0; i < n_; ++i) {
         s.xi[i].d[kFlow] = flow[i];
-        s.rate[i].d[kFlow] = flow[s.xi.size() + i];
+        s.rate[i].d[kFlow] = flow[n_ + i];
     }
-    if (probe_.has_bristle()) s.bristle.d[kFlow] = flow[2 * s.xi.size()];
+    if (probe_.has_bristle()) s.bristle.d[kFlow] = flow[2 * n_];
     for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k)
         seed_column(s, k, tangents.col(first + k).data(), units_.data());
     return s;
@@ -95,7 +95,7 @@ JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangen
 
 // Ξ v = D_xR v + (D_xR F⁻ + D_tR − F⁺) δt, δt = −D_x g v/ġ                                                       (S71)
 void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
-    const std::vector<double> flow = flow_after(at);
+    const Eigen::VectorXd flow = flow_after(at);
     const double rebound = probe_.contact(at.t, at.after, true).gap_rate;
     for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
         JetState s = jets_before(at, tangents, first);
@@ -106,11 +106,9 @@ void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             const double delay = -gap.d[k] / gap.d[kFlow];
             for (int i = 0; i < n_; ++i) {
-                const auto j = static_cast<std::size_t>(i);
-                const Jet &xi = s.xi[j], &rate = s.rate[j];
-                tangents(i, first + k) = units_[i] * (xi.d[k] + (xi.d[kFlow] - flow[j]) * delay);
-                tangents(n_ + i, first + k) =
-                    units_[n_ + i] * (rate.d[k] + (rate.d[kFlow] - flow[s.xi.size() + j]) * delay);
+                const Jet &xi = s.xi[i], &rate = s.rate[i];
+                tangents(i, first + k) = units_[i] * (xi.d[k] + (xi.d[kFlow] - flow[i]) * delay);
+                tangents(n_ + i, first + k) = units_[n_ + i] * (rate.d[k] + (rate.d[kFlow] - flow[n_ + i]) * delay);
             }
         }
     }
@@ -167,11 +165,11 @@ void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
 // (S71)
 void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
     const FrictionLaw& friction = probe_.friction();
-    const std::vector<double> flow = flow_after(at);
+    const Eigen::VectorXd flow = flow_after(at);
     for (Eigen::Index first = 0; first < tangents.cols(); first += kFlow) {
         const JetState s = jets_before(at, tangents, first);
         const ModalJets::Forces f = jets_.forces(s, at.was, near_);
-        std::vector<Jet> acceleration;
+        JetVector acceleration;
         Jet bristle_rate;
         jets_.flow(s, at.was, near_, acceleration, bristle_rate);
         const Jet guard = friction.limit * f.normal - fabs(f.friction);
@@ -183,11 +181,9 @@ void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
                 continue;
             }
             const double delay = friction.limit > friction.kinetic ? -guard.d[k] / guard.d[kFlow] : 0;
-            for (int i = 0; i < n_; ++i) {
-                const auto j = static_cast<std::size_t>(i);
-                tangents(n_ + i, first + k) += units_[n_ + i] * (acceleration[j].v - flow[s.xi.size() + j]) * delay;
-            }
-            bristle = friction.lags ? bristle + units_[2 * n_] * (bristle_rate.v - flow[2 * s.xi.size()]) * delay : 0;
+            for (int i = 0; i < n_; ++i)
+                tangents(n_ + i, first + k) += units_[n_ + i] * (acceleration[i].v - flow[n_ + i]) * delay;
+            bristle = friction.lags ? bristle + units_[2 * n_] * (bristle_rate.v - flow[2 * n_]) * delay : 0;
         }
     }
 }

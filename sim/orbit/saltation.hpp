@@ -44,7 +44,7 @@ class Saltation {
     void release(Eigen::MatrixXd& tangents);
     void keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents);
     JetState jets_before(const Instant& at, const Eigen::MatrixXd& tangents, Eigen::Index first);
-    std::vector<double> flow_after(const Instant& at);
+    Eigen::VectorXd flow_after(const Instant& at);
     void record_touch(const Instant& at);
 
     System probe_;  // a separate copy, so that evaluations at events do not affect the motion

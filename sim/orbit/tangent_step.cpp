@@ -41,7 +41,7 @@ TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& 
       flight_level_(kFirstFlightLevel),
       touch_level_(kFirstTouchLevel),
       state_(n_),
-      y_(static_cast<std::size_t>(probe.size)) {
+      y_(probe.size) {
     const auto& model = dynamic_cast<const ModalModel&>(probe.model());
     const std::vector<double> damping = model.damping_matrix();
     for (int i = 0; i + 1 < n_; ++i) {
@@ -73,7 +73,6 @@ void TangentStep::differentiate(const Segment& motion, double t0, double h) {
     const Collocation& gauss = Collocation::get();
     const int columns = 2 * n_ + kTangentMemories;
     const int used = phase_.touching ? columns : 2 * n_;
-    const auto n = static_cast<std::size_t>(n_);
     Jet bristle_rate;
     for (int k = 0; k < kNodes; ++k) {
         const double t = t0 + h * gauss.c[k];
@@ -82,26 +81,25 @@ void TangentStep::differentiate(const Segment& motion, double t0, double h) {
         if (phase_.touching) near = probe_.contact(t, y_.data(), false);
         derivative_[k].setZero(forced_, columns);
         for (int first = 0; first < used; first += kDirections) {
-            for (std::size_t i = 0; i < n; ++i) {
+            for (int i = 0; i < n_; ++i) {
                 state_.xi[i] = y_[i];
-                state_.rate[i] = y_[n + i];
+                state_.rate[i] = y_[n_ + i];
             }
             state_.t = t;
-            state_.bristle = probe_.has_bristle() ? y_[2 * n] : 0;
+            state_.bristle = probe_.has_bristle() ? y_[2 * n_] : 0;
             state_.approach = phase_.approach;
             const int count = std::min(kDirections, used - first);
             for (int d = 0; d < count; ++d) {
-                const auto row = static_cast<std::size_t>(first + d);
-                Jet& seeded = row < n        ? state_.xi[row]
-                              : row < 2 * n  ? state_.rate[row - n]
-                              : row == 2 * n ? state_.bristle
-                                             : state_.approach;
+                const int row = first + d;
+                Jet& seeded = row < n_        ? state_.xi[row]
+                              : row < 2 * n_  ? state_.rate[row - n_]
+                              : row == 2 * n_ ? state_.bristle
+                                              : state_.approach;
                 seeded.d[d] = 1;
             }
             jets_.flow(state_, phase_, near, acceleration_, bristle_rate);
             for (int d = 0; d < count; ++d) {
-                for (int i = 0; i < n_; ++i)
-                    derivative_[k](i, first + d) = acceleration_[static_cast<std::size_t>(i)].d[d];
+                for (int i = 0; i < n_; ++i) derivative_[k](i, first + d) = acceleration_[i].d[d];
                 if (forced_ > n_) derivative_[k](n_, first + d) = bristle_rate.d[d];
             }
         }

@@ -46,8 +46,8 @@ class TangentStep {
     int flight_level_, touch_level_;
 
     JetState state_;
-    std::vector<Jet> acceleration_;
-    std::vector<double> y_;
+    JetVector acceleration_;
+    Eigen::VectorXd y_;
     NodalDerivative derivative_[kNodes];
     Eigen::MatrixXd unforced_, matrix_, forcing_, next_;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;

