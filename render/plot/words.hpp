@@ -1,6 +1,5 @@
-// Words that users wrote, as markup of pictures: between dollars mathematics, as in figures (render/draw/markup.hpp);
-// broken into lines where Unicode allows it: between words, and between the characters of scripts without spaces, never
-// in a formula.
+// User text as markup of pictures: mathematics between dollars, as in figures (render/draw/markup.hpp). Lines break
+// where Unicode allows it: between words, and between the characters of scripts without spaces, never in a formula.
 #pragma once
 
 #include <string>
@@ -11,18 +10,18 @@
 
 namespace beamcam::render {
 
-// A dollar that no other closes, and \\$, stand for themselves; so does a formula that cannot be read.
+// An unclosed dollar and \\$ are dollars; a formula that cannot be parsed is shown as it is written.
 std::string words(const Canvas& canvas, std::string_view text);
 // The same without markup, for files and other programs: "ω₁" of "$\\omega_1$" as "ω_1".
 std::string plain_words(std::string_view text);
-// Those that no font of pictures has, each once: "🙂 ☃". Loads fonts, where there are any but Latin ones; without
-// fonts none.
+// The characters that no font has, each once: "🙂 ☃". Loads fonts if there are any but Latin characters; empty if
+// no fonts are found.
 std::string characters_without_font(std::string_view text);
-// Why a formula cannot be read; empty: all can.
+// Why a formula cannot be parsed; empty: all can.
 std::string problem_with_words(std::string_view text);
 
-// Markup of the lines that a text fills, none wider than `style.max_width` [px] where it can be broken; at most
-// `most` of them, the last with all that is left.
+// Markup of the lines of a text, none wider than `style.max_width` [px] if it can be broken; at most `most` lines, the
+// last with the rest of the text.
 std::vector<std::string> wrapped(Canvas& canvas, std::string_view text, const TextStyle& style, std::size_t most);
 
 }  // namespace beamcam::render

@@ -47,7 +47,7 @@ void check_stretch(ObjectReader& r, const FigureOutput& figure) {
 // Keys of the series that this figure does not have; the stretch and the windows of those that have them.
 void check_other_figure(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
     const SeriesKeys& series = figure.series;
-    const bool stretch = recipe && recipe->takes_stretch, windows = recipe && recipe->takes_channel;
+    const bool stretch = recipe && recipe->takes_interval, windows = recipe && recipe->takes_channel;
     if (stretch) check_stretch(r, figure);
     for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "compare",
                                        "comparison", "residuals", "notes"})
@@ -160,6 +160,11 @@ std::string problem_with_value(std::string_view diagram, const std::string& valu
 void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     refuse_mixed_units(r, "channels", panel.channels);
     refuse_mixed_units(r, "right", panel.right);
+    std::vector<sim::Channel> summed = panel.channels;
+    for (const SeriesSum& sum : panel.sums)
+        for (const auto* channels : {&sum.plus, &sum.minus})
+            summed.insert(summed.end(), channels->begin(), channels->end());
+    if (!panel.sums.empty()) refuse_mixed_units(r, "sums", summed);
     check_markup(r, "title", panel.title);
     check_markup(r, "label", panel.label);
     if (panel.low && panel.high && !(*panel.low < *panel.high))

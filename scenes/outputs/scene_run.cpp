@@ -13,7 +13,7 @@
 #include "render/film/model.hpp"
 #include "render/film/page.hpp"
 #include "render/plot/words.hpp"
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/plan/estimate.hpp"

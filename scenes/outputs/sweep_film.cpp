@@ -13,9 +13,9 @@
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
 #include "render/plot/words.hpp"
-#include "scenes/figures/growing_diagram.hpp"
-#include "scenes/figures/make.hpp"
-#include "scenes/figures/sweep_words.hpp"
+#include "scenes/figures/bifurcation_diagram.hpp"
+#include "scenes/figures/figure_files.hpp"
+#include "scenes/figures/sweeps.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
@@ -143,7 +143,7 @@ class SweepFilm {
     render::FilmSetup setup_of(const SweepShot& shot) const {
         render::FilmSetup setup = setup_;
         setup.problem = shot.problem;
-        setup.title = words_of_point({&grid_.scene(), &data_}, shot.point, how_.lang);
+        setup.title = point_text({&grid_.scene(), &data_}, shot.point, how_.lang);
         setup.width = static_cast<int>(halves_.beam.w), setup.height = static_cast<int>(halves_.beam.h);
         setup.fps = how_.fps.value();
         setup.view.style = how_.style;

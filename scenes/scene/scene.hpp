@@ -302,9 +302,15 @@ struct SweepFilmOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
+// A curve that is a sum of channels of one unit; channels without values add nothing.
+struct SeriesSum {
+    std::string label;
+    std::vector<sim::Channel> plus = {}, minus = {};  // with `minus` it is a balance, drawn in black
+};
 // One of the panels of the figure "series": curves of channels of one unit, and of another one at the right axis.
 struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
+    std::vector<SeriesSum> sums = {};  // curves instead of the channels, of their unit
     bool logarithmic = false;
     std::optional<double> low = {}, high = {};  // of the axis at the left, in SI units
     std::vector<double> lines = {};             // across the panel, at these values of that axis
