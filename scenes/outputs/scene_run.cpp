@@ -12,7 +12,7 @@
 #include "render/base/error.hpp"
 #include "render/film/model.hpp"
 #include "render/film/page.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"

@@ -12,10 +12,9 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/figures/bifurcation_diagram.hpp"
 #include "scenes/figures/figure_files.hpp"
-#include "scenes/figures/sweeps.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
@@ -136,7 +135,7 @@ class SweepFilm {
         options.metadata = {{"comment", fmt::format("made by beamcam {}", kVersion)},
                             {"beamcam-scene", to_json(grid_.scene())},
                             {"beamcam-version", std::string(kVersion)}};
-        if (!scene_.title.empty()) options.metadata["title"] = render::plain_words(scene_.title);
+        if (!scene_.title.empty()) options.metadata["title"] = render::plain_text(scene_.title);
         return options;
     }
 

@@ -1,4 +1,4 @@
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 #include <pango/pango.h>
 
@@ -146,7 +146,7 @@ std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = fals
 
 }  // namespace
 
-std::string words(const Canvas& canvas, std::string_view text) {
+std::string text_markup(const Canvas& canvas, std::string_view text) {
     std::string out;
     const std::string between = needs_cjk(text) ? apart() : std::string();
     split(
@@ -155,7 +155,7 @@ std::string words(const Canvas& canvas, std::string_view text) {
     return out;
 }
 
-std::string plain_words(std::string_view text) {
+std::string plain_text(std::string_view text) {
     std::string out;
     split(
         text, [&](const std::string& plain) { out += plain; },
@@ -182,7 +182,7 @@ std::string characters_without_font(std::string_view text) {
     return out;
 }
 
-std::string problem_with_words(std::string_view text) {
+std::string markup_problem(std::string_view text) {
     std::string out;
     split(
         text, [](const std::string&) {},
@@ -196,10 +196,11 @@ std::string problem_with_words(std::string_view text) {
     return out;
 }
 
-std::vector<std::string> wrapped(Canvas& canvas, std::string_view text, const TextStyle& style, std::size_t most) {
+std::vector<std::string> wrapped_lines(Canvas& canvas, std::string_view text, const TextStyle& style,
+                                       std::size_t most) {
     TextStyle natural = style;
     natural.max_width = 0;
-    const auto markup = [&](const std::string& line) { return words(canvas, line); };
+    const auto markup = [&](const std::string& line) { return text_markup(canvas, line); };
     std::vector<std::string> lines;
     std::string line, space;
     const auto end_line = [&] {
