@@ -182,6 +182,13 @@ Panel distance_panel(const Trial& trial) {
     return panel;
 }
 
+// Keeps marks off the frame.
+void widen(render::Axis& axis, const std::vector<double>& values) {
+    const auto [least, most] = std::ranges::minmax(values);
+    const double air = 0.08 * (most - least);
+    if (air > 0) axis.from = least - air, axis.to = most + air;
+}
+
 // When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
 Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
     Panel inset;
@@ -204,6 +211,7 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
     coarse.line = false;
     coarse.every_point = true;
     inset.series = {refined, coarse};
+    widen(inset.x, coarse.x), widen(inset.y, coarse.y);
     if (!strikes.impacts.empty()) {
         const sim::Impact& hit = strikes.impacts.front();
         inset.marks.push_back({.x = hit.x,
