@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "render/film/mechanism_marks.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -55,7 +55,7 @@ class Captions {
 
   private:
     Caption caption_of(const Callout& words, Vec2 at) const {
-        Caption out{wrapped(s.canvas, words.text, style, kCaptionLines), {}, {}, words.opacity(s.frame)};
+        Caption out{wrapped_lines(s.canvas, words.text, style, kCaptionLines), {}, {}, words.opacity(s.frame)};
         double widest = 0;
         for (const std::string& line : out.lines) {
             const Box ink = s.canvas.measure(line, style);

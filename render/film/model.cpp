@@ -12,7 +12,7 @@
 #include "render/film/page.hpp"
 #include "render/film/panel.hpp"
 #include "render/mechanism/exaggeration.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -141,7 +141,7 @@ class Model {
             R"({{"asset":{{"version":"2.0","generator":"beamcam","extras":{{"title":{},"deflection":{:.9g}}}}},"scene":0,)"
             R"("scenes":[{{"nodes":[{}]}}],"nodes":[{}],"meshes":[{}],"materials":[{}],"skins":[{}],)"
             R"("animations":[{{"name":"motion","channels":[{}],"samplers":[{}]}}],{}}})",
-            json_text(plain_words(context_.setup->title)), context_.factor, fmt::join(roots_, ","),
+            json_text(plain_text(context_.setup->title)), context_.factor, fmt::join(roots_, ","),
             fmt::join(nodes_, ","), fmt::join(meshes_, ","), materials(), skin_, fmt::join(channels_, ","),
             fmt::join(samplers_, ","), arrays_.json());
         while (json.size() % 4 != 0) json += ' ';

@@ -15,7 +15,7 @@
 #include "render/film/panel.hpp"
 #include "render/film/player.hpp"
 #include "render/mechanism/exaggeration.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -188,12 +188,12 @@ std::string html_page(const FilmSetup& setup) {
     const std::string data = fmt::format(
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
-        json_text(plain_words(setup.title)), context.factor, kPageTolerance * length, length, thickness,
+        json_text(plain_text(setup.title)), context.factor, kPageTolerance * length, length, thickness,
         problem.hub.radius, context.arrow_scale, setup.units.degrees, colors, cam_json(context), impacts_json(context),
         numbers_json(telling(std::move(all), length)));
     std::string page(player_html());
     for (const auto& [mark, text] : {std::pair<std::string, std::string>{
-                                         "@TITLE@", setup.title.empty() ? "beamcam" : escape(plain_words(setup.title))},
+                                         "@TITLE@", setup.title.empty() ? "beamcam" : escape(plain_text(setup.title))},
                                      {"@PAPER@", css(p.paper).substr(1, 7)},
                                      {"@INK@", css(p.ink).substr(1, 7)},
                                      {"@MUTED@", css(p.muted).substr(1, 7)},

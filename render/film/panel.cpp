@@ -11,7 +11,7 @@
 #include "render/base/error.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -91,8 +91,8 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     ++counts->font_sets;
     Image scratch(1, 1);
     const Canvas canvas(scratch, *fonts);
-    for (int m = 0; m < members(); ++m) labels.push_back(words(canvas, motion(m).label));
-    for (const FilmData& each : setup->data) data_labels.push_back(words(canvas, each.label));
+    for (int m = 0; m < members(); ++m) labels.push_back(text_markup(canvas, motion(m).label));
+    for (const FilmData& each : setup->data) data_labels.push_back(text_markup(canvas, each.label));
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);

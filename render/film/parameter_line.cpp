@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "render/plot/labels.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -59,7 +59,7 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
     constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55, 0.48, 0.4};  // of the full size
     FittedTitle out;
     out.style = title_style(u, color);
-    const std::string whole = words(canvas, title);
+    const std::string whole = text_markup(canvas, title);
     const double natural = canvas.measure(whole, out.style).w, full = out.style.size;
     const auto set = [&](double share) {
         out.style.size = share * full;
@@ -67,11 +67,11 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
         const auto width = [&](const std::string& line) { return canvas.measure(line, out.style).w; };
         TextStyle within = out.style;
         within.max_width = box.w;
-        std::vector<std::string> lines = wrapped(canvas, title, within, 2);
+        std::vector<std::string> lines = wrapped_lines(canvas, title, within, 2);
         // Lines of about one length read better than a word alone.
         while (lines.size() == 2 && width(lines[1]) < 0.6 * width(lines[0])) {
             within.max_width *= 0.95;
-            std::vector<std::string> narrower = wrapped(canvas, title, within, 2);
+            std::vector<std::string> narrower = wrapped_lines(canvas, title, within, 2);
             if (width(narrower.back()) > within.max_width) break;
             lines = std::move(narrower);
         }
@@ -120,7 +120,7 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
             rows.insert(rows.begin(), above);
         } else {
             rows.push_back(above);
-            rows.back().x += canvas.measure(words(canvas, title), title_style(u)).w + 40 * u;
+            rows.back().x += canvas.measure(text_markup(canvas, title), title_style(u)).w + 40 * u;
         }
         choose(rows);
     }

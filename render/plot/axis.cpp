@@ -14,7 +14,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kFreeBeyondData = 0.04;  // beyond the data, of the range
+constexpr double kMargin = 0.04;          // beyond the data, of the range
 constexpr double kRoundingRange = 1e-12;  // a range smaller than this part of its numbers is rounding, not data
 constexpr double kLargestPower = 4, kSmallestPower = -2;  // powers of ten within which numbers need no common factor
 constexpr double kOffsetFrom = 2e-4;  // a range smaller than this part of its numbers gets a common offset
@@ -39,14 +39,14 @@ std::optional<PrefixedUnit> prefixed_unit(const std::string& unit) {
     return std::nullopt;
 }
 
-// Ticks of this step on the range, which is widened to multiples of it.
+// Widens the range to multiples of the step and returns the ticks.
 Ticks with_round_ends(Range& range, double step) {
     const double first = std::floor(range.low / step + 1e-9), last = std::ceil(range.high / step - 1e-9);
     range = {first * step, last * step};
     return ticks(range.low, range.high, static_cast<int>(std::lround(last - first)) + 1);
 }
 
-// How many minor intervals divide a step of 1, 2 or 5.
+// Minor intervals in a step of 1, 2 or 5.
 int minor_parts(double step) {
     const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
     return std::lround(mantissa) == 2 ? 4 : 5;
@@ -78,7 +78,7 @@ AxisMap::AxisMap(const Axis& axis, const Extent& data, int most, const std::stri
         if (!axis.from) from = std::min(from, 0.0);
         if (!axis.to) to = std::max(to, 0.0);
     }
-    // One limit beyond all data turns the axis round rather than leaving it empty.
+    // One limit beyond all data reverses the axis rather than leaving it empty.
     reversed_ = axis.from && axis.to && from > to;
     low_ = std::min(from, to);
     high_ = std::max(from, to);
@@ -86,15 +86,26 @@ AxisMap::AxisMap(const Axis& axis, const Extent& data, int most, const std::stri
     const std::size_t unit = label_.rfind(" / ");
     symbol_ = label_.substr(0, unit);
     if (unit != std::string::npos) base_unit_ = told_unit_ = label_.substr(unit + 3);
-    if (log_)
+    if (!axis.names.empty())
+        named(axis, most);
+    else if (log_)
         logarithmic(axis, most);
     else
         linear(axis, most);
     if (!axis.ticked) ticks_.clear();
 }
 
+void AxisMap::named(const Axis& axis, int most) {
+    const std::size_t count = axis.names.size(), some = static_cast<std::size_t>(std::max(1, most)),
+                      stride = (count + some - 1) / some;
+    low_ = ends_.low = 0;
+    high_ = ends_.high = static_cast<double>(count);
+    for (std::size_t k = 0; k < count; k += stride)
+        ticks_.push_back({(static_cast<double>(k) + 0.5) / high_, axis.names[k], true, false});
+}
+
 void AxisMap::linear(const Axis& axis, int most) {
-    // Everything is done in numbers of ordinary size, so that no range overflows or vanishes.
+    // All arithmetic is in numbers of order 1, so that no range overflows or underflows.
     double largest = std::max(std::abs(low_), std::abs(high_));
     const int size = largest > 0 ? std::clamp(whole_log10(largest), -300, 300) : 0;
     double unit = ten_to(size), a = low_ / unit, b = high_ / unit;
@@ -102,7 +113,7 @@ void AxisMap::linear(const Axis& axis, int most) {
         const double half = a == 0 && b == 0 ? 1 : 0.1 * std::max(std::abs(a), std::abs(b));
         a -= half, b += half;
     } else {
-        const double air = axis.tight ? 0 : kFreeBeyondData * (b - a);
+        const double air = axis.tight ? 0 : kMargin * (b - a);
         if (!axis.from && !(axis.with_zero && a == 0)) a -= air;
         if (!axis.to && !(axis.with_zero && b == 0)) b += air;
     }
@@ -126,7 +137,7 @@ void AxisMap::linear(const Axis& axis, int most) {
 
     if (!(std::isfinite(ends_.low) && std::isfinite(ends_.high) && ends_.high > ends_.low))
         throw PictureError(fmt::format("an axis from {:g} to {:g} cannot be divided", low_, high_));
-    // Numbers that are counted have ticks where they are.
+    // Integers have ticks at integers alone.
     add_linear_ticks(axis, most, axis.counts && shift == 0 && offset == 0 && ends_.high - ends_.low >= 1);
 
     if (factor_) common_ = "×" + power_of_ten(factor_);
@@ -137,7 +148,7 @@ void AxisMap::linear(const Axis& axis, int most) {
     }
 }
 
-// By what power of ten numbers of this order are divided: by a prefix of the unit, and by a factor for what is left.
+// The power of ten that divides numbers of this order: the prefix of the unit, and a factor for the rest.
 int AxisMap::choose_powers(const Axis& axis, double order, bool offset) {
     int by_prefix = 0;
     const std::optional<PrefixedUnit> unit = prefixed_unit(base_unit_);
@@ -158,7 +169,7 @@ int AxisMap::choose_powers(const Axis& axis, double order, bool offset) {
 
 void AxisMap::add_linear_ticks(const Axis& axis, int most, bool whole) {
     Ticks marks = render::ticks(ends_.low, ends_.high, std::max(2, most));
-    // One mark alone tells no scale.
+    // A single label defines no scale.
     for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8 && !axis.round_ends; ++more)
         marks = render::ticks(ends_.low, ends_.high, more);
     if (axis.round_ends) marks = with_round_ends(ends_, marks.step);
@@ -185,7 +196,7 @@ std::string AxisMap::name() const {
         text = base_unit_.empty() ? fmt::format("{} {}", symbol_, value)
                                   : fmt::format("({} {}\u2009{})", symbol_, value, base_unit_);
     }
-    // A unit that is a quotient or a product itself stands in brackets: dθ/dt / (rad/s).
+    // A unit that is a quotient or a product is put in brackets: dθ/dt / (rad/s).
     const bool composed = unit.find('/') != std::string::npos || (factor_ != 0 && !unit.empty());
     if (factor_ != 0) unit = pango_power_of_ten(factor_) + (unit.empty() ? "" : "\u2009" + unit);
     if (unit.empty()) return text;
@@ -195,7 +206,7 @@ std::string AxisMap::name() const {
 void AxisMap::logarithmic(const Axis& axis, int most) {
     double a = std::log10(low_), b = std::log10(high_);
     if (b - a < 1e-9) a -= 0.5, b += 0.5;
-    const double air = axis.tight ? 0 : kFreeBeyondData * (b - a);
+    const double air = axis.tight ? 0 : kMargin * (b - a);
     if (!axis.from) a -= air;
     if (!axis.to) b += air;
     ends_.low = a;
@@ -203,24 +214,28 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
     const auto at = [&](double v) { return reversed_ ? (b - v) / (b - a) : (v - a) / (b - a); };
     const int first = static_cast<int>(std::ceil(a - 1e-9)), last = static_cast<int>(std::floor(b + 1e-9));
     const int stride = std::max(1, (last - first + most) / std::max(1, most));
-    for (int n = first; n <= last; ++n) {
-        const bool labelled = n % stride == 0;
-        ticks_.push_back({std::clamp(at(n), 0.0, 1.0), labelled ? power_of_ten(n) : "", labelled});
-    }
     // Within less than two decades 2 and 5 have numbers as well; over many decades minor ticks would be a blur.
     const bool few = last - first < 1;
+    const auto label = [&](int digit, int n) {
+        if (few && std::abs(n) <= 3) return fixed(digit * ten_to(n), std::max(0, -n));
+        return digit == 1 ? power_of_ten(n) : fmt::format("{}×{}", digit, power_of_ten(n));
+    };
+    for (int n = first; n <= last; ++n) {
+        const bool labelled = n % stride == 0;
+        ticks_.push_back({std::clamp(at(n), 0.0, 1.0), labelled ? label(1, n) : "", labelled});
+    }
     for (int n = first - 1; n <= last && last - first <= most; ++n)
         for (int digit = 2; digit <= 9; ++digit) {
             const double v = n + std::log10(digit);
             if (v < a || v > b) continue;
             const bool labelled = few && (digit == 2 || digit == 5 || last < first);
-            ticks_.push_back({at(v), labelled ? fmt::format("{}×{}", digit, power_of_ten(n)) : "", labelled});
+            ticks_.push_back({at(v), labelled ? label(digit, n) : "", labelled});
         }
 }
 
 double AxisMap::place(double value) const {
     if (log_ && !(value > 0)) return std::nan("");
-    const double v = log_ ? std::log10(value) : told(value);
+    const double v = log_ ? std::log10(value) : tick_value(value);
     const double share = (v - ends_.low) / (ends_.high - ends_.low);
     return reversed_ ? 1 - share : share;
 }

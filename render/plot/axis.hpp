@@ -1,8 +1,11 @@
-// From numbers to places along an axis, of figures and of charts in films: the range shown, ticks at 1-2-5 steps with
-// minor ones, labels.
+// The scale of an axis, of figures and of charts in films: range, major ticks at 1-2-5 steps, minor ticks, labels.
 //
-// Any finite numbers will do, from 1e-300 to 1e300, constant ones too: what does not fit short labels gets a prefix of
-// the axis's unit where it takes one, a common factor (×10⁶), or a common offset.
+// Any finite range is allowed, from 1e-300 to 1e300, also an empty one. Numbers too long for short labels get an SI
+// prefix of the axis's unit, a common factor (×10⁶) or a common offset.
+//
+// This and reduce.hpp are all that films and print share. A film's chart (chart.hpp) draws grid lines on a Canvas whose
+// text is Pango markup, and its curves grow with time; a figure (plot_axes.hpp) draws a frame with inward ticks on a
+// PageCanvas whose text is mathematics between dollars. One class for both would contain each of them unchanged.
 #pragma once
 
 #include <optional>
@@ -16,18 +19,19 @@ namespace beamcam::render {
 
 enum class Scale { linear, logarithmic };
 
-// As a figure asks for it.
+// The requested axis.
 struct Axis {
     std::string label = {};  // markup, "$θ$ / rad"; "$w$ / mm" may become "$w$ / nm"
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};  // limits at the start and the end of the axis; may be reversed
-    bool tight = false;                        // the data's own range, without air
+    bool tight = false;                        // exactly the range of the data, without a margin
     bool with_zero = false;                    // the range shown includes zero (linear)
     bool numbered = true;                      // labels at the ticks
     bool ticked = true;                        // else no ticks either
-    bool counts = false;                       // whole numbers: no ticks between them (linear)
+    bool counts = false;                       // integers: no ticks between them (linear)
     bool round_ends = false;                   // widened to multiples of the ticks' step (linear)
-    bool short_numbers = false;  // a prefix as soon as numbers have more than three digits, or begin with 0.
+    bool short_numbers = false;                // a prefix for numbers of more than three digits or below 1
+    std::vector<std::string> names = {};  // markup, in place of numbers: of the intervals 0…1, 1…2, … (linear)
 };
 
 // Least and greatest finite value; for a logarithmic axis of the positive ones.
@@ -41,19 +45,20 @@ struct Tick {
     double at = 0;      // 0…1 along the axis
     std::string label;  // markup; empty: minor
     bool major = true;
+    bool line = true;  // else the label alone
 };
 
 class AxisMap {
   public:
-    // `most`: labelled ticks that have room, >= 2. Throws PictureError when there is nothing to show: no finite value
-    // and no limits, limits that are equal or, on a logarithmic axis, not positive. `what` names it in the message.
+    // `most`: labelled ticks that have room, >= 2. Throws PictureError without a finite value and limits, and for
+    // limits that are equal or, on a logarithmic axis, not positive. `what`: the name of the axis in the message.
     AxisMap(const Axis& axis, const Extent& data, int most, const std::string& what);
 
-    double place(double value) const;  // 0…1 within the range; NaN stays NaN, as does a value <= 0 on a log axis
+    double place(double value) const;  // 0…1 within the range; NaN for NaN, and for a value <= 0 on a log axis
     double low() const { return low_; }
     double high() const { return high_; }
-    // As the numbers at the ticks tell a value; the ends, and the ticks' distance, told so.
-    double told(double value) const { return (value / unit_ - offset_) * scale_; }
+    // A value in the numbers of the tick labels: (v/unit − offset)·scale. Ends and tick distance are in them, too.
+    double tick_value(double value) const { return (value / unit_ - offset_) * scale_; }
     Range ends() const { return ends_; }
     double step() const { return step_; }
     const std::vector<Tick>& ticks() const { return ticks_; }
@@ -63,6 +68,7 @@ class AxisMap {
     std::string name() const;
 
   private:
+    void named(const Axis& axis, int most);
     void linear(const Axis& axis, int most);
     int choose_powers(const Axis& axis, double order, bool offset);
     void add_linear_ticks(const Axis& axis, int most, bool whole);
@@ -70,7 +76,7 @@ class AxisMap {
 
     bool log_ = false, reversed_ = false;
     double low_ = 0, high_ = 1;                 // of the data shown, low < high
-    double unit_ = 1, offset_ = 0, scale_ = 1;  // told: (v/unit − offset)·scale, which has an ordinary size
+    double unit_ = 1, offset_ = 0, scale_ = 1;  // of `tick_value`
     Range ends_;
     double step_ = 1;
     std::vector<Tick> ticks_;

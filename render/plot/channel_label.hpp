@@ -1,4 +1,4 @@
-// What the channels of a motion are called in pictures, films and print alike.
+// Names and symbols of the channels in films and in print.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct ChannelLabel {
     const char *words, *chinese;  // "Hub angle"
     const char *symbol, *subscript = "";
     bool rate = false;                              // the symbol's rate by time
-    std::string heading(Lang lang) const;           // the words, in front of the symbol, as markup
+    std::string heading(Lang lang) const;           // the words before the symbol, as markup
     std::string below(sim::Channel channel) const;  // the subscript; of a modal coordinate its number
 };
 const ChannelLabel& label_of(sim::ChannelKind kind);

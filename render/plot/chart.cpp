@@ -11,7 +11,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kWindowAhead = 0.25;               // share of a moving window that shows what is to come
+constexpr double kWindowAhead = 0.25;               // share of a moving window that shows the future
 constexpr double kPastLine = 2.2, kFutureLine = 2;  // widths, and radii of dots [design px]
 constexpr double kPastDot = 2.6, kFutureDot = 2.2;
 constexpr double kBetweenReadings = 18;
@@ -46,7 +46,7 @@ void Chart::draw_time_axis(Canvas& canvas, const Range& view) const {
                               std::clamp(static_cast<int>(plot_.w / (75 * style_.unit)), 2, 7));
     std::vector<NumberBelow> numbers;
     for (const double at : marks.values)
-        if (!windowed() || at >= c_.time.low / c_.time_unit - 1e-9)  // nothing was before the film
+        if (!windowed() || at >= c_.time.low / c_.time_unit - 1e-9)  // no numbers before the film
             numbers.push_back({x(view, at * c_.time_unit), fixed(at, marks.decimals)});
     draw_numbers_below(canvas, style_, plot_, numbers, c_.time_label, false, windowed());
 }
@@ -74,88 +74,87 @@ void fill_under(Canvas& canvas, const std::vector<Vec2>& curve, double base, Col
 
 }  // namespace
 
-Vec2 Chart::place(const Stretch& stretch, double t, double v) const {
-    return Vec2{x(stretch.view, t), y(v)} + stretch.shift;
+Vec2 Chart::place(const Segment& segment, double t, double v) const {
+    return Vec2{x(segment.view, t), y(v)} + segment.shift;
 }
 
-// From the last row before the stretch on. What is to come goes on to the first row after it; what is past ends at its
-// end.
+// From the last row before the segment on. The future goes on to the first row after it; the past ends at its end.
 std::vector<Vec2> Chart::points(const std::vector<double>& t, const std::vector<double>& v,
-                                const Stretch& stretch) const {
-    const Range& times = stretch.rows;
+                                const Segment& segment) const {
+    const Range& times = segment.rows;
     auto first = std::ranges::lower_bound(t, times.low), last = std::ranges::upper_bound(t, times.high);
     const bool between = first != last || (first != t.begin() && last != t.end());
     if (first != t.begin()) --first;
     const auto at = static_cast<std::size_t>(first - t.begin());
     auto count = static_cast<std::size_t>(last - first);
     const bool more = last != t.end() && between;
-    if (more && !stretch.past) ++count;
+    if (more && !segment.past) ++count;
     std::vector<Vec2> points;
     points.reserve(count);
-    for (std::size_t i = at; i < std::min(at + count, v.size()); ++i) points.push_back(place(stretch, t[i], v[i]));
+    for (std::size_t i = at; i < std::min(at + count, v.size()); ++i) points.push_back(place(segment, t[i], v[i]));
     points = column_extremes(points, 1);
-    if (more && stretch.past && count > 0) {
+    if (more && segment.past && count > 0) {
         const std::size_t i = at + count - 1;
         const double share = (times.high - t[i]) / (t[i + 1] - t[i]), end = v[i] * (1 - share) + v[i + 1] * share;
-        if (share > 0 && !std::isnan(end)) points.push_back(place(stretch, times.high, end));
+        if (share > 0 && !std::isnan(end)) points.push_back(place(segment, times.high, end));
     }
     return points;
 }
 
-void Chart::draw_bands(Canvas& canvas, const Stretch& stretch) const {
+void Chart::draw_bands(Canvas& canvas, const Segment& segment) const {
     for (const ChartBand& band : c_.bands) {
-        std::vector<Vec2> edge = points(c_.band_times, band.high, stretch),
-                          low = points(c_.band_times, band.low, stretch);
+        std::vector<Vec2> edge = points(c_.band_times, band.high, segment),
+                          low = points(c_.band_times, band.low, segment);
         if (edge.size() < 2 || low.size() < 2) continue;
         edge.insert(edge.end(), low.rbegin(), low.rend());
         canvas.polyline(edge);
         canvas.close();
-        canvas.fill(stretch.past ? band.color : band.color.faded(0.28));
+        canvas.fill(segment.past ? band.color : band.color.faded(0.28));
     }
 }
 
-void Chart::draw_curves(Canvas& canvas, const Stretch& stretch) const {
-    draw_bands(canvas, stretch);
+void Chart::draw_curves(Canvas& canvas, const Segment& segment) const {
+    draw_bands(canvas, segment);
     if (c_.filled && !c_.curves.empty()) {
         const ChartCurve& first = c_.curves.front();
-        fill_under(canvas, points(first.t, first.v, stretch), plot_.bottom() + stretch.shift.y,
-                   stretch.past ? first.color.faded(0.20) : first.faint.faded(0.35));
+        fill_under(canvas, points(first.t, first.v, segment), plot_.bottom() + segment.shift.y,
+                   segment.past ? first.color.faded(0.20) : first.faint.faded(0.35));
     }
-    for (const ChartCurve& curve : c_.curves) draw_line(canvas, curve, stretch);
-    draw_dots_and_marks(canvas, stretch);
+    for (const ChartCurve& curve : c_.curves) draw_line(canvas, curve, segment);
+    draw_dots_and_marks(canvas, segment);
 }
 
-void Chart::draw_line(Canvas& canvas, const ChartCurve& curve, const Stretch& stretch) const {
+void Chart::draw_line(Canvas& canvas, const ChartCurve& curve, const Segment& segment) const {
     const auto piece = [&](const Range& rows, Color color) {
-        const double width = (stretch.past ? kPastLine : kFutureLine) * style_.unit;
-        canvas.polyline(points(curve.t, curve.v, {stretch.view, rows, stretch.past, stretch.shift}));
+        const double width = (segment.past ? kPastLine : kFutureLine) * style_.unit;
+        canvas.polyline(points(curve.t, curve.v, {segment.view, rows, segment.past, segment.shift}));
         canvas.stroke({color, width, dashes(curve.dash, style_.unit), curve.dash.empty() ? Cap::round : Cap::butt});
     };
-    if (!stretch.past || curve.pale_within.empty())
-        return piece(stretch.rows, stretch.past ? curve.color : curve.faint);
-    // The pale pieces first: a piece begins at the row before its interval, and the strong ones hide that.
+    if (!segment.past || curve.pale_within.empty())
+        return piece(segment.rows, segment.past ? curve.color : curve.faint);
+    // Pale pieces first: a piece begins at the row before its interval, which the strong pieces cover.
     const auto part = [&](double from, double to, Color color) {
-        const Range times{std::max(from, stretch.rows.low), std::min(to, stretch.rows.high)};
+        const Range times{std::max(from, segment.rows.low), std::min(to, segment.rows.high)};
         if (times.low < times.high) piece(times, color);
     };
     for (const Range& pale : curve.pale_within) part(pale.low, pale.high, curve.pale);
-    double from = stretch.rows.low;
+    double from = segment.rows.low;
     for (const Range& pale : curve.pale_within) part(std::exchange(from, pale.high), pale.low, curve.color);
-    part(from, stretch.rows.high, curve.color);
+    part(from, segment.rows.high, curve.color);
 }
 
-void Chart::draw_dots_and_marks(Canvas& canvas, const Stretch& stretch) const {
-    const auto within = [&](double t) { return t >= stretch.rows.low && t <= stretch.rows.high; };
+void Chart::draw_dots_and_marks(Canvas& canvas, const Segment& segment) const {
+    const auto within = [&](double t) { return t >= segment.rows.low && t <= segment.rows.high; };
     for (const ChartDot& d : c_.dots) {
         if (!within(d.t)) continue;
-        canvas.circle(place(stretch, d.t, d.value), (stretch.past ? kPastDot : kFutureDot) * style_.unit);
-        canvas.fill(stretch.past ? d.color : d.faint);
+        canvas.circle(place(segment, d.t, d.value), (segment.past ? kPastDot : kFutureDot) * style_.unit);
+        canvas.fill(segment.past ? d.color : d.faint);
     }
-    if (!stretch.past) return;
+    if (!segment.past) return;
     for (const ChartMark& mark : c_.marks) {
         if (!within(mark.t)) continue;
-        const Vec2 at = Vec2{x(stretch.view, mark.t), plot_.bottom()} + stretch.shift;
-        // Lanes share what three ticks need.
+        const Vec2 at = Vec2{x(segment.view, mark.t), plot_.bottom()} + segment.shift;
+        // All lanes share the height of three ticks.
         const double tall = mark.lanes == 1 ? 10 * style_.unit : std::min(8.0, 30.0 / mark.lanes) * style_.unit;
         const double foot = at.y - 1 - tall * mark.lane;
         canvas.line({at.x, foot}, {at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)},
@@ -200,7 +199,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     } else {
         from = std::max(past_column(t), static_cast<int>(past_box().x));
     }
-    // Columns before the first are drawn along: the curve comes from there.
+    // Some columns before the first are drawn, too: the curve starts there.
     const double column = (view.high - view.low) / plot_.w, before = 4 * u + 4;
     const Range rows{std::max(view.low, view.low + (from - plot_.x - before) * column), std::min(t, view.high)};
     canvas.clip({from, box, cut - from, windowed() ? plot_.h + 9 : plot_.h + 16}, [&] {
@@ -210,7 +209,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     canvas.line({x, plot_.y - 6 * u}, {x, plot_.bottom()}, {p.ink, std::max(1.0, 1.4 * u), {}, Cap::butt});
     for (std::size_t i = 0; i < readings.size(); ++i) {
         const double at = y(readings[i]);
-        // An instant between the curves' rows may lie beyond their range: its number is told, a dot would lie.
+        // A value between the rows may lie beyond their range: its number is shown, but a dot would be misplaced.
         if (!(at > plot_.y - 8 * u && at < plot_.bottom() + 8 * u)) continue;
         canvas.circle({x, std::clamp(at, plot_.y - 4 * u, plot_.bottom() + 4 * u)}, 5.5 * u);
         canvas.fill_keeping_path(i < c_.curves.size() ? c_.curves[i].color : p.contact);
@@ -228,7 +227,7 @@ TextStyle Chart::reading_style(Color color) const {
     return {.size = 21 * style_.unit, .color = color, .weight = Weight::medium, .align = HAlign::right};
 }
 
-// The readings stand beside it.
+// The readings are beside it.
 void Chart::draw_heading(Canvas& canvas) const {
     const std::string name = axis_.name();
     const double room = plot_.w - reading_width(canvas, true);
@@ -236,9 +235,9 @@ void Chart::draw_heading(Canvas& canvas) const {
                 first_that_fits(canvas, {c_.words + name, name}, heading_style(), room), heading_style());
 }
 
-std::string Chart::told(double value) const {
+std::string Chart::reading_text(double value) const {
     if (!c_.reading_unit.empty()) return reading(value, c_.reading_unit.c_str());
-    return fixed(axis_.told(value), digits_);
+    return fixed(axis_.tick_value(value), digits_);
 }
 
 double Chart::widest_reading(Canvas& canvas) const {
@@ -248,7 +247,7 @@ double Chart::widest_reading(Canvas& canvas) const {
                     canvas.measure(fixed(axis_.ends().low, digits_), style).w);
 }
 
-// Room for the widest value keeps the readings from dancing.
+// Room for the widest value, so that the readings do not move.
 double Chart::reading_width(Canvas& canvas, bool named) const {
     const double widest = widest_reading(canvas);
     double all = 0;
@@ -259,7 +258,7 @@ double Chart::reading_width(Canvas& canvas, bool named) const {
     return all;
 }
 
-// At the right end, the last curve's outermost; without their names where those have no room.
+// At the right end, that of the last curve outermost; without names if there is no room for them.
 void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) const {
     const auto& [p, u, size] = style_;
     const double room = plot_.w - canvas.measure(axis_.name(), heading_style()).w, baseline = box_.y + 26 * u;
@@ -271,9 +270,9 @@ void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) cons
         const double v = readings[i];
         const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
         const TextStyle style = reading_style(readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
-        if (!std::isnan(v)) canvas.text({right, baseline}, told(v), style);
+        if (!std::isnan(v)) canvas.text({right, baseline}, reading_text(v), style);
         right -= widest;
-        if (std::isnan(v) && !label.empty()) {  // a name that nothing follows would look forgotten
+        if (std::isnan(v) && !label.empty()) {  // a name without a value would look like an error
             TextStyle none = style;
             none.align = HAlign::left;
             canvas.text({right, baseline}, "–", none);

@@ -1,10 +1,10 @@
-// A strip chart: axes, faint curves of what is to come, the curves so far, a cursor. Over the whole film's time, or
-// over a window of time that moves with the instant.
+// A strip chart of a film: axes, faint curves of the future, strong curves of the past, a cursor; over the time of the
+// whole film, or over a window of time that moves with the instant.
 //
-// Curves are reduced to what the pixels can show (first, least, most, last of each column), so drawing costs the
-// same for any number of rows. Over the whole film, what lies before the cursor is a kept layer shown up to a few
-// columns before the cursor's, and those columns are drawn from the rows until the instant: no row after it is ever
-// drawn as past, and any frame in any order gives the same pixels.
+// Curves are reduced to the resolution of the pixels (first, least, greatest, last value of each column), so the cost
+// of drawing does not depend on the number of rows. Over the whole film the past is a cached layer that is shown up to
+// a few columns before the cursor; these columns are drawn from the rows up to the instant. Thus no later row is ever
+// drawn as past, and frames have the same pixels in any order.
 #pragma once
 
 #include <optional>
@@ -21,14 +21,14 @@ namespace beamcam::render {
 struct ChartCurve {
     std::vector<double> t, v;  // [s], SI units; may be empty
     Color color, faint;
-    std::string label = {};  // markup; told beside the reading
+    std::string label = {};  // markup; beside the reading
     std::vector<double> dash = {};
-    std::vector<Range> pale_within = {};  // in order; its past is drawn there in `pale` [s]
+    std::vector<Range> pale_within = {};  // ascending; there the past is drawn in `pale` [s]
     Color pale = {};
 };
 struct ChartDot {
     double t = 0, value = 0;
-    Color color, faint;  // faint: still to come
+    Color color, faint;  // faint: in the future
 };
 // The instant of an impact: a tick at the time axis, in one of the lanes above each other.
 struct ChartMark {
@@ -36,24 +36,24 @@ struct ChartMark {
     Color color;
     int lane = 0, lanes = 1;
 };
-// Areas between two curves of the same instants, one upon the other.
+// The area between two curves of the same instants.
 struct ChartBand {
     std::vector<double> low, high;
     Color color;
 };
 
 struct ChartContent {
-    std::string words;             // before the symbol, left out where there is no room: "Hub angle "
+    std::string words;             // before the symbol, omitted if there is no room: "Hub angle "
     std::string symbol;            // markup: θ; may be empty
     std::string unit;              // "rad", "N", "" for none
-    Range value;                   // to be shown; the axis is widened to round ends
+    Range value;                   // of the axis, which is widened to round ends
     Range time;                    // of the film [s]
     std::optional<double> window;  // [s]
     double time_unit = 1;          // [s]
-    // The readings are told in this unit by themselves, as labels beside the mechanism tell them; empty: in the axis's.
+    // Readings carry this unit with their own prefix, as labels beside the mechanism do; empty: the axis's unit.
     std::string reading_unit = {};
     std::string time_label;    // markup, "t / s"
-    std::string instead = {};  // in place of the axis of values, where there is none to be shown: "no contact"
+    std::string instead = {};  // text that replaces the axis if there are no values: "no contact"
     std::vector<ChartCurve> curves;
     std::vector<double> band_times;  // [s]
     std::vector<ChartBand> bands;
@@ -66,15 +66,14 @@ class Chart {
   public:
     Chart(ChartContent content, const Box& box, const Box& plot, const ChartStyle& style);
 
-    void draw_background(Canvas& canvas) const;  // axes, labels, what is to come
-    // All curves as past, of which columns up to `past_column` may be shown; as large as `past_box`. Empty with a
-    // window.
+    void draw_background(Canvas& canvas) const;  // axes, labels, the future
+    // All curves as past, of the size of `past_box`; columns up to `past_column` may be shown. Empty with a window.
     Image past(const Fonts& fonts) const;
     Box past_box() const;
-    // The first column that is not past yet at t: what lies after t may reach into it by the width of its stroke.
+    // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
-    // What moves: the curves' last columns until t, with a window all of them. `readings`: of each curve where the
-    // cursor stands; NaN: none.
+    // The moving part: the last columns of the curves until t, with a window all columns. `readings`: the values of the
+    // curves at the cursor; NaN: none.
     void draw_moving(Canvas& canvas, double t, std::span<const double> readings) const;
     Range time() const { return c_.time; }
     bool windowed() const { return c_.window.has_value(); }
@@ -87,24 +86,24 @@ class Chart {
     int cursor_column(const Range& view, double t) const;
     void draw_time_axis(Canvas& canvas, const Range& view) const;
 
-    // Rows between two instants, drawn as past or as still to come.
-    struct Stretch {
+    // Rows between two instants, drawn as past or as future.
+    struct Segment {
         Range view;  // the time along the plot
         Range rows;
         bool past = false;
         Vec2 shift = {};  // of the picture
     };
-    void draw_curves(Canvas& canvas, const Stretch& stretch) const;
-    void draw_bands(Canvas& canvas, const Stretch& stretch) const;
-    void draw_line(Canvas& canvas, const ChartCurve& curve, const Stretch& stretch) const;
-    void draw_dots_and_marks(Canvas& canvas, const Stretch& stretch) const;
-    Vec2 place(const Stretch& stretch, double t, double v) const;
-    std::vector<Vec2> points(const std::vector<double>& t, const std::vector<double>& v, const Stretch& stretch) const;
+    void draw_curves(Canvas& canvas, const Segment& segment) const;
+    void draw_bands(Canvas& canvas, const Segment& segment) const;
+    void draw_line(Canvas& canvas, const ChartCurve& curve, const Segment& segment) const;
+    void draw_dots_and_marks(Canvas& canvas, const Segment& segment) const;
+    Vec2 place(const Segment& segment, double t, double v) const;
+    std::vector<Vec2> points(const std::vector<double>& t, const std::vector<double>& v, const Segment& segment) const;
 
     TextStyle heading_style() const;
     TextStyle reading_style(Color color) const;
     void draw_heading(Canvas& canvas) const;
-    std::string told(double value) const;         // as a reading
+    std::string reading_text(double value) const;
     double widest_reading(Canvas& canvas) const;  // [px]
     void draw_readings(Canvas& canvas, std::span<const double> readings) const;
     double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]

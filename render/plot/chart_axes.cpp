@@ -6,7 +6,7 @@
 namespace beamcam::render {
 namespace {
 
-// Where a thin line is sharp. A place between two pixels goes to the second whatever the last digits of its number.
+// The middle of a pixel, where a thin line is sharp; the slack makes rounding errors irrelevant.
 double middle_of_pixel(double at) { return std::round(at + 1e-9) + 0.5; }
 
 }  // namespace

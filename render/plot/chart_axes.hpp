@@ -1,4 +1,4 @@
-// The axes of charts in films: a line across the plot at every number at the left, and numbers below it.
+// The axes of charts in films: a grid line at every number of the left axis, and numbers below the plot.
 #pragma once
 
 #include <string>
@@ -9,11 +9,10 @@
 
 namespace beamcam::render {
 
-// An axis of values from `low` to `high`, low < high, whose outermost marks carry numbers. `symbol`: Pango's markup;
-// `unit` "" for none; `most` >= 2 marks.
+// An axis from `low` < `high`, widened to round ends. `symbol`: Pango markup; `unit`: "" for none; `most`: ticks, >= 2.
 AxisMap chart_axis(double low, double high, const std::string& symbol, const std::string& unit, int most);
 
-// What charts of a film have in common.
+// The common style of the charts of a film.
 struct ChartStyle {
     const Palette& palette;
     double unit;     // [px] of a design pixel
@@ -26,8 +25,8 @@ struct NumberBelow {
     double x = 0;  // [px]
     std::string text;
 };
-// With the name of their axis at the right end, where numbers leave it room. `across`: lines through the plot, else
-// short ticks. `moves`: numbers come in at one side and leave at the other, between pixels.
+// Draws the numbers, and the name of their axis at the right end if they leave it room. `across`: grid lines, else
+// short ticks. `moves`: the numbers move with time, so they are not rounded to pixels.
 void draw_numbers_below(Canvas& canvas, const ChartStyle& style, const Box& plot,
                         const std::vector<NumberBelow>& numbers, const std::string& name, bool across,
                         bool moves = false);

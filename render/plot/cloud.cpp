@@ -25,7 +25,7 @@ std::uint32_t pixel(Color c) {
     return alpha << 24 | channel(c.r) << 16 | channel(c.g) << 8 | channel(c.b);
 }
 
-// Places of edges are as far from each other.
+// Whether the edges are equally spaced.
 template <class Place>
 bool is_even(const std::vector<double>& edges, const Place& place) {
     const auto cells = static_cast<double>(edges.size() - 1);
@@ -42,7 +42,7 @@ struct PixelGrid {
     int columns, rows;
 
     std::size_t size() const { return static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows); }
-    // Nothing outside the plot.
+    // None outside the plot.
     std::optional<std::size_t> cell(const Vec2& p) const {
         if (!(p.x >= plot.x && p.x <= plot.right() && p.y >= plot.y && p.y <= plot.bottom())) return std::nullopt;
         const int column = std::min(columns - 1, static_cast<int>((p.x - plot.x) / plot.w * columns));
@@ -54,10 +54,10 @@ PixelGrid pixels_of(const Box& plot) {
     return {plot, static_cast<int>(plot.w / kCloudPixel), static_cast<int>(plot.h / kCloudPixel)};
 }
 
-// One for each pixel that has any: periodic motions come back to the same place over and over.
+// One place for each pixel that holds points: periodic motions return to the same places.
 struct Places {
     std::vector<Vec2> all;
-    std::size_t shown = 0;  // the first so many are of points that are shown
+    std::size_t shown = 0;  // number of the first ones, whose points are shown
 };
 Places different_places(const Cloud& cloud, const PlotAxes& axes) {
     const PixelGrid grid = pixels_of(axes.plot());
@@ -82,7 +82,7 @@ void draw_dots(const Places& places, Color color, PageCanvas& sheet) {
     sheet.fill(color);
 }
 
-// Columns of a picture: as many as there are different places, if they are even and pixels are finer.
+// Columns of an image: one for each different x if these are equally spaced and coarser than pixels.
 int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
     std::vector<double> places;
     for (const double x : cloud.x)
@@ -96,7 +96,7 @@ int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
     return even >= 1 && even < most ? static_cast<int>(std::ceil(even)) : most;
 }
 
-// How many points fall into each pixel, by the logarithm.
+// The number of points in each pixel on a logarithmic scale.
 void draw_density(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet) {
     PixelGrid grid = pixels_of(axes.plot());
     grid.columns = columns_of(cloud, axes, grid.columns);
@@ -136,7 +136,7 @@ void draw_cells(const Cells& cells, const PlotAxes& axes, PageCanvas& sheet) {
     const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
     const auto across = [&](double x) { return axes.along_x(x); };
     const auto up = [&](double y) { return axes.along_y(y); };
-    // Shapes that stand side by side would show the paper between them.
+    // Between adjacent shapes the paper would show through.
     if (is_even(cells.x, across) && is_even(cells.y, up)) {
         Image image(static_cast<int>(columns), static_cast<int>(rows));
         for (std::size_t row = 0; row < rows; ++row)

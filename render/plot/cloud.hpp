@@ -1,5 +1,5 @@
-// Very many points, and grids of coloured cells, under the axes of a panel: shapes while they are few, else pictures,
-// so that a file stays small and its axes and letters stay lines.
+// Clouds of points and grids of coloured cells beneath the axes of a panel: vector shapes if they are few, else images,
+// so that files stay small while axes and letters stay vectors.
 #pragma once
 
 #include "render/plot/placement.hpp"

@@ -14,9 +14,9 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kSideBySideFrom = 125;                    // [mm]: from here on two panels stand side by side
+constexpr double kSideBySideFrom = 125;                    // [mm]: wider pages have panels side by side
 constexpr double kNarrowestPage = 20, kWidestPage = 2000;  // [mm]
-constexpr double kPageEdge = 1.5;                          // free at the page's edge [pt]
+constexpr double kPageEdge = 1.5;                          // margin of the page [pt]
 
 struct Grid {
     std::size_t rows = 1, columns = 1;
@@ -37,15 +37,15 @@ class FigureLayout {
     void draw() {
         if (figure_.panels.empty()) throw PictureError(fmt::format("figure {}: nothing to draw", figure_.name));
         make_drawings();
-        // Margins depend on the numbers at the ticks, those on the plots' sizes: twice settles it; a legend that
-        // finds no room inside a plot asks for one more, and so do labels that are broken into more lines.
+        // Margins depend on the tick labels, which depend on the plots' sizes: two rounds settle that. A legend without
+        // room inside its plot needs another round, and so do labels that are broken into more lines.
         for (int round = 0; round < 8; ++round) {
-            measure(round > 3);  // then they grow alone, or lines would come and go
+            measure(round > 3);  // later margins only grow, else lines could alternate
             bool settled = round > 0;
             for (std::size_t i = 0; i < drawings_.size(); ++i) {
                 if (!drawings_[i]) continue;
                 if (!drawings_[i]->place(plot(i))) settled = false;
-                // In another height labels may have a line more.
+                // At another height a label may have one more line.
                 const Margins m = drawings_[i]->margins();
                 const double top = margins_[i / grid_.columns].top;
                 if (std::max({m.left - left_, m.right - right_, m.top - top}) > 0.5 * page_.style.letters)
@@ -90,7 +90,7 @@ class FigureLayout {
             if (r == row) mine = share;
             all += share;
         }
-        // Rows share what the inner margins leave, so that plots, not cells, have the shares.
+        // Rows share the height without the margins, so that the plots have the shares.
         const auto rows = static_cast<double>(grid_.rows);
         double fixed = between * (rows - 1), before = between * static_cast<double>(row);
         for (std::size_t r = 0; r < margins_.size(); ++r) {
@@ -128,7 +128,7 @@ class FigureLayout {
         const Box c = cell(i);
         const Margins& row = margins_[i / grid_.columns];
         const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
-        // Numbers need room beside each other.
+        // Tick labels need room.
         const double letters = page_.style.letters;
         const bool narrow = p.w < 4 * letters;
         if (narrow || p.h < (figure_.panels[i].y.numbered ? 4 : 2) * letters)
@@ -154,7 +154,7 @@ void append(std::string& out, double value) {
     out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17).ptr);
 }
 
-// A CSV cell; quotes where commas or quotes demand them.
+// A CSV cell, quoted if it holds commas or quotes.
 std::string cell_text(const std::string& markup) {
     std::string plain = to_plain(markup);
     if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
@@ -178,15 +178,18 @@ void add_panel(std::string& out, const Panel& panel, const std::string& name) {
             out += '\n';
         }
     };
-    int number = 0;
+    const auto quantity = [](const Axis& axis) { return axis.label.substr(0, axis.label.rfind(" / ")); };
     for (const Series& s : panel.series) {
-        ++number;
-        rows(s.label.empty() ? fmt::format("curve {}", number) : cell_text(s.label),
-             s.right && panel.right ? *panel.right : panel.y, s.x, s.y, s.value);
+        const Axis& axis = s.right && panel.right ? *panel.right : panel.y;
+        rows(cell_text(!s.label.empty()  ? s.label
+                       : !s.name.empty() ? s.name
+                                         : quantity(axis)),
+             axis, s.x, s.y, s.value);
     }
     for (const Band& b : panel.bands) {
-        rows(cell_text(b.label) + " (low)", panel.y, b.x, b.low, {});
-        rows(cell_text(b.label) + " (high)", panel.y, b.x, b.high, {});
+        const std::string band = cell_text(b.label.empty() ? quantity(panel.y) : b.label);
+        rows(band + " (low)", panel.y, b.x, b.low, {});
+        rows(band + " (high)", panel.y, b.x, b.high, {});
     }
     for (const Cells& c : panel.cells) {
         const std::string what = panel.color_bar ? cell_text(panel.color_bar->label) : "cells";
@@ -206,7 +209,7 @@ void add_panel(std::string& out, const Panel& panel, const std::string& name) {
         rows(m.label.empty() ? "mark" : cell_text(m.label), m.right && panel.right ? *panel.right : panel.y, {m.x},
              {m.y}, {});
     for (const Span& s : panel.spans)
-        rows(s.label.empty() ? "stretch" : cell_text(s.label), panel.y, {s.from, s.to}, {NAN, NAN}, {});
+        rows(s.label.empty() ? "interval" : cell_text(s.label), panel.y, {s.from, s.to}, {NAN, NAN}, {});
     for (const Inset& inset : panel.insets) add_panel(out, inset.panel.front(), name + " inset");
     for (const Shape& s : panel.shapes) {
         if (s.kind == Shape::Kind::label) continue;
@@ -230,7 +233,7 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
         throw PictureError(fmt::format("a figure {:g} mm wide cannot be drawn; its width is {:g} … {:g} mm", page.width,
                                        kNarrowestPage, kWidestPage));
     const Grid grid = grid_of(figure, page.width);
-    // Wide figures are flatter; panels side by side each have a part of the width.
+    // Wide figures are flatter; panels side by side share the width.
     const double wide = page.width / static_cast<double>(grid.columns);
     const double flat = std::min(1.0, std::sqrt(90 / std::max(wide, 1.0)));
     double aspect = figure.aspect;

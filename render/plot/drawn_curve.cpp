@@ -10,11 +10,10 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr int kFewMarkers = 8;                // along a line
-constexpr double kGrainsPerPixel = 4;         // grains: a pixel, in which oscillations cannot be told apart
+constexpr double kGrainsPerPixel = 4;         // a pixel in grains: oscillations within it are not resolved
 constexpr double kTonesOfAnOscillation = 24;  // of a curve that is coloured by a value
 
-// Which markers later ones leave to be seen: of those within `apart` only the last.
+// Which markers stay visible: the last of those within `apart`.
 std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
     std::vector<bool> seen(points.size(), false);
     std::set<std::pair<long, long>> taken;
@@ -24,7 +23,7 @@ std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
     return seen;
 }
 
-// Those of the items with these indices, `broken` for kBreak.
+// The items with these indices; `broken` for kBreak.
 template <class Item>
 std::vector<Item> taken(const std::vector<std::size_t>& indices, const std::vector<Item>& from, Item broken) {
     std::vector<Item> all;
@@ -87,7 +86,7 @@ DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : se
     points_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) {
         Vec2 p = axes.at(s.x[i], s.y[i], s.right);
-        // Far beyond the plot is as good as just beyond it, and Cairo's numbers are finite.
+        // Clamped: Cairo's numbers are limited, and points far beyond the plot are invisible.
         p.x = std::clamp(p.x, plot.x - 20 * plot.w, plot.right() + 20 * plot.w);
         p.y = std::clamp(p.y, plot.y - 20 * plot.h, plot.bottom() + 20 * plot.h);
         points_.push_back(p);
@@ -96,7 +95,7 @@ DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : se
     if (s.line && !s.every_point) lighten(grain);
 }
 
-// A million points draw and weigh as little as a few thousand.
+// Reduces the points, so that a million cost as little as a few thousand.
 void DrawnCurve::lighten(double grain) {
     const Vec2 broken{std::nan(""), std::nan("")};
     const std::vector<Envelope> fast = envelopes(points_, kGrainsPerPixel * grain);
@@ -110,7 +109,7 @@ void DrawnCurve::lighten(double grain) {
     points_ = fast.empty() ? line_ : reduce(taken(without(fast, count, true), points_, broken), grain);
 }
 
-// Keeps these points of a curve that is coloured by a value, and goes from one to the next in a few tones.
+// Keeps these points of a curve that is coloured by a value, and adds points where the colour changes.
 void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
     const std::vector<double> value = taken(kept, std::exchange(value_, {}), 0.0);
     const std::vector<Vec2> points = taken(kept, std::exchange(points_, {}), Vec2{});
@@ -137,7 +136,7 @@ void DrawnCurve::draw(const Box& plot, const PrintStyle& style, PageCanvas& shee
 void DrawnCurve::draw_tones(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
-    // Strokes of one colour each, in 48 steps that the eye does not tell apart.
+    // One stroke for each colour; 48 steps look continuous.
     constexpr int kColorSteps = 48;
     const auto step = [&](std::size_t i) {
         const double v = value_[i];
@@ -179,7 +178,7 @@ void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
         sheet.fill_keeping_path(pen.color);
         sheet.stroke(pen);
     }
-    // A single point draws no line; show it all the same.
+    // A single point draws no line and gets a marker.
     std::size_t finite = 0;
     Vec2 only;
     for (const Vec2 p : points_)
@@ -195,16 +194,6 @@ void DrawnCurve::draw_markers(const Box& plot, const PrintStyle& style, PageCanv
         for (const Vec2 p : points_)
             if (std::isfinite(p.x + p.y) && inside(plot, p, style.marker))
                 draw_marker(sheet, style, look(s.look).marker, p, style.marker, pen.color, s.look % 2 == 1);
-    if (s.some_markers && points_.size() > 1) {
-        // Equally spaced across the plot, each curve a little further on, so that they do not pile up.
-        const double spacing = plot.w / kFewMarkers;
-        double next = plot.x + spacing * (0.3 + 0.17 * s.look);
-        for (const Vec2 p : points_) {
-            if (!std::isfinite(p.x + p.y) || p.x < next || !inside(plot, p)) continue;
-            draw_marker(sheet, style, look(s.look).marker, p, style.marker, pen.color, s.look % 2 == 1);
-            next = p.x + spacing;
-        }
-    }
 }
 
 }  // namespace beamcam::render::figure

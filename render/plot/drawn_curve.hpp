@@ -1,4 +1,4 @@
-// A series on the sheet, reduced to what shows: a line, bands where it oscillates fast, tones of its values, markers.
+// A series on the page, reduced to its visible detail: a line, bands where it oscillates fast, colours, markers.
 #pragma once
 
 #include <vector>
@@ -24,8 +24,8 @@ class DrawnCurve {
 
     const Series* series_;
     std::vector<Vec2> points_;
-    std::vector<std::vector<Vec2>> bands_;  // outlines of where it oscillates too fast to be told apart; not in `line_`
-    std::vector<Vec2> line_;                // what is drawn as a line, for curves without values
+    std::vector<std::vector<Vec2>> bands_;  // outlines of unresolved oscillations, which are not in `line_`
+    std::vector<Vec2> line_;                // of curves without values
     std::vector<double> value_;             // colour shares, for curves with values
 };
 

@@ -16,14 +16,14 @@
 namespace beamcam::render::figure {
 
 struct Series {
-    std::string label = {};  // markup; empty: not explained
+    std::string label = {};  // markup; empty: not in the legend
     std::vector<double> x, y;
+    std::string name = {};       // in the table of data, where it has no label; empty: the quantity of its axis
     int look = 0;                // colour, dash and marker, see `look`
     bool line = true;            // through the points; NaN breaks it
     bool every_point = false;    // a marker at each point
-    bool some_markers = false;   // a few markers along a line, to tell it in grey print
     bool solid = false;          // no dash although the look has one
-    bool faded = false;          // lighter and thinner: not to be relied on
+    bool faded = false;          // lighter and thinner: not reproducible
     bool right = false;          // belongs to the right axis
     double weight = 1;           // of the line
     std::optional<Color> color;  // instead of the look's
@@ -35,26 +35,25 @@ struct Band {  // between two curves
     std::vector<double> x, low, high;
     int look = 0;
 };
-// Points that are too many for marks: dots, and beyond kMostDots a picture of how many fall into each cell.
+// Points that are too many for marks: drawn as dots, or as an image of their density.
 struct Cloud {
     std::string label = {};
     std::vector<double> x, y;
     Color color = rgb(0x000000);
-    std::size_t shown = std::numeric_limits<std::size_t>::max();  // only the first so many are drawn; the limits of the
-                                                                  // axes and the size of the dots are those of all
+    // The number of points that are drawn; limits of the axes and size of the dots are those of all.
+    std::size_t shown = std::numeric_limits<std::size_t>::max();
 };
-// Coloured cells between edges, row by row from the lowest y; transparent ones show nothing. Very many become a
-// picture.
+// Coloured cells between edges, row by row from the lowest y; some may be transparent. Equal cells become an image.
 struct Cells {
     std::vector<double> x, y;  // edges, in the order of the axes: one more than columns, than rows
     std::vector<Color> colors;
-    std::vector<double> values = {};  // that the colours stand for, for the data; empty: they stand for none
+    std::vector<double> values = {};  // of the cells, for the data; may be empty
 };
 struct Swatch {  // an entry of the legend that is a colour
     std::string label;
     Color color;
 };
-struct Span {  // a stretch of x, over the whole height
+struct Span {  // an interval of x, over the whole height
     double from = 0, to = 0;
     std::string label = {};
     Color color = rgb(0xEDEDED);
@@ -76,18 +75,18 @@ struct ColorBar {
     std::string label = {};
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};
-    bool hidden = false;  // its colours hold, but the panel around an inset shows it
+    bool hidden = false;  // of an inset: the panel around it shows the bar
 };
 
 // Drawn shapes of a panel without axes, in its own plane (Y up); everything must fit, proportions stay true.
 struct Shape {
-    enum class Kind { line, area, circle, disc, arc, arrow, turn, label };
+    enum class Kind { line, area, circle, disc, arrow, turn, label };
     Kind kind = Kind::line;
     std::vector<Vec2> points = {};  // line, area; arrow and turn: from, to; label: where
-    Vec2 centre = {};               // circle, disc, arc, turn
+    Vec2 centre = {};               // circle, disc, turn
     double radius = 0;              // [data]
     double radius_points = 0;       // instead: on paper [pt]
-    double from = 0, to = 0;        // arc, turn: counter-clockwise [rad]; a turn has an arrow head at `to`
+    double from = 0, to = 0;        // turn: counter-clockwise [rad], with an arrow head at `to`
     Color color = {};
     double width = 0;               // of the line [pt]; 0: the style's
     std::vector<double> dash = {};  // in widths
@@ -98,15 +97,15 @@ struct Shape {
     bool small = false;  // label
 };
 
-// Labels at the curves where they have room, else a box; a box, in the plot where it has room; a box above the plot;
-// nothing.
+// Labels at the curves if they have room, else a box; a box, in the plot if it has room, else above; a box above the
+// plot; none.
 enum class Legend { direct, box, above, none };
 
 struct Panel;
 struct Inset {
     std::vector<Panel> panel;            // one; a vector because a panel may hold insets
     double width = 0.42, height = 0.42;  // of the parent's plot
-    // What of the parent is shown enlarged: a frame there, and lines to the inset.
+    // The part of the parent that is enlarged: gets a frame, and lines to the inset.
     struct Source {
         double x_from = 0, x_to = 0, y_from = 0, y_to = 0;
     };
@@ -114,7 +113,7 @@ struct Inset {
 };
 
 struct Panel {
-    std::string letter;  // "a": "(a)" stands in the upper left corner
+    std::string letter;  // "a": "(a)" in the upper left corner
     std::string title;   // markup, beside the letter
     Axis x{.tight = true}, y = {};
     std::optional<Axis> right;
@@ -136,14 +135,14 @@ struct Panel {
 
 struct Figure {
     std::string name;   // "free-fall"
-    std::string title;  // plain words, for the file's properties
+    std::string title;  // plain text, for the file's properties
     std::vector<Panel> panels;
     bool stack = false;    // panels above each other however wide the page; else side by side where there is room
     bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
     double aspect = 0.66;  // height by width of one column
     std::optional<double> height = {};  // [mm]; instead of what follows from the aspect
     std::string caption;                // markup
-    std::string accuracy;               // markup: how far the numbers can be trusted; ends the caption
+    std::string accuracy;               // markup: tolerance and energy balance; ends the caption
 };
 
 struct Page {

@@ -1,4 +1,4 @@
-// Insets of a panel: where they have room, and what joins them to what they show enlarged.
+// Insets of a panel: their places, and the lines to the part that they enlarge.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kTouchedByAnInset = 8;  // cells of data that the empty edge of an inset may touch
 
-// Does the segment a–b enter the box?
+// Whether the segment a–b enters the box.
 bool enters(const Box& box, Vec2 a, Vec2 b) {
     const Box inner = box.inset(0.5);
     for (int k = 0; k <= 200; ++k)
@@ -19,7 +19,7 @@ bool enters(const Box& box, Vec2 a, Vec2 b) {
     return false;
 }
 
-// Two corners of the inset's plot joined to those of what it shows, through neither box.
+// Lines between two corners of the inset's plot and those of the enlarged part, through neither box.
 std::vector<std::pair<Vec2, Vec2>> connectors(const Box& from, const Box& plot) {
     const auto corners = [](const Box& c) {
         return std::array<Vec2, 4>{Vec2{c.x, c.y}, {c.right(), c.y}, {c.right(), c.bottom()}, {c.x, c.bottom()}};
@@ -39,7 +39,7 @@ std::vector<std::pair<Vec2, Vec2>> connectors(const Box& from, const Box& plot) 
 
 }  // namespace
 
-// Its frame; never so small that it is a dot.
+// The frame of the enlarged part, never smaller than 4 pt.
 Box PanelDrawing::shown_enlarged(const Inset::Source& source) const {
     const Vec2 a = at(source.x_from, source.y_from), b = at(source.x_to, source.y_to);
     const Box box{std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)};
@@ -50,7 +50,7 @@ double PanelDrawing::place_insets() {
     double cost = 0;
     for (const Inset& inset : panel_.insets) {
         if (inset.source) taken_->cover(shown_enlarged(*inset.source));
-        // Smaller, then not at all, rather than over data.
+        // Smaller, or omitted, rather than over data.
         std::optional<PlacedInset> placed;
         for (const double share : {1.0, 0.9, 0.8, 0.7}) {
             // With its numbers and labels.

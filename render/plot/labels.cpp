@@ -37,7 +37,7 @@ struct FrictionPiece {
     }
 };
 
-// What turns the hub; empty: nothing does.
+// The drive of the hub; empty: free.
 struct DrivePiece {
     bool rpm = false;
     std::string operator()(const sim::FreeDrive&) const { return {}; }
@@ -59,7 +59,7 @@ struct DrivePiece {
 
 std::string turning_speed(double speed, bool rpm, int digits) {
     const double value = std::abs(rpm ? speed * 30 / std::numbers::pi : speed);
-    // Ordinary numbers need no prefix; the others keep that of a quantity.
+    // Ordinary numbers need no prefix.
     if (!rpm && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
     std::string number = fmt::format("{:.{}g}", value, digits);
     if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", value);
@@ -110,7 +110,7 @@ std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& p
     return out;
 }
 
-// But for rounding.
+// Up to rounding.
 static bool same_speed(double one, double other) { return std::abs(one - other) <= 1e-6 * other; }
 
 bool steady_speed(const std::vector<double>& speeds) {
@@ -151,7 +151,7 @@ TimeFormat time_format(const std::vector<double>& times) {
             if (std::string(p.symbol) == u.prefix) out.unit = p.factor, out.symbol = u.symbol;
     }
     if (times.back() == times.front()) {
-        // A still says its instant as it was asked for, to a millionth of the unit.
+        // A still shows its instant to a millionth of the unit at most.
         const double t = times.front() / out.unit;
         for (out.decimals = 1; out.decimals < 6; ++out.decimals) {
             const double scaled = t * std::pow(10.0, out.decimals);
@@ -159,7 +159,7 @@ TimeFormat time_format(const std::vector<double>& times) {
         }
         return out;
     }
-    // Steps that only few frames have do not count, nor do those of rounding: into freezes and out of them.
+    // Steps of few frames are ignored, and those of rounding: the beginnings and ends of freezes.
     std::vector<double> steps;
     for (std::size_t i = 1; i < times.size(); ++i)
         if (times[i] - times[i - 1] > 1e-9 * span) steps.push_back(times[i] - times[i - 1]);
@@ -174,7 +174,7 @@ TimeFormat time_format(const std::vector<double>& times) {
 std::string clock_text(const TimeFormat& format, double t, double last) {
     const std::string number = fixed(t / format.unit, format.decimals);
     const std::string longest = fixed(last / format.unit, format.decimals);
-    // Faint zeros keep the room of the digits that come later: neither a hole nor a step.
+    // Faint zeros reserve the room of later digits.
     std::string room;
     if (number.size() < longest.size())
         room = fmt::format("<span alpha='22%'>{}</span>", std::string(longest.size() - number.size(), '0'));

@@ -1,4 +1,4 @@
-// The words of a picture: parameter line, clock, readings. Markup for Canvas::text; no drawing here.
+// Texts of films: parameter line, speed, clock. Pango markup for Canvas::text.
 #pragma once
 
 #include <string>
@@ -10,28 +10,28 @@ namespace beamcam::render {
 
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm = false);
-// Those that several problems have in common.
+// The pieces that all problems share.
 std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm = false);
 
 // "0.5 rad/s", "−300 rpm": without SI prefixes. `speed` in rad/s.
 std::string turning_speed(double speed, bool rpm, int digits = 3);
 
-// Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at the true speed. Speeds on the way from one
-// to another are told by a round fraction.
+// Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at real time. `steady`: of a film at one speed;
+// otherwise changing speeds are rounded to simple fractions.
 std::string speed_text(double speed, bool steady);
-// Whether a film runs at one speed, but where it stands.
+// Whether a film runs at one speed, apart from freezes.
 bool steady_speed(const std::vector<double>& speeds);
-// The longest of the texts, which a film keeps room for.
+// The longest of the texts, for which a film reserves room.
 std::string widest_speed_text(const std::vector<double>& speeds);
 
-// How instants are written: the unit and the decimals that tell neighbouring frames apart.
+// The format of instants: unit, and enough decimals to distinguish neighbouring frames.
 struct TimeFormat {
     double unit = 1;  // [s]
     const char* symbol = "s";
     int decimals = 3;
 };
 TimeFormat time_format(const std::vector<double>& frame_times);
-// Room is left for as many digits as the last instant has, so that nothing moves when there is one more.
+// Padded to the digits of the last instant, so that the text does not move.
 std::string clock_text(const TimeFormat& format, double t, double last);
 
 std::string pango_power_of_ten(int exponent);  // with a superscript

@@ -5,7 +5,7 @@
 namespace beamcam::render {
 namespace {
 
-// Longer ones stand before those that they contain.
+// Longer phrases come before those that they contain.
 constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
     {"Contact trace on disc and beam", "圆盘与梁上的接触轨迹"},

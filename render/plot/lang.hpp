@@ -1,4 +1,4 @@
-// The language of what a picture says of itself.
+// The language of the texts of pictures.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@ namespace beamcam::render {
 
 enum class Lang { en, zh };
 
-// The film's own words, written in English, in this language; what is no word of films stays.
+// Translates the English texts of films into this language; other text stays as it is.
 std::string in(Lang lang, std::string english);
 
 }  // namespace beamcam::render

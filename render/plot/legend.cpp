@@ -28,7 +28,7 @@ Box LegendBox::size(double width) {
     for (const Band& b : panel_.bands) add(b.label);
     for (const Cloud& c : panel_.clouds) add(c.label);
     for (const Swatch& w : panel_.swatches) add(w.label);
-    // Inside the plot one below the other; above it as many beside each other as the width holds.
+    // Inside the plot one column; above it as many columns as the width holds.
     entry_ = sample + style_.gap + widest;
     const double apart = 2 * style_.gap;
     columns_ = above_ ? std::clamp(static_cast<int>((width + apart) / (entry_ + apart)), 1, rows) : 1;
@@ -60,7 +60,7 @@ void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
     if (s.line && s.value.empty()) {
         sheet_.line(left, left + Vec2{width, 0}, pen);
     }
-    if (s.every_point || s.some_markers)
+    if (s.every_point)
         draw_marker(sheet_, style_, look(s.look).marker, left + Vec2{width / 2, 0}, style_.marker, pen.color,
                     s.look % 2 == 1);
 }

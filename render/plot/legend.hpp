@@ -1,4 +1,4 @@
-// The box that explains curves and bands: in the plot where it has room, else above it.
+// The legend box: in the plot if it has room, else above it.
 #pragma once
 
 #include <optional>
@@ -8,7 +8,7 @@
 
 namespace beamcam::render::figure {
 
-inline constexpr double kFewCells = 1.5;  // cells that a label may touch before it counts as covering data
+inline constexpr double kFewCells = 1.5;  // cells that a label may touch without counting as covering data
 
 class LegendBox {
   public:
@@ -16,8 +16,8 @@ class LegendBox {
         : panel_(panel), style_(style), sheet_(sheet) {}
 
     int entries() const;
-    bool place_inside(OccupancyGrid& taken);  // false: there is no room; it goes above from now on
-    bool place_above(double width);           // false: its height is new, so lay out again
+    bool place_inside(OccupancyGrid& taken);  // false: no room; from now on it is above the plot
+    bool place_above(double width);           // false: its height changed, so lay out again
     void stand_at(Vec2 top_left) { box_->x = top_left.x, box_->y = top_left.y; }
     void forget() { box_.reset(); }
     void try_inside_again() { above_ = false; }

@@ -53,29 +53,29 @@ std::string xml(std::string_view text) {
 
 namespace {
 
-// By the name's and the file's own words; in comments of EPS lines end and are short.
+// Comments of EPS are single, short lines of ASCII.
 void describe_eps(cairo_surface_t* eps, const Document& d) {
-    const auto say = [&](const char* key, const std::string& text) {
+    const auto add = [&](const char* key, const std::string& text) {
         constexpr std::size_t kLongestComment = 200;  // a line has 255 characters
         std::string line;
         for (const char c : text.substr(0, kLongestComment)) line += c >= ' ' && c <= '~' ? c : ' ';
         if (!line.empty()) cairo_ps_surface_dsc_comment(eps, fmt::format("%%{}: {}", key, line).c_str());
     };
-    say("Title", d.title);
-    say("For", d.creator);
+    add("Title", d.title);
+    add("For", d.creator);
 }
 
 void describe(cairo_surface_t* pdf, const Document& d) {
-    const auto say = [&](cairo_pdf_metadata_t key, const std::string& text) {
+    const auto add = [&](cairo_pdf_metadata_t key, const std::string& text) {
         if (!text.empty()) cairo_pdf_surface_set_metadata(pdf, key, text.c_str());
     };
-    say(CAIRO_PDF_METADATA_TITLE, d.title);
-    say(CAIRO_PDF_METADATA_SUBJECT, d.subject);
-    say(CAIRO_PDF_METADATA_KEYWORDS, d.scene);
-    say(CAIRO_PDF_METADATA_CREATOR, d.creator);
+    add(CAIRO_PDF_METADATA_TITLE, d.title);
+    add(CAIRO_PDF_METADATA_SUBJECT, d.subject);
+    add(CAIRO_PDF_METADATA_KEYWORDS, d.scene);
+    add(CAIRO_PDF_METADATA_CREATOR, d.creator);
     const std::string when = fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", fmt::gmtime(static_cast<std::time_t>(d.created)));
-    say(CAIRO_PDF_METADATA_CREATE_DATE, when);
-    say(CAIRO_PDF_METADATA_MOD_DATE, when);
+    add(CAIRO_PDF_METADATA_CREATE_DATE, when);
+    add(CAIRO_PDF_METADATA_MOD_DATE, when);
 }
 
 }  // namespace
@@ -92,7 +92,7 @@ PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, co
                         paper.dpi, kLargestSide));
     double unit = 1;  // device units of a point
     if (medium == Medium::png) {
-        // At least a pixel, and never less than the page.
+        // Rounded up to cover the page.
         image_ = Image(static_cast<int>(std::ceil(paper.width * scale - 1e-6)),
                        static_cast<int>(std::ceil(paper.height * scale - 1e-6)));
         unit = scale;
@@ -119,8 +119,8 @@ PageCanvas::~PageCanvas() noexcept(false) { end(); }
 double PageCanvas::grain() const { return kPointsPerInch / (4 * (medium_ == Medium::png ? paper_.dpi : 600)); }
 
 void PageCanvas::curve(std::span<const Vec2> points, const Pen& pen) {
-    // To fill pixels, Cairo carries every edge of a path along from row to row: a long one goes in pieces, whose round
-    // ends are the joins. A file keeps the path as it is.
+    // Cairo's rasterizer tracks all edges of a path in every row, so a long path is drawn in pieces, whose round ends
+    // are the joins. A vector file keeps the path whole.
     constexpr std::size_t kLongPath = 10'000, kPointsOfAPiece = 128;  // points
     if (medium_ != Medium::png || points.size() <= kLongPath || !pen.dash.empty()) {
         polyline(points);
@@ -183,7 +183,7 @@ void PageCanvas::write(const SetRun& set, Vec2 at, const TextStyle& style) {
     new_path();
 }
 
-// An element of SVG; it stands behind everything that is drawn.
+// An SVG element, which is written after everything else.
 void PageCanvas::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
     cairo_user_to_device(cr_, &at.x, &at.y);
     cairo_matrix_t matrix;
@@ -217,14 +217,14 @@ Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     cairo_translate(cr_, at.x, at.y);
     cairo_rotate(cr_, -style.turned);
     use(style.color);
-    // Where Cairo's numbers, of 1/256 of a unit, let it begin: letters of one label keep their distances.
+    // Rounded to Cairo's numbers, 1/256 of a unit, so that the letters of a label keep their distances.
     cairo_move_to(cr_, dx, dy);
     cairo_get_current_point(cr_, &dx, &dy);
     new_path();
     set_down(label, {dx, dy}, style.size, style.color, [&](const SetRun& run, Vec2 p) { write(run, p, style); });
     cairo_restore(cr_);
 
-    // The corners turned, and the box around them.
+    // The box around the turned corners.
     Bounds around;
     for (const double x : {dx, dx + label.width})
         for (const double y : {dy - label.ascent, dy + label.descent})
@@ -237,7 +237,7 @@ Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
 
 namespace {
 
-// Cairo writes the clock's.
+// Replaces the date, for which Cairo takes the present time.
 std::string with_date(std::string eps, std::int64_t created) {
     const std::string key = "%%CreationDate: ";
     const std::size_t at = eps.find(key), end = eps.find('\n', at);
@@ -261,12 +261,12 @@ std::string PageCanvas::bytes() {
     std::string file = std::move(stream_);
     if (medium_ == Medium::eps) return with_date(std::move(file), document_.created);
     if (medium_ != Medium::svg) return file;
-    // Cairo numbers its surfaces through the life of the program; the number is a name that nothing refers to.
+    // Cairo numbers the surfaces of a program; nothing refers to this number.
     if (const std::size_t id = file.find("<g id=\"surface"); id != std::string::npos) {
         const std::size_t number = id + 14;
         file.erase(number, file.find('"', number) - number);
     }
-    // Cairo says nothing about an SVG's content; it goes behind the opening tag.
+    // Cairo writes no metadata into an SVG; they go behind the opening tag.
     const std::size_t tag = file.find("<svg"), end = file.find('>', tag);
     if (end == std::string::npos) return file;
     file.insert(end + 1, fmt::format("\n<title>{}</title>\n<desc>{}</desc>\n<metadata>\n<creator>{}</creator>\n"

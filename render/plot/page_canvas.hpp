@@ -1,4 +1,4 @@
-// A sheet of paper to draw on: PNG, PDF or SVG behind one set of strokes, fills and labels.
+// The canvas of a printed figure: PNG, PDF, EPS or SVG behind one set of strokes, fills and labels.
 //
 // Units are points (1/72 inch) of the printed figure, y down, whatever the medium: a line of 0.8 pt and a letter of
 // 8 pt are that on paper. PDF and EPS text is embedded TrueType, SVG is measured in millimetres and carries its glyphs
@@ -25,19 +25,19 @@ inline constexpr double points(double millimetres) { return millimetres * kPoint
 
 enum class Medium { png, pdf, svg, eps };
 
-// What a file says about itself. PDF has room for these keys only; the scene goes into its keywords.
+// The metadata of a file. PDF has only these keys; its keywords hold the scene.
 struct Document {
     std::string title, subject;
     std::string scene;         // JSON
     std::string creator;       // "beamcam 0.1.0"
     std::int64_t created = 0;  // [s] since 1970, UTC: part of the bytes, so never the clock
-    bool editable = false;     // SVG: text as text, in fonts that the reader has, instead of outlines
+    bool editable = false;     // SVG: text instead of outlines, in the fonts of the viewer
 };
 
 struct Paper {
     double width = 255, height = 170;  // [pt]
     double dpi = 300;                  // of PNG
-    bool dark = false;                 // a slide; everything is drawn in the colours of white paper all the same
+    bool dark = false;                 // a slide; callers use the colours of white paper all the same
 };
 
 // No letter of a figure is smaller, sub- and superscripts included.
@@ -63,7 +63,7 @@ class PageCanvas : public Painter {
     // Of Liberation Sans, as of Arial; of Liberation Serif.
     double cap_height(double size) const { return (serif() ? 0.655 : 0.716) * size; }
 
-    // What was written: for tests.
+    // The texts that were drawn, for tests.
     struct Written {
         Box box;
         double smallest = 0;  // letter [pt]
@@ -71,7 +71,7 @@ class PageCanvas : public Painter {
     };
     std::vector<Written> written;
 
-    // Ends the drawing. PNG gives the picture, PDF and SVG the file's bytes.
+    // Ends the drawing: the image of a PNG, the bytes of the other media.
     Image image();
     std::string bytes();
 

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCellSide = 1.5;     // of the grid of what is covered: resolves letters [pt]
 constexpr double kBeyondPlot = 1e5;   // cost of a box that leaves the plot
-constexpr int kMostDirectLabels = 4;  // more labels than that are told apart better in a box
+constexpr int kMostDirectLabels = 4;  // more labels are easier to distinguish in a box
 
 }  // namespace
 
@@ -35,7 +35,7 @@ Margins PanelDrawing::margins() const {
     return m;
 }
 
-// ---- what stands where -------------------------------------------------------------------------------
+// ---- placement -------------------------------------------------------------------------------
 
 bool PanelDrawing::place(const Box& plot) {
     plot_ = plot;
@@ -43,8 +43,8 @@ bool PanelDrawing::place(const Box& plot) {
     writings_.clear();
     insets_.clear();
     make_curves();
-    // Legend and insets compete for the free corners: whichever order covers less. Labels at marks and curves go
-    // around everything.
+    // Legend and insets compete for the free corners: the order that covers less is taken. Labels at marks and curves
+    // avoid both.
     const bool boxed = panel_.legend == Legend::box;
     if (boxed && !panel_.insets.empty() && !legend_.is_above()) {
         const std::optional<OccupancyGrid> before = taken_;
@@ -91,7 +91,7 @@ std::array<Vec2, 2> PanelDrawing::ends(const Rule& r) const {
     return {Vec2{plot_.x, axes_.along_y(r.at)}, {plot_.right(), axes_.along_y(r.at)}};
 }
 
-// What boxes cover when they are placed in this order; a legend that finds no room is dear.
+// The cost of placing boxes in this order; a legend without room is expensive.
 double PanelDrawing::place_boxes(bool legend_first) {
     constexpr double kNoRoom = 25;  // cells: rather above the plot than over this much of a curve
     legend_.forget();
@@ -109,7 +109,7 @@ double PanelDrawing::place_boxes(bool legend_first) {
     return cost;
 }
 
-// Around the mark, near first.
+// Tries places around the mark, near ones first.
 PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
     const Vec2 p = at(m.x, m.y, m.right);
     TextStyle l = style_.tick_numbers();
@@ -127,7 +127,7 @@ PanelDrawing::Writing PanelDrawing::best_at_mark(const Mark& m) {
             const Vec2 end{std::clamp(p.x, air.x, air.right()), std::clamp(p.y, air.y, air.bottom())};
             double cost = 10 * taken_->cost(box.inset(-2.2)) + 2 * far - 0.5 * std::cos(turn);
             if (cost >= least) continue;
-            // A leader that crosses curves is better led elsewhere.
+            // A leader should cross no curves.
             for (int s = 6; far > 2 && s < 20; ++s) {
                 const Vec2 on = p + (end - p) * (s / 20.0);
                 cost += std::min(1.0, taken_->cost(Box{on.x, on.y, 0, 0}.inset(-0.4)));
@@ -156,7 +156,7 @@ void PanelDrawing::place_marks() {
     }
 }
 
-// Small words on the rules that have them, where least is covered; the right end wins ties.
+// Places the labels of rules where they cover least; the right end wins ties.
 void PanelDrawing::place_rules() {
     TextStyle l = style_.tick_numbers();
     l.color = kMuted;
@@ -194,7 +194,7 @@ bool PanelDrawing::place_labels() {
     return legend_.place_inside(*taken_);
 }
 
-// How much nearer another curve is than the label's own: such a label misleads.
+// How much nearer another curve is than the label's own, which would mislead.
 double PanelDrawing::crowding(const Box& box, const DrawnCurve& own) const {
     const auto distance = [&](const DrawnCurve& c) {
         double least = 1e9;
@@ -286,7 +286,7 @@ void PanelDrawing::draw_backgrounds() {
     for (const Cells& cells : panel_.cells) draw_cells(cells, axes_, sheet_);
     for (const Span& s : panel_.spans) {
         const double a = at(s.from, 0).x, b = at(s.to, 0).x;
-        // Never too thin to be seen.
+        // At least a visible width.
         const double width = std::max(std::abs(b - a), 0.4);
         sheet_.rectangle({std::min(a, b), plot_.y, width, plot_.h});
         sheet_.fill(s.color);

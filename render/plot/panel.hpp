@@ -1,4 +1,4 @@
-// One panel on a sheet: axes, curves and legend in a box, and labels that keep clear of them.
+// A panel on a page: axes, curves, legend, and labels that avoid them.
 #pragma once
 
 #include <array>
@@ -11,14 +11,14 @@ namespace beamcam::render::figure {
 
 class PanelDrawing {
   public:
-    // Works the axes out for a plot of about this size; `lowest`: x numbers and label are written here.
+    // `width`, `height`: about the size of the plot; `lowest`: this panel shows the numbers and label of x.
     PanelDrawing(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, double width, double height,
                  bool lowest, const std::string& what);
 
     // Room that numbers, labels, colour bar and a legend above need around the plot.
     Margins margins() const;
-    // Fixes the plot; then labels and legends look for their places. False: the legend finds none; its room is in
-    // `margins` from now on, so lay out again.
+    // Sets the plot and places labels and legends. False: the legend finds no room; `margins` includes it from now on,
+    // so lay out again.
     bool place(const Box& plot);
     void draw();
 
@@ -61,7 +61,7 @@ class PanelDrawing {
         Box outer;
         double width, height;  // of its plot
     };
-    std::vector<std::optional<PlacedInset>> insets_;  // empty: it would cover data
+    std::vector<std::optional<PlacedInset>> insets_;  // empty: omitted, it would cover data
     std::vector<Writing> writings_;
     bool settled_ = true;
 };

@@ -40,7 +40,7 @@ void OccupancyGrid::cover(std::span<const Vec2> curve, double weight) {
     for (std::size_t k = 0; k + 1 < curve.size(); ++k) {
         const Vec2 a = curve[k], b = curve[k + 1];
         if (!(std::isfinite(a.x + a.y + b.x + b.y))) continue;
-        // A segment beyond the area has few cells in it; the walk is bounded by the area's own size.
+        // The number of steps is bounded.
         const int steps = std::clamp(static_cast<int>(std::ceil(norm(b - a) / (0.5 * cell_))), 1, 20000);
         for (int s = 0; s <= steps; ++s) {
             const Vec2 p = a + (b - a) * (static_cast<double>(s) / steps);
@@ -108,7 +108,7 @@ double OccupancyGrid::covered(const Box& box) const {
     const double cells = std::max(0, c.right - c.left) * std::max(0, c.bottom - c.top);
     const double within = std::max(0.0, std::min(box.right(), area_.right()) - std::max(box.x, area_.x)) *
                           std::max(0.0, std::min(box.bottom(), area_.bottom()) - std::max(box.y, area_.y));
-    // All but what rounding takes away.
+    // Up to rounding.
     const double inside = box.empty() ? 0 : std::min(1.0, within / (box.w * box.h) * (1 + 1e-9));
     return 1 - inside + inside * (cells > 0 ? weight(c) / cells : 0);
 }
@@ -128,7 +128,7 @@ Box OccupancyGrid::nearest_free(const Box& wanted) const {
     const double most_y = std::max(area_.y, area_.bottom() - wanted.h);
     const Box start{std::clamp(wanted.x, area_.x, most_x), std::clamp(wanted.y, area_.y, most_y), wanted.w, wanted.h};
     if (covered(start) == 0) return start;
-    // Covered cells cost more than the way to any other place, so that only where none is free both count.
+    // Covered cells cost more than any distance, so that distance decides only among equals.
     const double diagonal = std::hypot(area_.w, area_.h);
     Box best = start;
     double least = 1e9;
@@ -154,7 +154,7 @@ Place best_place(const OccupancyGrid& taken, double width, double height, double
         for (int i = 0; i <= kSteps; ++i) {
             const double u = static_cast<double>(i) / kSteps, v = static_cast<double>(j) / kSteps;
             const Box box{area.x + u * (area.w - width), area.y + v * (area.h - height), width, height};
-            // Away from edges and corners a box must cover clearly less to be worth it; upper right wins ties.
+            // Places away from edges and corners cost extra; the upper right corner wins ties.
             const double inwards = std::min(u, 1 - u) + std::min(v, 1 - v);
             const double cost = taken.cost(box) * 10 + 8 * inwards + 0.2 * (1 - u) + 0.1 * v;
             if (cost < best.cost) best = {box, cost};

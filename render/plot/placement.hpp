@@ -1,4 +1,4 @@
-// Where words, a legend or an inset have room: a grid of cells, each with the weight of what covers it.
+// Free places for labels, legends and insets: a grid of cells, each with the weight of the shapes that cover it.
 #pragma once
 
 #include <span>
@@ -12,19 +12,19 @@ class OccupancyGrid {
   public:
     OccupancyGrid(const Box& area, double cell);  // cell > 0: its side
 
-    // A shape covers every cell that it touches; of a cell's weights the largest counts.
+    // A shape covers every cell that it touches; a cell has the largest of its weights.
     void cover(const Box& box, double weight = 4);
     void cover(std::span<const Vec2> curve, double weight = 1);  // NaN breaks it
     void cover_convex(std::span<const Vec2> corners);            // in their order
     void cover_disc(Vec2 centre, double radius);
 
-    // All weights of the cells that a box here would touch; outside the area counts as covered.
+    // The sum of the weights of the cells that the box touches; 1e6 if it leaves the area.
     double cost(const Box& box) const;
-    // Share of the box that is covered, where all weights are 1; what lies beyond the area is covered.
+    // The covered share of the box, if all weights are 1; the outside of the area counts as covered.
     double covered(const Box& box) const;
-    // The first of the places (at least one) that is free, else the one that is covered least.
+    // The first free place, else the one that is covered least. `places` must not be empty.
     Box choose(std::span<const Box> places) const;
-    // The free place nearest to this one, moved by whole cells; where none is free, one that is covered little and
+    // The free place nearest to the wanted one, moved by whole cells; if none is free, one that is covered little and
     // near.
     Box nearest_free(const Box& wanted) const;
 
@@ -57,7 +57,7 @@ struct Place {
 Place best_place(const OccupancyGrid& taken, double width, double height, double margin);
 
 enum class Corner { top_left, bottom_right };
-// Where a box of this size can stand in `room`: its corners, from this one on, then along its edges.
+// Places of a box of this size in `room`: its corners, from `first` on, then along its edges.
 std::vector<Box> places_along(const Box& room, Vec2 size, Corner first);
 
 }  // namespace beamcam::render

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kLineStep = 1.25;  // between lines, in letters
 
-// In lines that the room holds, broken at spaces outside of formulas.
+// Breaks a label at spaces outside of formulas into lines that fit.
 std::vector<std::string> lines_of(const std::string& markup, double room, const TextStyle& lettering,
                                   PageCanvas& sheet) {
     std::vector<std::string> lines;
@@ -44,7 +44,7 @@ struct Extents {
 Extents extents_of(const Panel& panel) {
     Extents all;
     for (const Series& s : panel.series) {
-        // A point counts where both numbers do.
+        // Only points with two valid numbers.
         std::vector<double> xs, ys;
         const Scale vertical = s.right && panel.right ? panel.right->scale : panel.y.scale;
         for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
@@ -86,8 +86,13 @@ void PlotAxes::fit(double width, double height) {
     const auto [ex, ey, er, eb] = extents_of(panel_);
     const int across = std::clamp(static_cast<int>(width / (4.2 * style_.numbers)), 3, 9);
     const int up = std::clamp(static_cast<int>(height / (2.3 * style_.numbers)), 3, 8);
-    x_.emplace(panel_.x, ex, across, what_ + ", horizontal axis");
-    y_.emplace(panel_.y, ey, up, what_ + ", vertical axis");
+    double widest_name = 1;
+    for (const std::string& name : panel_.x.names)
+        widest_name = std::max(widest_name, sheet_.measure(name, style_.tick_numbers()).w + style_.gap);
+    x_.emplace(panel_.x, ex, panel_.x.names.empty() ? across : static_cast<int>(width / widest_name),
+               what_ + ", horizontal axis");
+    y_.emplace(panel_.y, ey, panel_.y.names.empty() ? up : static_cast<int>(height / (1.3 * style_.numbers)),
+               what_ + ", vertical axis");
     right_.reset();
     if (panel_.right) right_.emplace(*panel_.right, er, up, what_ + ", right axis");
     bar_.reset();
@@ -110,7 +115,7 @@ double PlotAxes::widest(const std::optional<AxisMap>& axis) const {
     return w;
 }
 
-// How much lower numbers below the plot stand where one beside it would else come near one of them at the corner.
+// How much the numbers below the plot are lowered so that they do not touch those beside it at a corner.
 double PlotAxes::drop() const {
     if (!lowest_ || !panel_.x.numbered) return 0;
     double out = 0;
@@ -155,7 +160,7 @@ Margins PlotAxes::margins() const {
     return m;
 }
 
-// They point inwards; l, r, b, t: the side.
+// Ticks point inwards. `side`: l, r, b or t.
 void PlotAxes::draw_ticks(const AxisMap& axis, const Box& plot, char side, bool labelled, double major,
                           double minor) const {
     const bool across = side == 'b' || side == 't', first = side == 'l' || side == 't';
@@ -167,7 +172,7 @@ void PlotAxes::draw_ticks(const AxisMap& axis, const Box& plot, char side, bool 
         const Vec2 at = across ? Vec2{plot.x + t.at * plot.w, first ? plot.y : plot.bottom()}
                                : Vec2{first ? plot.x : plot.right(), plot.bottom() - t.at * plot.h};
         const double in = (first ? 1 : -1) * (t.major ? major : minor);
-        sheet_.line(at, at + (across ? Vec2{0, in} : Vec2{in, 0}), {kInk, style_.frame, {}, Cap::butt});
+        if (t.line) sheet_.line(at, at + (across ? Vec2{0, in} : Vec2{in, 0}), {kInk, style_.frame, {}, Cap::butt});
         if (!labelled || t.label.empty()) continue;
         sheet_.text(at + beside, t.label, l);
     }

@@ -1,4 +1,4 @@
-// The axes of a panel: from the data's numbers to places on the sheet; numbers, labels and colour bar around the plot.
+// The axes of a panel: maps data to the page and draws frame, ticks, numbers, labels and colour bar.
 #pragma once
 
 #include <optional>
@@ -17,11 +17,11 @@ inline Box without(const Box& outer, const Margins& m) {
 
 class PlotAxes {
   public:
-    // `lowest`: x numbers and label are written here.
+    // `lowest`: this panel shows the numbers and label of x.
     PlotAxes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, bool lowest, std::string what)
         : panel_(panel), style_(style), sheet_(sheet), lowest_(lowest), what_(std::move(what)) {}
 
-    void fit(double width, double height);  // as many ticks as a plot of about this size has room for
+    void fit(double width, double height);  // chooses the ticks for a plot of about this size
     void place(const Box& plot) { plot_ = plot, fit(plot.w, plot.h); }
 
     const Box& plot() const { return plot_; }
@@ -35,7 +35,7 @@ class PlotAxes {
     double drop() const;
     double titles_height() const;  // of letter and title above the plot; 0: none
     void draw_frame() const;
-    // Letter and title stand so high, or on the plot when nothing else does.
+    // `top`: baseline of letter and title; they are directly above the plot if nothing else is.
     void draw_titles(double top, bool legend_above) const;
     void draw_color_bar() const;
 

@@ -9,7 +9,7 @@ namespace {
 
 bool broken(Vec2 p) { return !(std::isfinite(p.x) && std::isfinite(p.y)); }
 
-// Breaks left out.
+// Ignoring breaks.
 bool increasing(std::span<const Vec2> points) {
     double before = -std::numeric_limits<double>::infinity();
     for (const Vec2 p : points) {
@@ -44,7 +44,7 @@ void steps(std::span<const Vec2> p, double grain, std::vector<Vec2>& out) {
         if (i == 0 || i + 1 == p.size() || norm(p[i] - out.back()) >= grain) out.push_back(p[i]);
 }
 
-// What `reduce_piece` leaves of each unbroken piece, with a NaN for each break.
+// Applies `reduce_piece` to each unbroken piece and puts a NaN at each break.
 template <class ReducePiece>
 std::vector<Vec2> by_pieces(std::span<const Vec2> points, ReducePiece reduce_piece) {
     std::vector<Vec2> out;
@@ -62,7 +62,7 @@ std::vector<Vec2> by_pieces(std::span<const Vec2> points, ReducePiece reduce_pie
     return out;
 }
 
-// All of `between` lie on the straight line from a to b.
+// Whether all of `between` lie on the straight line from a to b.
 bool straight(Vec2 a, Vec2 b, std::span<const Vec2> between, double tolerance) {
     const Vec2 way = b - a;
     const double length = norm(way);
@@ -72,9 +72,9 @@ bool straight(Vec2 a, Vec2 b, std::span<const Vec2> between, double tolerance) {
            });
 }
 
-// Points that lie on the line between those before and behind them carry nothing.
+// Omits points on the line between their neighbours.
 std::vector<Vec2> straightened(const std::vector<Vec2>& p, double tolerance) {
-    constexpr std::size_t kMostLeftOut = 64;  // that one line stands for, so that the work stays linear
+    constexpr std::size_t kMostLeftOut = 64;  // along one line, so that the work stays linear
     std::vector<Vec2> out;
     std::size_t kept = 0;  // index of the last one in `out`
     for (std::size_t i = 0; i < p.size(); ++i) {
@@ -91,7 +91,7 @@ std::vector<Vec2> straightened(const std::vector<Vec2>& p, double tolerance) {
 struct PixelColumn {
     double place = 0;  // in columns
     std::size_t first = 0, last = 0, least = 0, most = 0;
-    double way = 0;  // up and down, breaks left out
+    double way = 0;  // travelled up and down, without breaks
 };
 
 PixelColumn column_at(std::span<const Vec2> p, std::size_t first, double width) {
@@ -110,7 +110,7 @@ PixelColumn column_at(std::span<const Vec2> p, std::size_t first, double width) 
 }  // namespace
 
 std::vector<Envelope> envelopes(std::span<const Vec2> points, double column) {
-    constexpr double kLeastWay = 2.5;          // heights of a column that the curve goes through in it
+    constexpr double kLeastWay = 2.5;          // vertical way of the curve in a column, in its height
     constexpr std::size_t kFewestColumns = 8;  // columns: a single one is drawn as it is
     std::vector<Envelope> all;
     if (points.size() < 4 * kFewestColumns || !increasing(points)) return all;
@@ -174,7 +174,7 @@ std::vector<Vec2> reduce(std::span<const Vec2> points, double grain) {
     const std::vector<Vec2> out = by_pieces(points, [&](std::span<const Vec2> piece, auto& kept) {
         increasing(piece) ? columns(piece, grain, kept) : steps(piece, grain, kept);
     });
-    constexpr std::size_t kDense = 20'000;  // points: so dense a drawing hides what a grain more does
+    constexpr std::size_t kDense = 20'000;  // points: such a dense drawing hides errors of a grain
     return straightened(out, out.size() > kDense ? grain : 0.25 * grain);
 }
 

@@ -1,4 +1,4 @@
-// Curves reduced to what a device can show, so that a million points draw and weigh as little as a few thousand.
+// Curves reduced to the resolution of a device, so that a million points cost as little as a few thousand.
 #pragma once
 
 #include <cstddef>
@@ -9,25 +9,24 @@
 
 namespace beamcam::render {
 
-// Points in units of the sheet; NaN breaks the line and stays. `grain`: the smallest distance that shows.
-// Where x increases: the first, least, greatest and last of each column of width `grain`. Elsewhere: points closer than
-// `grain` to the last kept one are left out, extremes of the excursion kept.
+// Points on the page; NaN breaks the line and is kept. `grain`: the smallest visible distance. Pieces with increasing x
+// keep the first, least, greatest and last point of each column of width `grain`; other pieces omit points nearer than
+// `grain` to the last kept one.
 std::vector<Vec2> reduce(std::span<const Vec2> points, double grain);
-// The columns alone, of this width. x must not decrease.
+// By columns of this width alone; x must not decrease.
 std::vector<Vec2> column_extremes(std::span<const Vec2> points, double width);
 
-// A stretch of neighbouring columns in each of which the curve goes up and down more than once: to the eye a band.
+// An interval of neighbouring columns in each of which the curve goes up and down more than once: it looks like a band.
 struct Envelope {
-    std::size_t first = 0, last = 0;       // indices of the stretch
+    std::size_t first = 0, last = 0;       // indices of its points
     std::vector<std::size_t> least, most;  // of each column
 };
-// None unless x increases all along. Breaks that are narrower than a column do not end a stretch.
+// Empty unless x increases throughout. Breaks narrower than a column do not end an envelope.
 std::vector<Envelope> envelopes(std::span<const Vec2> points, double column);
 
 // Its outline: along the crests, back along the troughs.
 std::vector<Vec2> outline(const Envelope& envelope, std::span<const Vec2> points);
-// What is left of the curve between the stretches, with a break for each; its extremes within them instead when
-// `keep_extremes`.
+// The indices of the curve between the envelopes, with a break for each envelope, or its extremes if `keep_extremes`.
 std::vector<std::size_t> without(const std::vector<Envelope>& envelopes, std::size_t count, bool keep_extremes);
 inline constexpr std::size_t kBreak = static_cast<std::size_t>(-1);  // among the indices of `without`
 

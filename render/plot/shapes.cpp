@@ -1,4 +1,4 @@
-// Panels of shapes: schematics.
+// Draws panels of shapes: schematics and stills.
 #include <cmath>
 #include <numbers>
 
@@ -8,13 +8,13 @@
 namespace beamcam::render::figure {
 namespace {
 
-// The plane's box that holds every shape, and labels by their points.
+// The extent of all shapes, and of the anchor points of labels.
 Bounds bounds_of(const std::vector<Shape>& shapes) {
     Bounds all;
     for (const Shape& s : shapes) {
         for (const Vec2 p : s.points) all.add(p);
         if (s.kind == Shape::Kind::circle || s.kind == Shape::Kind::disc) all.add(s.centre, s.radius);
-        if (s.kind == Shape::Kind::arc || s.kind == Shape::Kind::turn)
+        if (s.kind == Shape::Kind::turn)
             for (int k = 0; k <= 24; ++k) all.add(s.centre + s.radius * sim::unit(s.from + (s.to - s.from) * k / 24));
     }
     return all;
@@ -24,7 +24,7 @@ TextStyle lettering_of(const Shape& s, const PrintStyle& style) {
     return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
-// How far labels beside the shapes leave the box, to the left and to the right.
+// How far labels extend beyond the box to the left and to the right.
 Vec2 beyond(const std::vector<Shape>& shapes, const PrintStyle& style, PageCanvas& sheet, const Camera& camera,
             const Box& box) {
     Vec2 out{0, 0};
@@ -63,11 +63,8 @@ void draw_one(const Shape& s, const PrintStyle& style, PageCanvas& sheet, const 
         case Shape::Kind::disc:
             sheet.circle(centre, radius);
             return sheet.fill(s.color);
-        case Shape::Kind::arc:
-            sheet.arc(centre, radius, s.from, s.to);
-            return sheet.stroke(pen);
         case Shape::Kind::turn: {
-            // The head is a short arrow along the last of the arc, which ends before it.
+            // The head is a short arrow along the end of the arc, which stops before it.
             const double back =
                 std::copysign(std::min(0.8 * head.length / radius, std::abs(s.to - s.from)), s.to - s.from);
             sheet.arc(centre, radius, s.from, s.to - back);
@@ -96,7 +93,7 @@ void draw_shapes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet,
     const double margin = 1.2 * style.letters;
     Camera camera = fit(world, box.inset(margin));
     Box room = box;
-    for (int pass = 0; pass < 100; ++pass) {  // moved into a smaller room they need less of it
+    for (int pass = 0; pass < 100; ++pass) {  // a smaller drawing needs less room
         const auto [left, right] = beyond(panel.shapes, style, sheet, camera, box);
         if (left <= 0 && right <= 0) break;
         room = {room.x + left, room.y, room.w - left - right, room.h};

@@ -92,7 +92,7 @@ PrintStyle style_of(const Column& column) {
     return s;
 }
 
-// Beyond the eight colours these come again with the dashes of others.
+// After eight colours they repeat with other dashes.
 const LineStyle& look(int k) {
     static const std::vector<LineStyle> kAll = [] {
         constexpr std::size_t kStep = 3;  // has no divisor in common with eight

@@ -1,5 +1,4 @@
-// How figures look: widths of the journals' columns, sizes of type and lines, the lines' colours and dashes, the
-// colour map.
+// The style of figures: column widths of journals, sizes of type and lines, colours and dashes, the colour map.
 #pragma once
 
 #include <span>
@@ -18,7 +17,7 @@ struct Column {
     double width;       // [mm]
     double letters;     // size of text [pt]
     double line;        // width of curves [pt]
-    double height = 0;  // [mm]; 0: what suits the figure
+    double height = 0;  // [mm]; 0: by the figure
     const char* whose = "";
 };
 std::span<const Column> columns();
@@ -41,7 +40,7 @@ struct PrintStyle {
 };
 PrintStyle style_of(const Column& column);
 
-// The k-th line of a plot: colour of Okabe & Ito (2008), told apart in grey by dash and marker as well.
+// The k-th line of a plot: colours of Okabe & Ito (2008), with dashes and markers that distinguish lines in grey.
 enum class Marker { circle, square, triangle, diamond, down, cross };
 struct LineStyle {
     Color color;
@@ -52,12 +51,12 @@ const LineStyle& look(int k);  // colours repeat after eight, with other dashes;
 
 Color pale(Color color, double share = 0.62);  // towards white, opaque: print knows no transparency
 
-// What a colour of white paper becomes on a dark slide: lightness is reversed, from the dark theme's paper to its ink,
-// and the hue stays. Colours of lines keep their lightness, or get as much as it takes to stand out.
+// The colour on a dark slide of a colour on white paper: lightness is reversed, from the dark theme's paper to its ink,
+// and the hue stays. Colours of lines keep their lightness, or get enough to contrast with the paper.
 Color on_dark(Color color);
 
-// Perceptually uniform, dark at 1: viridis (Smith & van der Walt 2015, CC0) from its bright end, the palest left out,
-// which white paper would swallow. 0…1; beyond: the end's colour.
+// Perceptually uniform, dark at 1: viridis (Smith & van der Walt 2015, CC0) from its bright end, without its palest
+// colours, which are invisible on white. `share`: 0…1, clamped.
 Color map_color(double share);
 
 }  // namespace beamcam::render::figure

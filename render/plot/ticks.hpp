@@ -17,7 +17,7 @@ double round_up_125(double value);
 // `most` of them; the step is the smallest that allows it. low < high, most >= 2.
 struct Ticks {
     double step = 1;
-    int decimals = 0;  // that tell neighbours apart
+    int decimals = 0;  // that distinguish neighbours
     std::vector<double> values;
 };
 Ticks ticks(double low, double high, int most);
@@ -30,7 +30,7 @@ std::string fixed(double value, int decimals);  // with a true minus sign; never
 
 // Three significant digits with an SI prefix: quantity(0.02, "m") is "20 mm"; a no-break space between.
 std::string quantity(double value, const char* unit, int digits = 3);
-// What changes, always with three digits: "1.90 MN" after "2.95 MN"; nothing is "0 N".
+// A changing value with three digits: "1.90 MN" after "2.95 MN"; zero is "0 N".
 std::string reading(double value, const char* unit);
 // The SI prefix that suits values up to `largest`: its symbol and factor ("m", 1e-3).
 struct Prefix {
@@ -38,7 +38,7 @@ struct Prefix {
     double factor;
 };
 Prefix prefix_for(double largest);
-// With a given prefix, for values that stand beside each other.
+// With a given prefix, for values beside each other.
 std::string quantity(double value, Prefix prefix, const char* unit, int digits = 3);
 
 }  // namespace beamcam::render

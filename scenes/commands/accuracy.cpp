@@ -11,7 +11,7 @@
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/accuracy.hpp"
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {

@@ -6,7 +6,7 @@
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/plot/style.hpp"
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/format/units.hpp"
 
 namespace beamcam::scenes {

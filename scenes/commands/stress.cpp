@@ -11,8 +11,9 @@
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
 #include "output/image/png.hpp"
-#include "render/plot/survival.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/figures/figure_files.hpp"
+#include "scenes/figures/survival_map.hpp"
 #include "scenes/motions/fan_out.hpp"
 
 namespace beamcam::scenes {
@@ -44,10 +45,19 @@ std::vector<sim::StressResult> run_all_cases(const sim::Campaign& campaign, cons
     return results;
 }
 
+// At the size of a double page.
+render::Image drawn_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    FigureOutput how;
+    how.column = "elsevier-double";
+    how.width = 0.3;
+    how.dpi = 150;
+    return figure_image(survival_map(campaign, results), how);
+}
+
 void write(const output::Target& file, const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
     const std::string ending = file.path.extension().string();
     if (ending == ".png")
-        output::write_png(file, render::survival_map(campaign, results));
+        output::write_png(file, drawn_map(campaign, results));
     else
         output::write_file(
             file, ending == ".csv" ? output::stress_csv(campaign, results) : output::stress_json(campaign, results));

@@ -13,30 +13,27 @@ namespace {
 
 using render::Axis;
 using render::Scale;
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr Words kTime{"run time / ms", "计算时间 / ms"};
+constexpr Translated kTime{"run time / ms", "计算时间 / ms"};
 
-// What errors are of.
+// The angle that the errors are of.
 const char* angle(const sim::Accuracy& a) { return a.of_tip ? "$δ/L$" : "$θ$"; }
 std::string error_label(const sim::Accuracy& a, Lang lang) {
     return filled(lang == Lang::en ? "error of {} / rad" : "{} 的误差 / rad", angle(a));
 }
 
-// A logarithmic axis has no zero: an error that is not to be seen stands at the reference's own.
+// A logarithmic axis has no zero: an error below that of the reference is drawn at the latter.
 double visible(double error, const sim::Accuracy& a) { return std::max(error, a.reference_error); }
 
-// The points of one method and, behind them, from the shortest to the longest of the repeated timings.
+// The points of one method and, behind them, the range of the repeated timings.
 void add_method(Panel& panel, const sim::Accuracy& a, sim::Method method, int look) {
     Series points, spread;
     points.label = sim::name(method);
     points.look = spread.look = look;
     points.every_point = true;
     spread.solid = true;
+    spread.name = filled("{}, range of run time", points.label);
     spread.weight = 0.6;
     for (const sim::WorkRow& row : a.work) {
         if (row.method != method || !row.error || row.time.repeats == 0) continue;
@@ -63,8 +60,8 @@ Panel work_precision(const sim::Accuracy& a, Lang lang) {
     for (const sim::WorkRow& row : a.work)
         if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
     for (std::size_t k = 0; k < methods.size(); ++k) add_method(panel, a, methods[k], static_cast<int>(k));
-    panel.rules.push_back({.at = a.reference_error, .label = Words{"reference", "参考解"}.in(lang)});
-    panel.rules.push_back({.at = a.target, .label = Words{"target", "目标"}.in(lang)});
+    panel.rules.push_back({.at = a.reference_error, .label = Translated{"reference", "参考解"}.in(lang)});
+    panel.rules.push_back({.at = a.target, .label = Translated{"target", "目标"}.in(lang)});
     return panel;
 }
 
@@ -95,7 +92,7 @@ Panel mode_counts(const sim::Accuracy& a, Lang lang) {
     return panel;
 }
 
-// The parts of the budget that have no panel of their own.
+// The parts of the error budget that have no panel.
 std::string budget(const sim::Accuracy& a, Lang lang) {
     const bool en = lang == Lang::en;
     std::string models, text;
@@ -112,7 +109,7 @@ std::string budget(const sim::Accuracy& a, Lang lang) {
         if (row.error)
             contact += fmt::format("{}{}: {} rad", contact.empty() ? "" : "; ", row.change, number(*row.error, 2));
     if (!contact.empty())
-        text += filled(en ? " What changes of the contact law move {} by: {}." : "接触参数的变化引起的 {} 的改变：{}。",
+        text += filled(en ? " Changes of the contact law change {} by: {}." : "接触参数的变化引起的 {} 的改变：{}。",
                        angle(a), contact);
     return text;
 }

@@ -1,4 +1,4 @@
-// The picture of an assessment: error against run time of every method, and error against the number of modes.
+// The figure of an accuracy assessment: error against run time of every method, and against the number of modes.
 #pragma once
 
 #include "render/plot/figure.hpp"

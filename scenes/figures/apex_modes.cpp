@@ -1,4 +1,6 @@
-// How much the number of modes matters: the apex of the first rebound against it.
+// The apex of the first rebound against the number of modes.
+#include <fmt/ranges.h>
+
 #include <array>
 
 #include "scenes/figures/recipes.hpp"
@@ -6,13 +8,12 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 using sim::Basis;
 
+constexpr std::size_t kSearchedCollisions = 20;  // for a rebound
 constexpr std::array kModes{1, 2, 3, 4, 5, 6, 8};
+
+constexpr std::array kShapes{Translated{"hub–beam", "轮毂–梁"}, Translated{"cantilever", "悬臂"}};
 
 struct ApexRun {
     Basis basis;
@@ -33,10 +34,27 @@ std::vector<ApexRun> apex_runs(const sim::Problem& problem) {
     return runs;
 }
 
+// Which numbers of shapes have no point.
+std::string missing_points(const std::array<std::vector<int>, 2>& missing, Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string list;
+    for (std::size_t k = 0; k < missing.size(); ++k)
+        if (!missing[k].empty())
+            list += filled(en ? "{}{} shapes with $N$ = {}" : "{}{}模态 $N$ = {}",
+                           list.empty() ? ""
+                           : en         ? "; "
+                                        : "；",
+                           kShapes[k].in(lang), fmt::join(missing[k], ", "));
+    if (list.empty()) return list;
+    return filled(en ? "No point for {}: there the motion has no rebound, or its integration stops before it. "
+                     : "{} 无数据点：该运动无回弹，或积分在此之前终止。",
+                  list);
+}
+
 Panel apex_panel(std::array<Series, 2> series, Lang lang) {
     const bool en = lang == Lang::en;
-    series[0].label = en ? "hub–beam shapes" : "轮毂–梁模态";
-    series[1].label = en ? "cantilever shapes" : "悬臂模态";
+    for (std::size_t k = 0; k < series.size(); ++k)
+        series[k].label = filled(en ? "{} shapes" : "{}模态", kShapes[k].in(lang));
     series[1].look = 1;
     Panel panel;
     panel.x.label = "$N$";
@@ -54,31 +72,36 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         run.study = studies.of(run.problem, scene.end_time, "apex-modes");
         studies.turning_points(run.study);
         studies.may_fail(run.study);
+        studies.stop_after(run.study, {.collisions = kSearchedCollisions});
     }
     return [runs, lang = how.lang, problem = scene.problem, end = scene.end_time](const Results& results) {
         const bool en = lang == Lang::en;
-        std::array<Series, 2> series;  // hub–beam, cantilever
+        std::array<Series, 2> series;             // hub–beam, cantilever
+        std::array<std::vector<int>, 2> missing;  // numbers of shapes without an apex
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> used;
         for (const ApexRun& run : runs) {
-            const std::optional<double> apex = rebound_apex(*results[run.study], end);
-            if (!apex) continue;  // none, or no such motion
-            Series& s = series[run.basis == Basis::hub_beam ? 0 : 1];
+            const std::size_t shapes = run.basis == Basis::hub_beam ? 0 : 1;
+            const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], end);
+            if (!apex) {
+                missing[shapes].push_back(run.modes);
+                continue;
+            }
+            Series& s = series[shapes];
             s.x.push_back(run.modes);
             s.y.push_back(*apex);
             used.emplace_back(&run.problem, results[run.study]);
         }
         if (used.empty())
             throw render::PictureError(
-                "figure apex-modes: no rebound has an apex before the scene ends; raise time.end");
+                "figure apex-modes: θ does not rise above its value at the first touch before the scene ends, or the "
+                "beam strikes the cam from below; raise time.end or set initial.angle");
         Figure figure;
-        figure.name = "apex-modes";
-        figure.title = en ? "Rebound apex against the number of modes" : "回弹最高点随模态数的变化";
         figure.panels.push_back(apex_panel(std::move(series), lang));
         figure.aspect = 0.62;
-        figure.caption =
-            en ? "Apex of the hub angle after the first collision against the number $N$ of shape functions, model "
-                 "first-order. "
-               : "首次碰撞后转角的最高点随形函数个数 $N$ 的变化，模型 first-order。";
+        figure.caption = en ? "Highest hub angle of the first rebound against the number $N$ of shape functions, model "
+                              "first-order. "
+                            : "首次回弹的最大转角随形函数个数 $N$ 的变化，模型 first-order。";
+        figure.caption += missing_points(missing, lang);
         figure.caption += facts(problem, lang, {.model = true, .modes = true});
         figure.accuracy = accuracy(used, lang);
         return figure;

@@ -2,9 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <utility>
+
+#include "scenes/figures/recipes.hpp"
 
 namespace beamcam::scenes {
 
@@ -14,6 +18,9 @@ using render::rgb;
 using sim::AttractorClass;
 
 namespace {
+
+// Is called for each dot with the panel, the cloud and the point.
+using Added = std::function<void(std::size_t panel, std::size_t cloud, std::uint64_t point)>;
 
 constexpr std::uint32_t kSeedColors[] = {0x000000, 0xE0218A, 0x009E73, 0x56B4E9};
 
@@ -27,7 +34,7 @@ std::optional<std::size_t> strip_cell(const SweptPoints& points, const std::vect
 
 constexpr std::uint64_t kMostLanes = 8;
 
-// Which class stands where: a row of cells for each start.
+// The classes of the motions: a row of cells for each start.
 figure::Panel class_strip(const SweptPoints& points) {
     figure::Panel strip;
     strip.name = "class";
@@ -55,7 +62,7 @@ figure::Panel class_strip(const SweptPoints& points) {
     return strip;
 }
 
-// A cloud for each start that is told apart.
+// A cloud for each start that is distinguished.
 std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
     const std::uint64_t count = points.seed(0) == SeedKind::random ? 1 : points.seeds();
     std::vector<figure::Cloud> clouds;
@@ -68,12 +75,12 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
     return clouds;
 }
 
-const char* exponent_words(Lang lang) {
+const char* exponent_text(Lang lang) {
     return lang == Lang::en ? "$λ_1$: the largest Lyapunov exponent where it is known and finite."
                             : "$λ_1$：最大 Lyapunov 指数（已知且有限处）。";
 }
 
-// Samples and exponents as clouds, one for each start that is told apart.
+// Samples and exponents as clouds, one for each start that is distinguished.
 struct Dots {
     std::vector<figure::Cloud> samples, exponents;
 };
@@ -120,14 +127,14 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
 
 std::string usual_value(const SweptPoints& points) { return points.of_impacts() ? "v_n_before" : "theta"; }
 
-}  // namespace
-
+// The points as they are numbered.
 std::vector<std::uint64_t> as_numbered(const SweptPoints& points) {
     std::vector<std::uint64_t> order(points.data.points());
     std::iota(order.begin(), order.end(), std::uint64_t{0});
     return order;
 }
 
+// The cell of each point in the strip of classes; none beyond its lanes.
 std::vector<std::optional<std::size_t>> strip_cells(const SweptPoints& points) {
     const std::vector<std::size_t> rank = ranks(points.axis(0).values);
     const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
@@ -136,8 +143,9 @@ std::vector<std::optional<std::size_t>> strip_cells(const SweptPoints& points) {
     return cells;
 }
 
-figure::Figure bifurcation(const SweptPoints& points, const std::string& value, const std::vector<std::uint64_t>& order,
-                           const Added& added) {
+// `order`: in which the clouds hold the points.
+figure::Figure diagram_of(const SweptPoints& points, const std::string& value, const std::vector<std::uint64_t>& order,
+                          const Added& added) {
     const std::size_t column = points.column(value.empty() ? usual_value(points) : value);
     Dots dots = dots_of(points, column, order, added);
     const bool empty = all_empty(dots.samples), known = !all_empty(dots.exponents);
@@ -155,7 +163,49 @@ figure::Figure bifurcation(const SweptPoints& points, const std::string& value, 
     out.stack = out.share_x = true;
     out.aspect = empty ? 0.35 : known ? 1.05 : 0.8;
     if (empty) out.caption = points.lang == Lang::en ? "No motion has a section to draw." : "没有可绘制的截面。";
-    if (known) out.caption += (empty ? " " : "") + std::string(exponent_words(points.lang));
+    if (known) out.caption += (empty ? " " : "") + std::string(exponent_text(points.lang));
+    return out;
+}
+
+}  // namespace
+
+figure::Figure bifurcation(const SweptPoints& points, const std::string& value) {
+    return diagram_of(points, value, as_numbered(points), [](auto...) {});
+}
+
+GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place) {
+    const SweptPoints points(swept, how.lang);
+    std::vector<std::uint64_t> order = as_numbered(points);
+    std::ranges::stable_sort(order, {}, [&](std::uint64_t k) { return place[k]; });
+    places_.resize(2);
+    whole_ = diagram_of(points, how.value, order, [&](std::size_t panel, std::size_t cloud, std::uint64_t point) {
+        std::vector<std::vector<std::size_t>>& of_panel = places_[panel];
+        of_panel.resize(std::max(of_panel.size(), cloud + 1));
+        of_panel[cloud].push_back(place[point]);
+    });
+    if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
+    for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
+    whole_.panels.front().legend = Legend::above;  // inside the plot it would move as the plot fills
+    const std::vector<std::optional<std::size_t>> cells = strip_cells(points);
+    cells_.assign(whole_.panels.back().cells[0].colors.size(), 0);
+    for (std::size_t k = 0; k < cells.size(); ++k)
+        if (cells[k]) cells_[*cells[k]] = place[k];
+    whole_.name = kBifurcation.name;
+}
+
+Figure GrowingDiagram::until(std::size_t last, double at) const {
+    Figure out = whole_;
+    for (std::size_t i = 0; i < places_.size(); ++i) {
+        for (std::size_t c = 0; c < places_[i].size(); ++c) {
+            const std::vector<std::size_t>& places = places_[i][c];
+            out.panels[i].clouds[c].shown =
+                static_cast<std::size_t>(std::ranges::upper_bound(places, last) - places.begin());
+        }
+        out.panels[i].rules.push_back({.at = at, .vertical = true});
+    }
+    std::vector<render::Color>& colors = out.panels.back().cells[0].colors;
+    for (std::size_t i = 0; i < colors.size(); ++i)
+        if (cells_[i] > last) colors[i] = render::Color{0, 0, 0, 0};
     return out;
 }
 

@@ -1,9 +1,8 @@
 // The bifurcation diagram: samples over one parameter, the largest exponent where it is known, and a strip with the
-// class of each motion.
+// class of each motion. A film shows it point by point.
 #pragma once
 
-#include <functional>
-#include <optional>
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -11,14 +10,22 @@
 
 namespace beamcam::scenes {
 
-// `order`: in which the clouds hold the points. `added` is told of each dot.
-using Added = std::function<void(std::size_t panel, std::size_t cloud, std::uint64_t point)>;
-std::vector<std::uint64_t> as_numbered(const SweptPoints& points);
-// `value`: a column of the samples; empty: the usual one. Throws PictureError for one that they have not.
-render::figure::Figure bifurcation(const SweptPoints& points, const std::string& value,
-                                   const std::vector<std::uint64_t>& order, const Added& added);
+// `value`: a column of the samples; empty: the default one. Throws PictureError for a column that they do not have.
+render::figure::Figure bifurcation(const SweptPoints& points, const std::string& value);
 
-// The cell of each point in the strip of classes; none beyond its lanes.
-std::vector<std::optional<std::size_t>> strip_cells(const SweptPoints& points);
+// The diagram of a film, of which each frame shows more points.
+class GrowingDiagram {
+  public:
+    // `place`: of each point in the order in which the film shows them. The sweep must outlive this. Throws
+    // PictureError like `bifurcation`.
+    GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place);
+    // The points up to this place, and a line at a value of the key.
+    render::figure::Figure until(std::size_t last, double at) const;
+
+  private:
+    render::figure::Figure whole_;
+    std::vector<std::vector<std::vector<std::size_t>>> places_;  // of the points of each cloud of each panel, ascending
+    std::vector<std::size_t> cells_;                             // of the last panel's cells
+};
 
 }  // namespace beamcam::scenes

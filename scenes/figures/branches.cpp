@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "render/base/error.hpp"
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -14,9 +14,9 @@ using render::figure::Figure, render::figure::Panel, render::figure::Series;
 constexpr std::uint32_t kSweptColor = 0x9A9A9A;  // beneath the branches
 constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
 
-// The impacts of a branch, one after the other, as far as they are stable or not; pieces meet at the change.
+// The impacts of the stable or of the unstable orbits of a branch, one after the other; pieces meet at the change.
 void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
-    std::size_t impacts = 0;  // before a rest on the cam their number changes along the branch
+    std::size_t impacts = 0;  // their number changes along the branch before a rest on the cam
     for (const sim::BranchPoint& point : branch.points) impacts = std::max(impacts, point.orbit.impacts.size());
     for (std::size_t k = 0; k < impacts; ++k)
         for (std::size_t i = 0; i < branch.points.size(); ++i) {
@@ -53,7 +53,7 @@ const char* letters(sim::OrbitChange change) {
     return "";
 }
 
-// Labels that would cover each other are left out: points of one kind nearer than this share of the range.
+// Labels nearer to the last one than this share of the range are omitted.
 constexpr double kLabelRoom = 0.06;
 
 std::string add_special(const output::BranchTable& table, double range, Panel& panel) {

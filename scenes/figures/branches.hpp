@@ -1,5 +1,5 @@
-// Branches of periodic orbits over a parameter: speeds of the impacts, stable ones solid, unstable ones dashed, over
-// the impacts of a sweep where it is given.
+// Branches of periodic orbits over a parameter: impact speeds, stable solid and unstable dashed, above the impacts of
+// a sweep if it is given.
 #pragma once
 
 #include "output/data/orbit_records.hpp"

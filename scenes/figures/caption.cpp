@@ -17,7 +17,7 @@ namespace {
 std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI, digits) + "°"; }
 std::string speed(double value) { return number(value, 4) + " rad s^{−1}"; }
 
-// The model exact has polynomials of its own, whatever the basis.
+// The model exact has its own polynomials in every basis.
 std::string shapes_fact(const sim::Problem& p, bool en) {
     const int count = p.beam.modes;
     if (p.beam.model == sim::ModelKind::exact)
@@ -210,7 +210,7 @@ std::string facts(const sim::Problem& p, Lang lang, Varied varied) {
     return text;
 }
 
-// It does not print g; 9.81 m/s² reproduces its 0.37 s.
+// The paper does not print g; 9.81 m/s² reproduces its 0.37 s.
 bool is_of_the_paper(const sim::Problem& p) {
     const sim::Beam& b = p.beam;
     const bool beam = b.length == 1 && as_printed(b.area, 7.2968e-5) && as_printed(b.second_moment, 8.2189e-9) &&
@@ -231,7 +231,7 @@ std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim:
     bool paper = false;
     for (const auto& [problem, result] : runs) {
         rtol = std::max(rtol, problem->solver.rtol);
-        // The printed equation conserves no energy; its ledger says nothing about the integration.
+        // The printed equation does not conserve energy, so its balance does not measure the integration.
         if (problem->beam.model == sim::ModelKind::paper)
             paper = true;
         else if (result->energy_scale > 0)
@@ -256,7 +256,7 @@ std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {
 }
 
 Estimate estimate(const sim::Problem& problem, double value, std::optional<double> fewer) {
-    // Errors of many steps add up to a few tolerances.
+    // The errors of many steps add up to a few tolerances.
     const double integration = 10 * problem.solver.rtol * std::abs(value);
     if (problem.beam.model == sim::ModelKind::rigid) return {value, integration};
     constexpr double kUnknown = 0.05;  // of the value: one digit

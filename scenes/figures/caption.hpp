@@ -1,6 +1,6 @@
-// What a caption says of its scene: the facts of the problem, and numbers with the digits that they have.
+// The text of captions: the parameters of a problem, and numbers with the digits that are certain.
 //
-// Every figure states its scene by these functions alone, so that a caption says nothing that the scene does not.
+// Every figure describes its scene by these functions alone, so that a caption states nothing that the scene does not.
 // All texts are markup (render/draw/markup.hpp).
 #pragma once
 
@@ -18,14 +18,14 @@
 namespace beamcam::scenes {
 
 // A text in both languages.
-struct Words {
+struct Translated {
     const char* en;
     const char* zh;
     std::string in(Lang lang) const { return lang == Lang::en ? en : zh; }
 };
 
-// The one name of −v_n at a first touch: positive, as (S30) has it.
-inline constexpr Words kApproachSpeed{"approach speed", "接近速度"};
+// The name of −v_n at a first touch, positive as in (S30).
+inline constexpr Translated kApproachSpeed{"approach speed", "接近速度"};
 
 // fmt::format with a text chosen by language while running.
 template <class... Values>
@@ -39,7 +39,7 @@ std::string grouped(double value, int decimals);  // "0.369 994": thin spaces be
 
 // ---- facts ----------------------------------------------------------------------------------------
 
-// What a figure varies from curve to curve; the facts leave it out.
+// Parameters that a figure varies from curve to curve, and that the facts omit.
 struct Varied {
     bool model = false, modes = false, cam_speed = false;
 };
@@ -52,8 +52,8 @@ std::string beam_facts(const sim::Problem& problem, Lang lang, Varied varied = {
 // Speeds of the cam in the paper's figure 6 [rad/s].
 inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};
 
-// Whether every number that the paper prints has its printed value: only then is a comparison with the paper, or a
-// word about what it does not print, true of the problem. The number of modes and the model are the reader's choice.
+// Whether every parameter that the paper prints has its printed value; only then do captions mention the paper. The
+// number of modes and the model are free.
 bool is_of_the_paper(const sim::Problem& problem);
 
 // "Relative tolerance 10⁻⁸; the energy ledger closes to 2 × 10⁻⁹ of its scale", of the worst of the results.
@@ -61,19 +61,19 @@ std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim:
 
 // ---- digits ---------------------------------------------------------------------------------------
 
-// The same problem with one shape function fewer (a rigid beam instead of the last one): what it changes bounds what
-// further shape functions would. None for a rigid beam.
+// The same problem with one shape function fewer (a rigid beam instead of the last one). The change that it makes
+// bounds the effect of further shape functions. None for a rigid beam.
 std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem);
 
-// A computed number and how much of it is uncertain.
+// A computed number and its uncertainty.
 struct Estimate {
     double value = 0, error = 0;
 };
-// `fewer` is the number from `with_one_mode_fewer`; absent where that motion does not have it.
+// `fewer`: the number of the motion with one mode fewer; absent if that motion does not have it.
 Estimate estimate(const sim::Problem& problem, double value, std::optional<double> fewer);
-// The digits that the uncertainty leaves, the last one uncertain by one; at least one digit: "0.369 99", "1.2×10^{3}".
+// With the digits that are certain, the last one uncertain by one; at least one digit: "0.369 99", "1.2×10^{3}".
 std::string supported(const Estimate& estimate);
-// After the numbers: what limits their digits.
+// A sentence that states what limits the digits of the numbers.
 std::string digits_stated(const sim::Problem& problem, Lang lang);
 
 }  // namespace beamcam::scenes

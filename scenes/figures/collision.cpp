@@ -4,17 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 using render::Axis;
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
-using sim::ChannelKind;
 
 std::string no_collision(const sim::Problem& problem, const sim::Result& result, int number, double end) {
     const auto count = std::ranges::count_if(result.collisions, [&](const auto& c) { return strikes(problem, c); });
@@ -36,7 +32,7 @@ std::string collision_caption(const sim::Problem& problem, const sim::Collision&
                               Lang lang) {
     const bool en = lang == Lang::en;
     const sim::Collision* other = fewer ? collision_of(problem, *fewer, which) : nullptr;
-    const auto told = [&](double value, std::optional<double> otherwise) {
+    const auto digits = [&](double value, std::optional<double> otherwise) {
         return supported(estimate(problem, value, otherwise));
     };
     std::string text = filled(
@@ -48,30 +44,39 @@ std::string collision_caption(const sim::Problem& problem, const sim::Collision&
         en           ? ordinal(which)
         : which == 1 ? "首次"
                      : fmt::format("第 {} 次", which),
-        told(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "",
-        c.count == 1 ? ""
-                     : filled(en ? "; less than {} s apart they are one collision" : "；间隔小于 {} s 者归为同一次碰撞",
-                              number(sim::collision_gap(problem), 3)));
+        digits(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "",
+        c.count == 1
+            ? ""
+            : filled(en ? "; impacts less than {} s apart count as one collision" : "；间隔小于 {} s 者归为同一次碰撞",
+                     number(sim::collision_gap(problem), 3)));
     if (c.force_peak)
         text += filled(en ? "; peak force {} N" : "；峰值力 {} N",
-                       told(*c.force_peak, other ? other->force_peak : std::nullopt));
+                       digits(*c.force_peak, other ? other->force_peak : std::nullopt));
     text += filled(en ? "; energy lost {} J{}. " : "；能量损失 {} J{}。",
-                   told(c.energy_lost, other ? std::optional(other->energy_lost) : std::nullopt),
+                   digits(c.energy_lost, other ? std::optional(other->energy_lost) : std::nullopt),
                    c.t_end ? "" : (en ? "; it lasts longer than the figure" : "；至图末尚未结束"));
     return text + digits_stated(problem, lang);
 }
 
-// Force and penetration from the collision's first touch, in milliseconds.
+// Force and penetration from the collision's first touch, in units that suit them.
 struct CloseUp {
     const sim::Collision& collision;
     double from, to, end;  // [s]
-    Series force, depth;   // depth: the penetration [µm]
+    Measure time, length;
+    Series force, depth;  // depth: the penetration
 
-    double after(double t) const { return (t - collision.t_start) * 1e3; }
+    double after(double t) const { return (t - collision.t_start) * time.factor; }
 };
-CloseUp close_up(const sim::Collision& c, double end, const sim::Table& t, Lang lang) {
+CloseUp close_up(const sim::Collision& c, double end, const sim::Table& t, double deepest, Lang lang) {
     const double last = c.t_end.value_or(end), length = std::max(last - c.t_start, 1e-6);
-    CloseUp out{c, std::max(0.0, c.t_start - 0.08 * length), std::min(end, last + 0.08 * length), end, {}, {}};
+    CloseUp out{c,
+                std::max(0.0, c.t_start - 0.08 * length),
+                std::min(end, last + 0.08 * length),
+                end,
+                measure_of("s", length),
+                measure_of("m", deepest),
+                {},
+                {}};
     out.force.label = lang == Lang::en ? "force" : "接触力";
     out.depth.label = lang == Lang::en ? "penetration" : "侵入量";
     out.depth.right = true;
@@ -83,12 +88,12 @@ CloseUp close_up(const sim::Collision& c, double end, const sim::Table& t, Lang 
         out.force.x.push_back(out.after(time[i]));
         out.force.y.push_back(n[i]);
         out.depth.x.push_back(out.after(time[i]));
-        out.depth.y.push_back(-gap[i] * 1e6);
+        out.depth.y.push_back(-gap[i] * out.length.factor);
     }
     return out;
 }
 
-// Rows that are coarser than an impact miss its peak, which lies next to the highest of them.
+// Adds the peak, which rows coarser than the impact miss, beside the highest of them.
 void reach_peak(Series& curve, double begin, double over, double peak) {
     std::size_t best = curve.x.size();
     for (std::size_t i = 0; i < curve.x.size(); ++i)
@@ -106,16 +111,24 @@ void reach_peak(Series& curve, double begin, double over, double peak) {
     curve.y.insert(curve.y.begin() + place, peak);
 }
 
+// Of the impacts of a collision [m].
+double deepest(const sim::Result& result, int collision) {
+    double most = 0;
+    for (const sim::Impact& hit : result.impacts)
+        if (hit.collision == collision) most = std::max(most, hit.penetration_peak);
+    return most;
+}
+
 void reach_peaks(CloseUp& shown, int which, const sim::Result& result) {
     for (const sim::Impact& hit : result.impacts) {
         if (hit.collision != which || hit.t_start > shown.to) continue;
         const double begin = shown.after(hit.t_start), over = shown.after(hit.t_end.value_or(shown.end));
         if (hit.force_peak) reach_peak(shown.force, begin, over, *hit.force_peak);
-        if (hit.penetration_peak > 0) reach_peak(shown.depth, begin, over, hit.penetration_peak * 1e6);
+        if (hit.penetration_peak > 0) reach_peak(shown.depth, begin, over, hit.penetration_peak * shown.length.factor);
     }
 }
 
-// Zero lies at one height of both. Separated, the gap soon exceeds any penetration: the axis is the penetration's.
+// Both axes have their zero at the same height. The limits follow the penetration, which a gap soon exceeds.
 void fit_axis(Axis& axis, const Series& curve) {
     double most = 0;
     for (const double v : curve.y)
@@ -126,9 +139,9 @@ void fit_axis(Axis& axis, const Series& curve) {
 Panel close_up_panel(CloseUp shown, int which, const sim::Result& result, Lang lang) {
     Panel panel;
     panel.legend = Legend::box;
-    panel.x.label = "($t$ − $t_{1}$) / ms";
+    panel.x.label = axis_label("($t$ − $t_{1}$)", shown.time.unit);
     panel.y.label = "$F$ / N";
-    panel.right = Axis{.label = "$δ$ / µm"};
+    panel.right = Axis{.label = axis_label("$δ$", shown.length.unit)};
     fit_axis(*panel.right, shown.depth);
     fit_axis(panel.y, shown.force);
     panel.rules.push_back({.at = 0});
@@ -148,27 +161,21 @@ FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studi
     const Lang lang = how.lang;
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end, "collision");
-    std::optional<std::size_t> check;
-    if (const auto fewer = with_one_mode_fewer(scene.problem)) {
-        check = studies.of(*fewer, end, "collision");
-        studies.may_fail(*check);
-    }
-    const std::size_t table =
-        studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0}, {ChannelKind::gap});
+    const auto fewer = study_with_one_mode_fewer(scene.problem, end, "collision", studies);
+    if (fewer) studies.stop_after(*fewer, {.collisions = static_cast<std::size_t>(how.collision) + 1});
+    const std::size_t table = studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
+                                            {sim::Channel{ChannelKind::gap}});
     return [=, problem = scene.problem, number = how.collision](const Results& results) {
         const sim::Result& result = *results[study];
         const sim::Collision* c = collision_of(problem, result, number);
         if (!c) throw render::PictureError(no_collision(problem, result, number, end));
         const auto which = static_cast<int>(c - result.collisions.data());
-        CloseUp shown = close_up(*c, end, result.tables[table], lang);
+        CloseUp shown = close_up(*c, end, result.tables[table], deepest(result, which), lang);
         reach_peaks(shown, which, result);
         Figure figure;
-        figure.name = "collision";
-        figure.title = lang == Lang::en ? "One collision in close-up" : "一次碰撞的细部";
         figure.panels = {close_up_panel(std::move(shown), which, result, lang)};
         figure.aspect = 0.62;
-        figure.caption =
-            collision_caption(problem, *c, number, check ? results[*check] : nullptr, lang) + facts(problem, lang);
+        figure.caption = collision_caption(problem, *c, number, results.find(fewer), lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };

@@ -6,41 +6,39 @@
 #include <numbers>
 #include <numeric>
 
+#include "render/plot/ticks.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_curves.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
-using sim::ChannelKind;
-
-// Of places on the beam: metres, or what suits a smaller beam.
-Measure measure_of_places(const std::vector<double>& x) { return measure_of("m", largest(x)); }
+// Of places on the beam.
+Measure measure_of_places(const std::vector<double>& x) { return measure_of("m", largest_magnitude(x)); }
 std::string places_label(const Measure& measure) { return "$x_{\\r{c}}$ / " + measure.unit; }
 
-// The first collision alone, in which the place moves by less than its mark in the whole.
+// The first collision alone: in the whole plot its place moves by less than a mark.
 std::optional<render::figure::Inset> first_collision(const sim::Collision& c, double end,
                                                      const std::vector<double>& time, const std::vector<double>& force,
                                                      const std::vector<double>& x, double factor, const Panel& whole,
                                                      bool en) {
     Panel panel;
     panel.title = en ? "first collision" : "首次碰撞";
-    panel.x.label = "($t$ − $t_{1}$) / ms";
     panel.x.tight = false;
     panel.legend = Legend::none;
     panel.color_bar = whole.color_bar;
     panel.color_bar->hidden = true;
     Series s;
     s.weight = 1.8;
+    constexpr double kBrief = 0.1;  // of the time shown: a longer one is seen in the whole
     const double last = c.t_end.value_or(end);
+    if (last - c.t_start > kBrief * end) return std::nullopt;
+    const Measure duration = measure_of("s", last - c.t_start);
+    panel.x.label = axis_label("($t$ − $t_{1}$)", duration.unit);
     for (std::size_t i = 0; i < time.size(); ++i) {
         if (time[i] < c.t_start || time[i] > last) continue;
         const bool touching = force[i] > 0 && std::isfinite(x[i]);
-        s.x.push_back((time[i] - c.t_start) * 1e3);
+        s.x.push_back((time[i] - c.t_start) * duration.factor);
         s.y.push_back(touching ? x[i] * factor : std::nan(""));
         s.value.push_back(touching ? force[i] : std::nan(""));
     }
@@ -49,7 +47,7 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
     return render::figure::Inset{.panel = {std::move(panel)}, .width = 0.36, .height = 0.29};
 }
 
-// Impulses instead of forces: a point for each impact.
+// Impulsive contact: a point for each impact, coloured by its impulse.
 Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
     const bool en = lang == Lang::en;
     if (result.impacts.empty())
@@ -61,8 +59,11 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     for (const sim::Impact& hit : result.impacts) {
         s.x.push_back(hit.t_start);
         s.y.push_back(hit.x);
-        s.value.push_back(hit.impulse_n * 1e3);
+        s.value.push_back(hit.impulse_n);
     }
+    const double strongest = *std::ranges::max_element(s.value);
+    const render::Prefix prefix = render::prefix_for(strongest);
+    s.value = scaled(std::move(s.value), 1 / prefix.factor);
     const Measure measure = measure_of_places(s.y);
     s.y = scaled(std::move(s.y), measure.factor);
     Panel panel;
@@ -72,10 +73,9 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     panel.y.label = places_label(measure);
     panel.legend = Legend::none;
     panel.color_bar = render::figure::ColorBar{
-        .label = "$J$ / (mN s)", .from = 0, .to = *std::max_element(s.value.begin(), s.value.end())};
+        .label = fmt::format("$J$ / ({}N s)", prefix.symbol), .from = 0, .to = strongest / prefix.factor};
     panel.series = {std::move(s)};
     Figure figure;
-    figure.name = "contact-places";
     figure.title = en ? "Contact point on the beam" : "梁上的接触点";
     figure.panels = {std::move(panel)};
     figure.caption =
@@ -86,7 +86,7 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
     return figure;
 }
 
-// Of each instant in contact the place, coloured by the force.
+// The place of contact at each instant, coloured by the force.
 struct Places {
     Series on_beam, on_cam;
     double strongest = 0;
@@ -155,8 +155,6 @@ Figure forceful_places(const sim::Problem& problem, const sim::Result& result, c
                                          column(t, ChannelKind::contact_x), places.measure.factor, beam, en))
             beam.insets = {std::move(*inset)};
     Figure figure;
-    figure.name = "contact-places";
-    figure.title = en ? "Contact point on beam and cam" : "梁与凸轮上的接触点";
     figure.panels = {std::move(beam), std::move(cam)};
     figure.stack = figure.share_x = true;
     figure.aspect = 1.1;
@@ -178,8 +176,8 @@ FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies&
             return impulsive_places(problem, *results[study], end, lang);
         };
     const std::size_t table =
-        studies.table(study, {0, end, contact_rows(end)},
-                      {ChannelKind::t, ChannelKind::contact_force, ChannelKind::contact_x, ChannelKind::contact_s});
+        studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
+                      {sim::Channel{ChannelKind::contact_x}, sim::Channel{ChannelKind::contact_s}});
     return [=, problem = scene.problem](const Results& results) {
         const sim::Result& result = *results[study];
         return forceful_places(problem, result, result.tables[table], end, lang);

@@ -1,4 +1,4 @@
-// How the Lyapunov exponents of a motion converge.
+// The convergence of the Lyapunov exponents of a motion.
 #pragma once
 
 #include "render/plot/figure.hpp"

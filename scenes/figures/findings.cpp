@@ -14,7 +14,6 @@
 namespace beamcam::scenes {
 namespace {
 
-using sim::ChannelKind;
 using sim::Printing;
 
 constexpr double kRepeated = 4;      // [s] of repeated impacts, as in the figures
@@ -106,7 +105,7 @@ Verdicts verdicts(const sim::Table& t) {
     return out;
 }
 
-// Where two runs of one motion differ by more than what is tolerated, and by how much at most.
+// The interval in which two runs of one motion differ by more than the tolerated angle, and the largest difference.
 struct Transient {
     double from = 0, to = 0, largest = 0;
 };
@@ -123,7 +122,7 @@ Transient transient(const sim::Table& a, const sim::Table& b) {
     return out;
 }
 
-// What the findings look at.
+// The studies of the findings.
 struct FindingStudies {
     std::size_t flexible, printed, long_beam, long_printed, first, rest, table;
     std::array<std::array<std::size_t, 2>, 3> repeated{}, angles{};  // at the scene's tolerance, and a tighter one
@@ -295,7 +294,7 @@ std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& st
 std::string findings_markdown(const std::vector<Finding>& findings) {
     std::string text =
         "# Findings on the paper\n\nYang, Feng, Chen and Wu, *Acta Physica Sinica* 65, 240502 (2016), doi "
-        "10.7498/aps.65.240502. Numbers are computed by this run; the last column names the test that keeps each.\n\n"
+        "10.7498/aps.65.240502. Numbers are computed by this run; the last column names the test of each finding.\n\n"
         "| | printed | true | numbers | test |\n|---|---|---|---|---|\n";
     int row = 0;
     for (const Finding& f : findings)

@@ -1,5 +1,5 @@
-// The findings on the paper as a Markdown table: each with its numbers, computed here and now, and the test that
-// keeps it.
+// The findings on the paper as a Markdown table: each with its numbers, computed by this run, and the test that checks
+// it.
 #pragma once
 
 #include <functional>
@@ -11,12 +11,12 @@
 namespace beamcam::scenes {
 
 struct Finding {
-    std::string paper, truth;  // Markdown; what it prints, what holds
+    std::string paper, truth;  // Markdown: what the paper prints, what is true
     std::string numbers;       // with units
     std::string test;          // suite and name
 };
 
-// Adds what the findings need; the function reads it from the results.
+// Adds the studies of the findings; the returned function reads their results.
 std::function<std::vector<Finding>(const Results&)> prepare_findings(Studies& studies);
 std::string findings_markdown(const std::vector<Finding>& findings);
 

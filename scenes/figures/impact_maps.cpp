@@ -1,21 +1,15 @@
-// Impacts as maps and as counts: their loss, their speeds one after the other, and the phases of the cam at which they
-// are.
+// Impacts as maps and as histograms: restitution, successive speeds, and the phase of the cam at impact.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
 
 namespace beamcam::scenes {
 namespace {
-
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 
 Panel map_panel(std::string x_label, std::string y_label) {
     Panel panel;
@@ -36,33 +30,48 @@ bool is_shown(const sim::Problem& problem, const Touch& touch, double from, doub
     return touch.t_start >= from && touch.t_start <= to && strikes(problem, touch);
 }
 
-// Of the cam: its turns less the whole ones.
+// The phase of the cam in turns, 0…1.
 double phase_of(const sim::Impact& hit) {
     const double turns = hit.cam_angle / (2 * std::numbers::pi);
     return turns - std::floor(turns);
 }
 const char* phase_label(bool en) { return en ? "phase of the cam / (2π)" : "凸轮相位 / (2π)"; }
 
-// The loss of each impact, each collision against the next, and each impact against the cam's phase.
+// A logarithmic axis for ratios of very different size: a slow touch can leave much faster than it came.
+void spread_ratios(Panel& panel) {
+    constexpr double kSpread = 30;  // the largest by the smallest
+    const std::vector<double>& ratios = panel.series.front().y;
+    if (ratios.empty()) return;
+    const auto [least, most] = std::ranges::minmax(ratios);
+    if (!(least > 0 && most > kSpread * least)) return;
+    panel.y.scale = render::Scale::logarithmic;
+    panel.y.from.reset();
+}
+
+// Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase.
 struct ImpactMaps {
-    Panel loss, next, phase;
+    Panel loss, next, phase, hub;
 };
 ImpactMaps impact_maps(const sim::Problem& problem, const sim::Result& result, double from, double to, Lang lang) {
     const bool en = lang == Lang::en;
     const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(lang) + which, "m/s"); };
-    ImpactMaps out{map_panel(speed(""), en ? "rebound / approach speed" : "分离速度 / 接近速度"),
-                   map_panel(speed(" $k$"), speed(" $k$ + 1")), map_panel(phase_label(en), speed(""))};
+    ImpactMaps out{map_panel(speed(""), en ? "coefficient of restitution" : "恢复系数"),
+                   map_panel(speed(" $k$"), speed(" $k$ + 1")), map_panel(phase_label(en), speed("")),
+                   map_panel(phase_label(en), "$\\dot{θ}$ / (rad s^{−1})")};
     const auto shown = [&](const auto& touch) { return is_shown(problem, touch, from, to); };
     for (const sim::Impact& hit : result.impacts) {
         if (!shown(hit)) continue;
         if (hit.restitution) add_point(out.loss, std::abs(hit.v_n_before), *hit.restitution);
         add_point(out.phase, phase_of(hit), std::abs(hit.v_n_before));
+        if (hit.at_touch) add_point(out.hub, phase_of(hit), hit.at_touch->theta_dot);
     }
     const std::vector<sim::Collision>& all = result.collisions;
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
         if (shown(all[k]) && shown(all[k + 1]))
             add_point(out.next, std::abs(all[k].v_n_before), std::abs(all[k + 1].v_n_before));
-    out.phase.x.to = 1;
+    out.phase.x.to = out.hub.x.to = 1;
+    out.hub.y.from.reset();
+    spread_ratios(out.loss);
     return out;
 }
 
@@ -74,18 +83,20 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
         const sim::Result& result = *results[study];
         ImpactMaps maps = impact_maps(problem, result, from, to, lang);
         Figure figure;
-        figure.name = "impact-maps";
-        figure.title = en ? "Maps of the impacts" : "冲击映射";
         std::string words;
-        const std::pair<Panel*, Words> panels[] = {
+        const std::pair<Panel*, Translated> panels[] = {
             {&maps.loss,
-             {"ratio of the normal speeds after and before each impact against its approach speed",
-              "各次冲击的恢复比与接近速度"}},
+             {"coefficient of restitution of each impact (the ratio of its normal speeds after and before) against its "
+              "approach speed",
+              "各次冲击的恢复系数（分离速度与接近速度之比）与接近速度"}},
             {&maps.next,
              {"approach speed of each collision, $k$ + 1, against that of the one before, $k$",
               "相邻碰撞（第 $k$、$k$ + 1 次）的接近速度"}},
             {&maps.phase,
-             {"approach speed of each impact against the phase of the cam", "各次冲击的接近速度与凸轮相位"}}};
+             {"approach speed of each impact against the phase of the cam", "各次冲击的接近速度与凸轮相位"}},
+            {&maps.hub,
+             {"hub speed $\\dot{θ}$ at the touch against the phase of the cam",
+              "接触时的角速度 $\\dot{θ}$ 与凸轮相位"}}};
         for (const auto& [panel, what] : panels) {
             if (panel->series.front().x.empty()) continue;
             panel->letter = std::string(1, static_cast<char>('a' + figure.panels.size()));
@@ -95,14 +106,14 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
         if (figure.panels.empty())
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
-        figure.aspect = 0.7 * static_cast<double>(figure.panels.size());
+        figure.aspect = 0.6 * static_cast<double>(figure.panels.size());
         figure.caption = words + (en ? ". " : "。") + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;
     };
 }
 
-// How many of the values fall into each of equal intervals from 0 on; the last one holds `end`.
+// Counts the values in equal intervals from 0 to `end`, which the last one includes.
 Panel histogram(std::string label, const std::vector<double>& values, double end) {
     const auto bins =
         static_cast<std::size_t>(std::clamp(std::ceil(std::sqrt(static_cast<double>(values.size()))), 6.0, 36.0));
@@ -139,12 +150,10 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         constexpr std::size_t kFewest = 5;
         if (speeds.size() < kFewest)
             throw render::PictureError(fmt::format(
-                "figure impact-histograms: {} impacts from {:g} s to {:g} s are too few to be counted; raise "
+                "figure impact-histograms: {} impacts from {:g} s to {:g} s are too few for a histogram; raise "
                 "time.end, or see impact-maps",
                 speeds.size(), from, to));
         Figure figure;
-        figure.name = "impact-histograms";
-        figure.title = en ? "How often impacts have which speed and phase" : "冲击速度与相位的直方图";
         figure.panels = {
             histogram(axis_label(kApproachSpeed.in(lang), "m/s"), speeds, *std::ranges::max_element(speeds)),
             histogram(phase_label(en), phases, 1)};
@@ -155,8 +164,8 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         figure.aspect = 1.2;
         const double bins = static_cast<double>(figure.panels[0].series[0].x.size()) / 2;
         figure.caption = filled(
-            en ? "The {} impacts from {} s to {} s: how many have (a) which approach speed, in intervals of {} m "
-                 "s^{{−1}}, (b) which phase of the cam, in intervals of {}. "
+            en ? "Histograms of the {} impacts from {} s to {} s: (a) approach speed, in intervals of {} m s^{{−1}}; "
+                 "(b) phase of the cam, in intervals of {}. "
                : "{} 次冲击（{} s 至 {} s）：(a) 接近速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
             speeds.size(), number(from, 4), number(to, 4), number(figure.panels[0].series[0].x.back() / bins, 2),
             number(1 / bins, 2));
@@ -170,7 +179,7 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
 
 const Recipe kImpactMaps{"impact-maps", {"Maps of the impacts", "冲击映射"}, needs_cam, prepare_maps, true};
 const Recipe kImpactHistograms{"impact-histograms",
-                               {"How often impacts have which speed and phase", "冲击速度与相位的直方图"},
+                               {"Histograms of impact speed and phase", "冲击速度与相位的直方图"},
                                needs_cam,
                                prepare_histograms,
                                true};

@@ -20,7 +20,7 @@ namespace {
 
 // For periods from one to five; beyond these the last.
 constexpr std::uint32_t kPeriodColors[] = {0x08306B, 0x2171B5, 0x6BAED6, 0x9ECAE1, 0xC6DBEF};
-// What stands in a cell of a map: periods apart from each other, other motions by their class.
+// The entry of a cell: periodic motions by their period, others by their class.
 figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {
     if (kind_of(p) != AttractorClass::periodic) return {class_label(kind_of(p), lang), color_of(kind_of(p))};
     const int most = static_cast<int>(std::size(kPeriodColors)), shown = std::min(p.period, most);
@@ -80,20 +80,20 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
     panel.legend = figure::Legend::none;
 }
 
-// What a map coloured by a number leaves white.
-std::string white_words(const SweptPoints& points, const std::string& value) {
+// Explains the white cells of a map that is coloured by a number.
+std::string white_cells_text(const SweptPoints& points, const std::string& value) {
     const bool en = points.lang == Lang::en;
     if (value == "class") return "";
     if (value == "exponent")
-        return en ? "White: the exponent is not known, or −∞ where lasting contact forgets every difference."
+        return en ? "White: the exponent is unknown, or −∞ because lasting contact removes every difference."
                   : "白色：指数未知，或持续接触使一切差异消失（−∞）。";
     return en ? "White: no sample." : "白色：无样本。";
 }
 
 }  // namespace
 
-figure::Figure key_map(const SweptPoints& points, const std::string& asked) {
-    const std::string value = asked.empty() ? kMapValues[0] : asked;
+figure::Figure key_map(const SweptPoints& points, const std::string& chosen) {
+    const std::string value = chosen.empty() ? kMapValues[0] : chosen;
     figure::Panel panel;
     panel.name = value;
     const output::SweepAxis &across = points.axis(0), &up = points.axis(1);
@@ -116,7 +116,7 @@ figure::Figure key_map(const SweptPoints& points, const std::string& asked) {
     figure::Figure out;
     out.panels = {std::move(panel)};
     out.aspect = 0.9;
-    out.caption = white_words(points, value);
+    out.caption = white_cells_text(points, value);
     return out;
 }
 

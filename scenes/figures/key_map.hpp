@@ -7,7 +7,7 @@
 
 namespace beamcam::scenes {
 
-// What a map shows beside columns of the samples; the first is usual.
+// Values of a map besides the columns of the samples; the first is the default.
 inline constexpr const char* kMapValues[] = {"class", "exponent", "impacts_per_period"};
 
 // `value`: "class", "exponent", "impacts_per_period" or a column of the samples, whose mean is shown; empty: the class.

@@ -7,41 +7,37 @@
 
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/stretch.hpp"
 #include "sim/beam/modes.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-
 constexpr int kColumns = 600, kStations = 65;  // a printed column resolves no more
-constexpr int kMostLooks = 16;                 // at a column
+constexpr int kMostSamples = 16;               // of a column
 
-// How often a column is looked at, so that vibrations that are faster than columns are not mistaken for slow ones.
-std::size_t looks_at_column(const sim::Problem& problem, double column) {
+// Instants per column: more than one where the vibration is faster than the columns, so that it is not aliased.
+std::size_t samples_per_column(const sim::Problem& problem, double column) {
     const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
     if (modes.empty() || !(modes.front().omega > 0)) return 1;
     const double periods = column * modes.front().omega / (2 * std::numbers::pi);
-    return periods < 0.25 ? 1 : static_cast<std::size_t>(std::clamp(std::ceil(8 * periods), 2.0, double(kMostLooks)));
+    return periods < 0.25 ? 1 : static_cast<std::size_t>(std::clamp(std::ceil(8 * periods), 2.0, double(kMostSamples)));
 }
 
-// Of each column and station the value that is farthest from none.
-std::vector<double> extremes(const std::vector<sim::Pose>& poses, std::size_t looks) {
+// The value of the largest magnitude in each column, for each station.
+std::vector<double> extremes(const std::vector<sim::Pose>& poses, std::size_t samples) {
     std::vector<double> out(kColumns * kStations, 0);
     for (std::size_t row = 0; row < poses.size(); ++row) {
         const std::vector<double> v = sim::deflection(poses[row]);
         for (std::size_t i = 0; i < kStations; ++i)
-            if (double& most = out[row / looks * kStations + i]; row % looks == 0 || std::abs(v[i]) > std::abs(most))
+            if (double& most = out[row / samples * kStations + i];
+                row % samples == 0 || std::abs(v[i]) > std::abs(most))
                 most = v[i];
     }
     return out;
 }
 
 // Deflections as colours, of each column and station.
-render::figure::Cells cells_of_deflection(const std::vector<double>& v, const Stretch& shown, double length,
+render::figure::Cells cells_of_deflection(const std::vector<double>& v, const ShownPoses& shown, double length,
                                           double least, double range, double unit) {
     render::figure::Cells cells;
     for (int k = 0; k <= kColumns; ++k) cells.x.push_back(shown.from + (shown.to - shown.from) * k / kColumns);
@@ -53,7 +49,7 @@ render::figure::Cells cells_of_deflection(const std::vector<double>& v, const St
     return cells;
 }
 
-Panel kymograph_panel(const std::vector<double>& v, const Stretch& shown, double length) {
+Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, double length) {
     const auto [least, most] = std::ranges::minmax(v);
     const render::Prefix prefix = render::prefix_for(std::max(-least, most));
     const double range = most > least ? most - least : 1;
@@ -71,31 +67,29 @@ Panel kymograph_panel(const std::vector<double>& v, const Stretch& shown, double
 
 FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
-    const std::size_t looks = looks_at_column(scene.problem, column);
-    const Stretch shown = stretch(scene, how, kColumns * static_cast<int>(looks), kStations, studies);
+    const std::size_t samples = samples_per_column(scene.problem, column);
+    const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, studies);
     return [=, problem = scene.problem, lang = how.lang](const Results& results) {
         const bool en = lang == Lang::en;
         const sim::Result& result = *results[shown.study];
-        const std::vector<double> v = extremes(result.poses[shown.poses], looks);
+        const std::vector<double> v = extremes(result.poses[shown.poses], samples);
         Panel panel = kymograph_panel(v, shown, problem.beam.length);
         int hits = 0;
         for (const sim::Impact& hit : result.impacts)
             if (hit.t_start >= shown.from && hit.t_start <= shown.to && strikes(problem, hit))
                 panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true}), ++hits;
         Figure figure;
-        figure.name = "kymograph";
-        figure.title = en ? "Deflection along the beam in time" : "梁挠度的时空图";
         figure.panels.push_back(std::move(panel));
         figure.caption = filled(en ? "Deflection $v$($x$, $t$) from the tangent at the root, along the beam and in "
-                                     "time, a column each {} s. "
+                                     "time, one column every {} s. "
                                    : "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
                                 number((shown.to - shown.from) / (kColumns - 1), 2));
-        if (looks > 1)
-            figure.caption += filled(en ? "The beam vibrates within a column, which has the largest deflection of {} "
-                                          "instants. "
+        if (samples > 1)
+            figure.caption += filled(en ? "The beam vibrates faster than the columns: each shows the largest "
+                                          "deflection of {} instants. "
                                         : "一列之内梁多次振动，取 {} 个时刻中的最大挠度。",
-                                     looks);
-        if (hits > 0) figure.caption += en ? "Marks: impacts. " : "标记：冲击。";
+                                     samples);
+        if (hits > 0) figure.caption += en ? "Squares: impacts. " : "标记：冲击。";
         figure.caption += facts(problem, lang);
         figure.accuracy = accuracy({{&problem, &result}}, lang);
         return figure;

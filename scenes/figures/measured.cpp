@@ -33,8 +33,8 @@ render::figure::Series measured_series(const Measurement& data, std::vector<doub
     return s;
 }
 
-std::string agreement_words(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
-                            Lang lang) {
+std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
+                           Lang lang) {
     const bool en = lang == Lang::en;
     std::string text;
     for (const Measured& each : all)
@@ -54,7 +54,7 @@ std::string agreement_words(const std::vector<Measured>& all, const sim::Result&
             if (!a.beyond) continue;
             const auto& [rows, m, c] = *a.beyond;
             text +=
-                filled(en ? "Data “{}”: at {} instants $θ$ is not reproducible and single values mean nothing: "
+                filled(en ? "Data “{}”: at {} instants $θ$ is not reproducible, so that only statistics compare: "
                             "mean {} {} and standard deviation {} {}, computed {} {} and {} {}. "
                           : "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {} {}、标准差 {} {}，计算值为 {} {}、{} "
                             "{}。",

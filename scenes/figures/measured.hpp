@@ -16,15 +16,15 @@ struct Measured {
     std::size_t table = 0;
 };
 
-// The scene's data of these channels within [from, to], if there are any; adds what they are compared with.
+// The scene's data of these channels within [from, to]; adds the table that they are compared with.
 std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channel>& channels, double from, double to,
                                std::size_t study, Studies& studies);
 
-// Points, or a line where they are many. `x`, `y`: of its rows, as they are drawn.
+// Points, or a line if they are many. `x`, `y`: of the rows of the data, as drawn.
 render::figure::Series measured_series(const Measurement& data, std::vector<double> x, std::vector<double> y, int look);
 
 // "rig: 200 instants, root mean square difference of $θ$ 1.2×10^{−3} rad. "
-std::string agreement_words(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
-                            Lang lang);
+std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
+                           Lang lang);
 
 }  // namespace beamcam::scenes

@@ -24,6 +24,16 @@ const std::vector<Recipe>& table() {
 
 }  // namespace
 
+FigureMaker Recipe::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
+    return [make = maker(scene, how, studies), called = std::string(name),
+            usual = title.in(how.lang)](const Results& results) {
+        render::figure::Figure figure = make(results);
+        figure.name = called;
+        if (figure.title.empty()) figure.title = usual;
+        return figure;
+    };
+}
+
 std::span<const Recipe> recipes() { return table(); }
 
 std::vector<std::string> recipe_names() {
@@ -78,19 +88,46 @@ const sim::Collision* collision_of(const sim::Problem& problem, const sim::Resul
     return nullptr;
 }
 
-std::optional<double> rebound_apex(const sim::Result& result, double end) {
-    if (result.collisions.empty()) return std::nullopt;
-    if (result.collisions.size() == 1 && result.end_time < end) return std::nullopt;
-    const double after = result.collisions.front().t_end.value_or(result.end_time);
-    // Ripple makes small maxima; the rebound is the highest of those before the next collision.
-    const double until = result.collisions.size() > 1 ? result.collisions[1].t_start : result.end_time;
-    std::optional<double> best;
-    for (const sim::Apex& apex : result.apexes)
-        if (apex.t > after && apex.t < until && (!best || apex.theta > *best)) best = apex.theta;
-    return best;
+std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Result& result, double end) {
+    if (result.impacts.empty() || !result.impacts.front().at_touch) return std::nullopt;
+    const sim::Impact& touch = result.impacts.front();
+    const sim::Vec2 disc = problem.cam->centre + problem.cam->eccentricity * sim::unit(touch.cam_angle);
+    const bool from_below = cross(sim::unit(touch.at_touch->theta), disc) > 0;
+    if (from_below) return std::nullopt;
+    const std::vector<sim::Collision>& all = result.collisions;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+        const bool last = k + 1 == all.size();
+        if (last && result.end_time < end) break;
+        const double after = all[k].t_end.value_or(result.end_time),
+                     until = last ? result.end_time : all[k + 1].t_start;
+        // Ripple makes small maxima; the rebound is the highest of those before the next collision.
+        double highest = touch.at_touch->theta;
+        for (const sim::Apex& apex : result.apexes)
+            if (apex.t > after && apex.t < until) highest = std::max(highest, apex.theta);
+        if (highest > touch.at_touch->theta) return highest;
+    }
+    return std::nullopt;
 }
 
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
+
+ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies) {
+    ShownPoses out{how.series.from, how.series.to.value_or(scene.end_time)};
+    out.study = studies.of(scene.problem, out.to, how.figure);
+    std::vector<sim::PoseRequest>& poses = studies.request(out.study).poses;
+    out.poses = poses.size();
+    poses.push_back({.times = instants({out.from, out.to, count}), .stations = stations});
+    return out;
+}
+
+std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, const char* figure,
+                                                     Studies& studies) {
+    const std::optional<sim::Problem> fewer = with_one_mode_fewer(problem);
+    if (!fewer) return std::nullopt;
+    const std::size_t study = studies.of(*fewer, end, figure);
+    studies.may_fail(study);
+    return study;
+}
 
 sim::Problem without_cam(sim::Problem problem) {
     problem.cam.reset();

@@ -1,7 +1,7 @@
 // The figures by name: what each needs of the mechanics, and how it comes out of the results.
 //
-// A recipe is asked first for its needs, which join those of other figures in one set of studies, and
-// then makes a Figure from the results. It neither integrates nor draws.
+// A recipe first adds its needs to a set of studies that all figures share, then makes a Figure from the results. It
+// neither integrates nor draws.
 #pragma once
 
 #include <functional>
@@ -18,19 +18,29 @@
 
 namespace beamcam::scenes {
 
-using FigureMaker = std::function<render::figure::Figure(const Results&)>;
+// What figures are made of.
+using render::figure::Figure;
+using render::figure::Legend;
+using render::figure::Panel;
+using render::figure::Series;
+using sim::ChannelKind;
+
+using FigureMaker = std::function<Figure(const Results&)>;
 
 struct Recipe {
     const char* name;
-    Words title;
-    // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` asks for more.
+    Translated title;
+    // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` checks more.
     std::optional<std::string> (*refusal)(const Scene& scene);
-    // Adds the needs; the maker remembers where they are. `how`: the language, and what keys of the figure's own say.
-    FigureMaker (*prepare)(const Scene& scene, const FigureOutput& how, Studies& studies);
-    bool takes_stretch = false;  // the keys "from" and "to"
-    bool takes_channel = false;  // one of "channels", and the keys of its windows
-    bool of_sweep = false;       // it shows the points of the scene's sweep
-    bool takes_value = false;    // the key "value"
+    FigureMaker (*maker)(const Scene& scene, const FigureOutput& how, Studies& studies);
+    bool takes_interval = false;  // the keys "from" and "to"
+    bool takes_channel = false;   // one of "channels", and the keys of its windows
+    bool of_sweep = false;        // it shows the points of the scene's sweep
+    bool takes_value = false;     // the key "value"
+
+    // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the recipe's name, and
+    // its title unless it has another. `how`: the language and the figure's own keys.
+    FigureMaker prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const;
 };
 
 std::span<const Recipe> recipes();
@@ -61,11 +71,24 @@ bool strikes(const sim::Problem& problem, const Touch& touch) {
 
 // Counted from 1; null: there are fewer.
 const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number);
-// The angle θ at the apex of the first rebound; of a motion cut short before `end` only where a second collision ends
-// the search.
-std::optional<double> rebound_apex(const sim::Result& result, double end);
+// The highest θ of the first rebound: the first time between two collisions, or after the last one, in which θ rises
+// above its value at the first touch. None for a beam that strikes the cam from below, and none after the last
+// collision of a motion that was cut short before `end`.
+std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Result& result, double end);
 // Rows over the scene: an impact lasts a few tenths of a millisecond.
 int contact_rows(double end);
+
+// Poses of the scene's motion, equally spaced over the interval that a figure shows, both ends included.
+struct ShownPoses {
+    double from = 0, to = 0;           // [s]
+    std::size_t study = 0, poses = 0;  // poses: index into the study's Result::poses
+};
+// `stations`: points along the beam.
+ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies);
+
+// The study of the motion with one mode fewer, which bounds the digits of numbers; none for a rigid beam.
+std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, const char* figure,
+                                                     Studies& studies);
 
 sim::Problem without_cam(sim::Problem problem);
 sim::Problem rigid(sim::Problem problem);

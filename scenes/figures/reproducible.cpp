@@ -34,8 +34,8 @@ std::array<Series, 2> split(const Series& whole, const std::vector<double>& time
     return parts;
 }
 
-std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
-                          double end, Lang lang) {
+std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
+                         double end, Lang lang) {
     const bool en = lang == Lang::en;
     std::vector<std::string> times;
     for (const auto& [name, result] : motions)

@@ -1,4 +1,4 @@
-// Where a curve of a motion can be relied on: it is drawn lighter within the intervals in which θ is not reproducible.
+// The intervals in which θ of a motion is not reproducible. Curves are drawn lighter there.
 #pragma once
 
 #include <array>
@@ -19,12 +19,13 @@ struct Lost {
 // Of a study with a horizon, until `end`.
 std::vector<Lost> unreliable(const sim::Result& result, double end);
 
-// The curve outside of the intervals, and within them; neighbouring pieces share a point. `times`: of its points.
+// The curve outside of the intervals, and the curve within them; neighbouring pieces share a point. `times`: of its
+// points.
 std::array<render::figure::Series, 2> split(const render::figure::Series& whole, const std::vector<double>& times,
                                             const std::vector<Lost>& intervals);
 
-// Where θ is not reproducible, if anywhere: of motions by their names, of one by none.
-std::string horizon_words(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
-                          double end, Lang lang);
+// A sentence that names these intervals, by the names of the motions if there are several; empty: there are none.
+std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
+                         double end, Lang lang);
 
 }  // namespace beamcam::scenes

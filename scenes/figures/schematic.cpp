@@ -1,20 +1,137 @@
 // The system with its symbols, to the scene's own scale. Integrates nothing.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <utility>
 
-#include "scenes/figures/disc_symbols.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/sketch.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Panel;
 using render::figure::Shape;
 using sim::Vec2;
+
+// Collects shapes in the order in which they are drawn.
+class Sketch {
+  public:
+    using Kind = Shape::Kind;
+    static constexpr render::Color kInk = render::rgb(0x000000), kBlue = render::rgb(0x0072B2),
+                                   kRed = render::rgb(0xD55E00), kGrey = render::rgb(0x777777),
+                                   kSteel = render::rgb(0xE6E8EC);
+
+    std::vector<Shape> take() { return std::move(shapes_); }
+
+    void add(Shape shape) { shapes_.push_back(std::move(shape)); }
+    void line(Vec2 a, Vec2 b, render::Color color, double width = 0, std::vector<double> dash = {}) {
+        add({.kind = Kind::line, .points = {a, b}, .color = color, .width = width, .dash = std::move(dash)});
+    }
+    void arrow(Vec2 a, Vec2 b, render::Color color = kInk, double width = 0) {
+        add({.kind = Kind::arrow, .points = {a, b}, .color = color, .width = width});
+    }
+    void label(Vec2 at, const char* markup, Vec2 shift, render::Color color = kInk) {
+        add({.kind = Kind::label, .points = {at}, .color = color, .markup = markup, .shift = shift});
+    }
+    void dot(Vec2 at, render::Color color = kInk, double radius = 1.5) {
+        add({.kind = Kind::disc, .centre = at, .radius_points = radius, .color = color});
+    }
+    // Between the two points, with both heads.
+    void dimension(Vec2 a, Vec2 b, render::Color color = kGrey) {
+        const Vec2 middle = 0.5 * (a + b);
+        arrow(middle, a, color);
+        arrow(middle, b, color);
+    }
+    void disc(Vec2 at, double radius) {
+        add({.kind = Kind::disc, .centre = at, .radius = radius, .color = kSteel});
+        add({.kind = Kind::circle, .centre = at, .radius = radius, .color = kInk, .width = 0.9});
+    }
+
+  private:
+    std::vector<Shape> shapes_;
+};
+
+// ---- the symbols of the cam's disc: R, e, B, C and ω ------------------------------------------------
+
+// Places of the labels of the disc about its centre, in its radius.
+struct DiscSymbols {
+    Vec2 radius;         // direction of the arrow R
+    Vec2 radius_label;   // from the middle of the arrow, in letters
+    double turning = 0;  // of the arrow ω, its middle
+};
+
+// The least distance between two of the labels R, ω, e, B and C, or between one and the arrow of another.
+double room(const sim::Cam& cam, const DiscSymbols& s, double letter) {
+    const Vec2 along = sim::unit(cam.phase), across = sim::perp(along);
+    const Vec2 c = -cam.eccentricity / cam.radius * along;
+    const Vec2 labels[] = {0.5 * s.radius + letter * s.radius_label,
+                           (0.8 - 0.85 * letter) * sim::unit(s.turning + 0.05),
+                           0.3 * across + 0.2 * along + letter * (0.6 * along + 0.1 * across),
+                           letter * (0.85 * along - 0.35 * across), c - letter * (0.85 * along - 0.2 * across)};
+    double least = 1;
+    for (std::size_t a = 0; a < std::size(labels); ++a) {
+        for (std::size_t b = 0; b < a; ++b) least = std::min(least, norm(labels[a] - labels[b]));
+        for (double share = 0.2; a > 0 && share < 1; share += 0.1)
+            least = std::min(least, norm(labels[a] - share * s.radius) + 0.3 * letter);
+    }
+    return least;
+}
+
+// The default places if they have room, else the best of others.
+DiscSymbols disc_symbols(const sim::Cam& cam, double letter) {
+    constexpr double kPi = std::numbers::pi;
+    const double enough = 1.4 * letter;
+    DiscSymbols best{sim::unit(-0.72 * kPi), {0.75, -0.35}, 0};
+    double most = room(cam, best, letter);
+    if (most >= enough || cam.eccentricity == 0) return best;
+    constexpr int kDirections = 24;
+    for (int r = 0; r < kDirections; ++r)
+        for (const double side : {0.85, -0.85})
+            for (int turn = 0; turn < kDirections; ++turn) {
+                const Vec2 out = sim::unit(2 * kPi * r / kDirections);
+                const DiscSymbols other{out, side * sim::perp(out), 2 * kPi * turn / kDirections};
+                if (const double each = room(cam, other, letter); each > most) most = each, best = other;
+            }
+    return best;
+}
+
+// On the disc drawn `zoom` times as large, its centre B here. `letter`: size of letters, in radii of the disc.
+void draw_disc_symbols(const sim::Cam& cam, Vec2 b, double zoom, double letter, Sketch& to) {
+    const double radius = zoom * cam.radius;
+    const Vec2 c = b - zoom * cam.eccentricity * sim::unit(cam.phase);
+    const DiscSymbols at = disc_symbols(cam, letter);
+    const Vec2 along = sim::unit(cam.phase), rim = b + radius * at.radius;
+    to.arrow(b, rim);
+    to.label(0.5 * (b + rim), "$R$", at.radius_label);
+    if (cam.eccentricity > 0) {
+        const Vec2 across = sim::perp(along) * (0.30 * radius);
+        to.line(c, c + 1.15 * across, Sketch::kGrey);
+        to.line(b, b + 1.15 * across, Sketch::kGrey);
+        to.arrow(c + across - along * (0.2 * radius), c + across, Sketch::kGrey);
+        to.arrow(b + across + along * (0.2 * radius), b + across, Sketch::kGrey);
+        to.label(b + across + along * (0.2 * radius), "$e$", 0.6 * along + 0.1 * sim::perp(along));
+        to.label(b, "$B$", 0.85 * along - 0.35 * sim::perp(along));
+    }
+    to.dot(c);
+    to.dot(b, Sketch::kInk, 1.2);
+    if (cam.eccentricity > 0)
+        to.label(c, "$C$", -0.85 * along + 0.2 * sim::perp(along));
+    else
+        to.label(c, "$B$ = $C$", {-0.85, 0.9});
+    if (cam.speed == 0) return;
+    const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
+    to.add({.kind = Sketch::Kind::turn,
+            .centre = b,
+            .radius = r,
+            .from = at.turning - 0.9 * way + 0.2,
+            .to = at.turning + 0.5 * way + 0.2,
+            .color = Sketch::kInk,
+            .width = 0.8});
+    to.label(b + r * sim::unit(at.turning + 0.1), "$ω$", -0.85 * sim::unit(at.turning));
+}
+
+// ---- the system -------------------------------------------------------------------------------------
 
 // A beam that rests on the cam lies along the tangent from the hub's axis; it sags by much less than a line is wide.
 double start_angle(const sim::Problem& p) {
@@ -24,7 +141,7 @@ double start_angle(const sim::Problem& p) {
     return reach < 1 ? std::atan2(b.y, b.x) + std::asin(reach) : p.initial.angle;
 }
 
-// At other angles the symbols of beam and frames would stand on each other.
+// At other angles the symbols of beam and frames would overlap.
 double drawn_angle(const sim::Problem& p) {
     const double angle = std::clamp(start_angle(p), -1.4, 1.4);
     return std::abs(angle) < 0.15 ? 0.15 : angle;
@@ -50,21 +167,32 @@ class Drawing : private Sketch {
     }
 
   private:
-    // The disc as it is, and magnified beside it with its symbols, which would not fit into it.
+    static constexpr double kDimension = 0.12;   // distance of the dimension L from the beam, in lengths
+    static constexpr double kMagnified = 0.235;  // radius of the magnified disc, in lengths
+
+    // [m], about; a cam on the left makes the drawing wider, and letters larger in it.
+    double letter_height() const {
+        const bool wide = p_.cam && p_.cam->centre.x < 0;
+        return (wide ? 1.5 : 1) * letter_ * kMagnified * unit_;
+    }
+
+    // The disc to scale, and magnified beside it with its symbols, for which it is too small.
     void cam() {
         const sim::Cam& cam = *p_.cam;
         const Vec2 c = cam.centre, b = disc_centre(cam, 0);
         disc(b, cam.radius);
         dot(c);
         const double near = c.x < 0 ? 0.7 : 1;  // the drawing is wider then, and the disc smaller on paper
-        label(c, "$C$", near * Vec2{-0.75, c.y > 0 ? 0.8 : -0.8});  // clear of the axis X
+        const Vec2 beside = near * Vec2{-0.75, c.y > 0 ? 0.8 : -0.8};  // clear of the axis X
+        // Within the disc, or on the magnified one alone.
+        if (norm(c + letter_height() * beside - b) + 0.3 * letter_height() < cam.radius) label(c, "$C$", beside);
         const double low = std::min(b.y, c.y) - cam.radius - 0.13 * unit_;
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
         dimension({0, low}, {c.x, low});
         label({0.5 * c.x, low}, "$D$", {0, -0.85});
 
-        const double radius = 0.235 * unit_, zoom = radius / cam.radius;
+        const double radius = kMagnified * unit_, zoom = radius / cam.radius;
         const double away = (1.2 * cam.radius + 1.35 * radius) * (c.x < 0 ? -1 : 1);  // from the hub
         const Vec2 centre{b.x + away, std::min(-0.06 * unit_, c.y) - 1.12 * radius};
         // Common tangents, so that the eye follows.
@@ -85,7 +213,11 @@ class Drawing : private Sketch {
         arrow({-0.06 * unit_, 0}, {reach, 0});
         label({reach, 0}, "$X$", {0.2, -0.9});
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
-        label({0, 0.42 * unit_}, "$Y$", theta_ > 1.1 ? Vec2{0, 0.75} : Vec2{-0.9, -0.2});
+        // Beside the arrow, or above it for a steep beam unless the dimension of the beam passes there.
+        const double height = 0.46 * unit_, line = height / std::tan(theta_) - kDimension * size_ / std::sin(theta_);
+        Vec2 beside{-0.9, -0.2};
+        if (theta_ > 1.1) beside = std::abs(line) > 0.03 * unit_ ? Vec2{0, 0.75} : Vec2{line > 0 ? -0.9 : 0.9, -0.2};
+        label({0, 0.42 * unit_}, "$Y$", beside);
         label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
         arrow({0, 0}, 1.16 * size_ * i, kGrey);
@@ -111,10 +243,12 @@ class Drawing : private Sketch {
             const double at = 0.70;
             const Vec2 foot = (p_.hub.radius + at * p_.beam.length) * i, sagging = on_beam(at);
             arrow(foot, sagging, kRed, 0.9);
-            label(sagging, "$v$($x$, $t$)", {2.4, -0.7}, kRed);
+            // Above the beam where the axis X is close below it.
+            const bool low = sagging.y > 0 && sagging.y < 1.25 * letter_height();
+            label(low ? foot : sagging, "$v$($x$, $t$)", low ? Vec2{0, 1} : Vec2{2.4, -0.7}, kRed);
         }
         // Length, beside the beam.
-        const Vec2 off = 0.12 * size_ * j;
+        const Vec2 off = kDimension * size_ * j;
         line(p_.hub.radius * i + 0.25 * off, p_.hub.radius * i + 1.1 * off, kGrey);
         line((p_.hub.radius + p_.beam.length) * i + 0.25 * off, (p_.hub.radius + p_.beam.length) * i + 1.1 * off,
              kGrey);
@@ -150,7 +284,7 @@ class Drawing : private Sketch {
     void gravity() {
         const double x = 0.28 * size_;
         // Above the dimension of the beam, which is low where the beam is.
-        const double line = x * std::tan(theta_) + 0.12 * size_ / std::cos(theta_), length = 0.17 * unit_;
+        const double line = x * std::tan(theta_) + kDimension * size_ / std::cos(theta_), length = 0.17 * unit_;
         double low = 0.98 * size_ * std::sin(theta_) - length;
         if (theta_ > 0 && theta_ < 0.7) low = std::max(low, line + 0.05 * unit_);
         const Vec2 from{x, low + length}, to{x, low};
@@ -206,8 +340,6 @@ FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studi
     const Lang lang = how.lang;
     return [problem = scene.problem, lang, letter = letter_of(how)](const Results&) {
         Figure figure;
-        figure.name = "schematic";
-        figure.title = lang == Lang::en ? "The system and its symbols" : "系统与符号";
         Panel panel;
         panel.shapes = Drawing(problem, letter).shapes();
         figure.panels.push_back(std::move(panel));

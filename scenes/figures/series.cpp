@@ -1,4 +1,7 @@
-#include "scenes/figures/series.hpp"
+// The figure "series" draws any channels against the time, the turns of the cam or another channel, of one motion or of
+// several; the figures "angle", "speeds", "tip-vibration" and "energy" are series with given keys.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -7,18 +10,25 @@
 #include <map>
 
 #include "render/plot/channel_label.hpp"
+#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series_caption.hpp"
 #include "scenes/figures/series_panels.hpp"
 #include "scenes/figures/series_plan.hpp"
-#include "scenes/figures/series_words.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Panel;
-using render::figure::Series;
+// How a figure by name presents its series.
+struct SeriesPreset {
+    const char* name = "series";
+    std::string title, caption;  // empty: by the channels
+    double aspect = 0;           // 0: by the panels
+    double weight = 0.9;         // of the lines
+    bool horizon = true;         // curves are paler where θ is not reproducible
+    std::string (*caption_of)(const Figure& figure, Lang lang) = nullptr;  // instead of `caption`
+};
 
-// Panels of several motions have one scale, so that heights compare.
+// Gives the panels of several motions one scale, so that they compare.
 void share_ordinates(Figure& figure) {
     const double infinity = std::numeric_limits<double>::infinity();
     std::map<std::string, std::pair<double, double>> ranges;  // by what the panels show
@@ -41,21 +51,22 @@ std::string usual_title(const SeriesPlan& plan) {
     return plan.lang == Lang::en ? first.words : first.chinese;
 }
 
-Figure series_figure(const SeriesPlan& plan, const SeriesWords& words, const Results& results) {
+Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const Results& results) {
     Figure figure;
-    figure.name = words.name;
     for (const PlannedPanel& planned : plan.panels)
-        std::ranges::move(series_panels(plan, planned, results, words.weight), std::back_inserter(figure.panels));
+        std::ranges::move(series_panels(plan, planned, results, preset.weight), std::back_inserter(figure.panels));
     if (figure.panels.size() > 1)
         for (std::size_t k = 0; k < figure.panels.size(); ++k) figure.panels[k].letter = panel_letter(k);
     plan.abscissa.share(figure, plan.motions.front().problem);
     if (plan.keys.apart) share_ordinates(figure);
     figure.stack = figure.share_x = true;
-    figure.aspect = words.aspect > 0 ? words.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
-    figure.title = words.title.empty() ? usual_title(plan) : words.title;
-    const std::string subject = words.caption_of        ? words.caption_of(figure, plan.lang)
-                                : words.caption.empty() ? series_subject(plan.keys, plan.lang)
-                                                        : words.caption;
+    const bool all_shown = figure.panels.size() >= plan.panels.size();
+    figure.aspect =
+        preset.aspect > 0 && all_shown ? preset.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
+    figure.title = preset.title.empty() ? usual_title(plan) : preset.title;
+    const std::string subject = preset.caption_of        ? preset.caption_of(figure, plan.lang)
+                                : preset.caption.empty() ? series_subject(plan.keys, plan.lang)
+                                                         : preset.caption;
     figure.caption = series_caption(plan, subject, figure, results);
     std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
     for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.study]);
@@ -63,14 +74,128 @@ Figure series_figure(const SeriesPlan& plan, const SeriesWords& words, const Res
     return figure;
 }
 
-}  // namespace
-
-FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesWords& words, Lang lang,
+// `keys` has panels.
+FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesPreset& preset, Lang lang,
                            Studies& studies) {
     SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang)};
-    plan.sums = words.sums, plan.horizon = words.horizon;
-    complete(plan, scene, words.name, studies);
-    return [plan, words](const Results& results) { return series_figure(plan, words, results); };
+    plan.horizon = preset.horizon;
+    complete(plan, scene, preset.name, studies);
+    return [plan, preset](const Results& results) { return series_figure(plan, preset, results); };
 }
+
+// ---- the named ones -------------------------------------------------------------------------------
+
+constexpr Translated kAngleTitle{"Hub angle", "转角"};
+constexpr Translated kSpeedsTitle{"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"};
+constexpr Translated kEnergyTitle{"Energy balance", "能量账目"};
+constexpr Translated kTipTitle{"Transverse vibration of the free end", "自由端的横向振动"};
+
+FigureMaker prepare_keys(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    SeriesKeys keys = how.series;
+    if (keys.panels.empty()) keys.panels = {{.channels = {{ChannelKind::theta, 0}}}};
+    return prepare_series(scene, keys, {}, how.lang, studies);
+}
+
+FigureMaker prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    return prepare_series(scene, {.panels = {{.channels = {{ChannelKind::theta, 0}}}}},
+                          {"angle", kAngleTitle.in(how.lang), {}, 0.55}, how.lang, studies);
+}
+
+FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    SeriesKeys keys{.panels = {{.channels = {{ChannelKind::theta, 0}}}}, .apart = true};
+    for (const double speed : kPaperSpeeds) {
+        keys.compare.push_back({fmt::format("$ω$ = {} rad s^{{−1}}", number(speed, 3)), scene.problem});
+        keys.compare.back().problem.cam->speed = speed;
+    }
+    const Translated caption{"Hub angle $θ$ for three speeds of the cam, clockwise",
+                             "三种凸轮转速（顺时针）下的转角 $θ$"};
+    return prepare_series(scene, keys, {"speeds", kSpeedsTitle.in(how.lang), caption.in(how.lang), 1.25}, how.lang,
+                          studies);
+}
+
+FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const SeriesKeys keys{
+        .panels = {{.channels = {{ChannelKind::tip_deflection, 0}}, .lines = {0}, .label = "$v$($L$, $t$)"}}};
+    const Translated with{"Transverse deflection of the free end from the tangent at the root",
+                          "自由端相对根部切线的横向挠度"},
+        without{"Transverse deflection of the free end from the tangent at the root, without a cam",
+                "自由端相对根部切线的横向挠度（无凸轮）"};
+    const Translated& caption = scene.problem.cam ? with : without;
+    return prepare_series(scene, keys, {"tip-vibration", kTipTitle.in(how.lang), caption.in(how.lang), 0.55, 0.75},
+                          how.lang, studies);
+}
+
+// Names the curves of the first panel; explains the second, if there is one.
+std::string energy_caption(const Figure& figure, Lang lang) {
+    const bool en = lang == Lang::en, both = figure.panels.size() > 1;
+    std::vector<std::string> names;
+    for (const Series& s : figure.panels.front().series) names.push_back(s.label);
+    names.pop_back();  // the sum
+    const Translated closure{
+        ". (b) Magnitude of the change of that sum, which is zero for the exact solution; values below 10^{−12} of the "
+        "largest energy are rounding errors and are drawn at the lower edge",
+        "。(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘"};
+    return filled(en ? "Energy: {}{}; the black line is the sum of the energies stored and lost less the external work"
+                     : "能量：{}{}；黑线为储能与损失之和减去外功",
+                  both ? "(a) " : "", fmt::format("{}", fmt::join(names, en ? ", " : "、"))) +
+           (both ? closure.in(lang) : "");
+}
+
+// Only the energies that the scene can have.
+std::vector<SeriesSum> energies_of(const sim::Problem& p, Lang lang) {
+    using Kind = ChannelKind;
+    const bool bends = p.beam.model != sim::ModelKind::rigid,
+               compressed = p.cam && p.contact.model == sim::ContactModel::compliant;
+    const std::vector<sim::Channel> lost{{Kind::loss_structural}, {Kind::loss_contact}, {Kind::loss_friction}},
+        work{{Kind::work_cam}, {Kind::work_drive}};
+    std::vector<SeriesSum> sums;
+    const auto add = [&](Translated label, std::vector<sim::Channel> plus) {
+        sums.push_back({label.in(lang), std::move(plus)});
+    };
+    add({"kinetic", "动能"}, {{Kind::energy_kinetic}});
+    if (p.gravity != 0) add({"potential", "重力势能"}, {{Kind::energy_potential}});
+    if (bends || compressed)
+        add(!compressed ? Translated{"bending", "弯曲能"}
+            : bends     ? Translated{"bending and contact", "弯曲与接触能"}
+                        : Translated{"contact", "接触能"},
+            {{Kind::energy_elastic}, {Kind::energy_contact}});
+    add({"lost", "损失"}, lost);
+    add({"external work", "外功"}, work);
+    std::vector<sim::Channel> all{
+        {Kind::energy_kinetic}, {Kind::energy_potential}, {Kind::energy_elastic}, {Kind::energy_contact}};
+    all.insert(all.end(), lost.begin(), lost.end());
+    sums.push_back({Translated{"sum − work", "总和 − 外功"}.in(lang), all, work});
+    return sums;
+}
+
+FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies& studies) {
+    const SeriesKeys keys{
+        .panels = {{.channels = {{ChannelKind::energy_kinetic, 0}},
+                    .sums = energies_of(scene.problem, how.lang),
+                    .label = "$E$"},
+                   {.channels = {{ChannelKind::energy_residual, 0}}, .logarithmic = true, .label = "|$ΔE$|"}}};
+    return prepare_series(scene, keys,
+                          {.name = "energy",
+                           .title = kEnergyTitle.in(how.lang),
+                           .caption = {},
+                           .aspect = 1.05,
+                           .weight = 0.75,
+                           .horizon = false,
+                           .caption_of = energy_caption},
+                          how.lang, studies);
+}
+
+std::optional<std::string> needs_vibration(const Scene& scene) {
+    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
+    return "a rigid beam does not vibrate; choose another beam.model";
+}
+
+}  // namespace
+
+const Recipe kSeries{"series", {"Any channels, of one motion or of several", "任意通道"}, no_refusal, prepare_keys};
+const Recipe kAngle{"angle", kAngleTitle, no_refusal, prepare_angle};
+const Recipe kSpeeds{"speeds", kSpeedsTitle, needs_cam, prepare_speeds};
+const Recipe kEnergy{"energy", kEnergyTitle, no_refusal, prepare_energy};
+const Recipe kTipVibration{"tip-vibration", kTipTitle, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

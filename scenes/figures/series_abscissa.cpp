@@ -7,21 +7,16 @@
 #include <utility>
 
 #include "render/plot/channel_label.hpp"
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_curves.hpp"
 
 namespace beamcam::scenes {
 
-using render::figure::Figure;
-using render::figure::Panel;
-using render::figure::Series;
 using sim::Channel;
-using sim::ChannelKind;
 
 namespace {
 
-constexpr double kShort = 0.05;  // a stretch with milliseconds on its axis [s]
+constexpr double kShort = 0.05;  // an interval whose axis is in milliseconds [s]
 constexpr double kAir = 0.03;    // beside the curves, of their extent
 
 // Angles along x become phases, 0…1.
@@ -90,9 +85,9 @@ SeriesAbscissa::Extent SeriesAbscissa::extent(const Figure& figure) const {
 
 void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {
     Extent range = extent(figure);
-    // A logarithmic panel leaves out what is not positive; its axis stays that of the others.
+    // A logarithmic panel omits what is not positive, but has the same axis.
     const double air = channel_ && !is_phase() ? kAir * (range.high - range.low) : 0;
-    // Seconds, as in print, unless a stretch is short.
+    // Seconds, as usual in print, unless the interval is short.
     if (!channel_ && range.high - range.low >= kShort) range.largest = 1;
     if (is_phase()) range.low = 0, range.high = 1;
     if (low_) range.low = *low_ + air;

@@ -1,4 +1,4 @@
-// What a series is drawn against: the time, the turns of the cam, its phase, the frequency or a channel.
+// The x axis of a series: time, turns of the cam, phase of the cam, frequency or a channel.
 #pragma once
 
 #include <optional>
@@ -21,13 +21,13 @@ class SeriesAbscissa {
 
     // Of each row of a table whose last channel is drawn, in SI units or turns.
     std::vector<double> of(const sim::Table& table, const sim::Problem& problem) const;
-    // Of each row of data; nothing where they do not hold it. The cam's law gives its angle.
+    // Of each row of data; nothing if they do not hold it. The angle of the cam follows from its law.
     std::optional<std::vector<double>> of(const Measurement& data, const sim::Problem& problem) const;
-    // Along the axis: 1 for seconds, the turns of the cam for turns.
+    // The factor from seconds to the axis: 1, or the cam's turns per second.
     double per_second(const sim::Problem& problem) const;
-    // Angles of the cam become phases of a turn; a line begins anew with each turn.
+    // Turns angles of the cam into phases of a turn; a line is broken at each turn.
     void fold(render::figure::Series& curve) const;
-    // One axis for all panels, with its label and unit.
+    // Gives all panels one axis, with its label and unit.
     void share(render::figure::Figure& figure, const sim::Problem& problem) const;
 
   private:

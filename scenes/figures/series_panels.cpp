@@ -9,20 +9,73 @@
 
 #include "render/base/error.hpp"
 #include "render/plot/channel_label.hpp"
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_curves.hpp"
-#include "scenes/figures/series_rules.hpp"
 #include "scenes/figures/series_spectrum.hpp"
+#include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 using render::Axis;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 using sim::Channel;
+
+// ---- vertical lines at instants [s] ---------------------------------------------------------------
+
+using Rules = std::vector<render::figure::Rule>;
+
+constexpr std::size_t kMostRules = 60;  // more lines than these hide the curves
+
+template <class Touch>
+Rules starts_of(const std::vector<Touch>& touches, double from, double to) {
+    Rules out;
+    for (const Touch& touch : touches)
+        if (touch.t_start >= from && touch.t_start <= to) out.push_back({.at = touch.t_start, .vertical = true});
+    return out;
+}
+
+Rules impact_rules(const sim::Result& result, double from, double to) {
+    Rules rules = marks_collisions(result, from, to) ? starts_of(result.collisions, from, to)
+                                                     : starts_of(result.impacts, from, to);
+    return rules.size() > kMostRules ? Rules{} : rules;
+}
+
+// The ends of the intervals in which θ is not reproducible.
+Rules horizon_rules(const sim::Result& result, double from, double to) {
+    Rules rules;
+    for (const Lost& lost : unreliable(result, to))
+        for (const double t : {lost.from, lost.to})
+            if (t > from && t < to) rules.push_back({.at = t, .vertical = true});
+    return rules;
+}
+
+// Throws PictureError for an event that the motion does not have, or has outside of the interval.
+Rules note_rules(const std::vector<SeriesNote>& notes, const sim::Result& result, double from, double to,
+                 bool with_text) {
+    Rules rules;
+    for (const SeriesNote& note : notes) {
+        const double t = note.at.kind == Instant::Kind::last ? to : instant_of(note.at, result);
+        if (t < from || t > to)
+            throw render::PictureError(
+                fmt::format("series: the note at {} is outside of {:g} s … {:g} s", name_of(note.at), from, to));
+        rules.push_back({.at = t, .vertical = true, .label = with_text ? note.text : ""});
+    }
+    return rules;
+}
+
+// ---- values ---------------------------------------------------------------------------------------
+
+// Only differences of potential energy are physical: its least value becomes zero.
+std::vector<double> above_zero(std::vector<double> values, Channel channel) {
+    if (channel.kind != sim::ChannelKind::energy_potential || values.empty()) return values;
+    const double least = *std::ranges::min_element(values);
+    for (double& v : values) v -= least;
+    return values;
+}
+
+bool has_values(const sim::Table& table) {  // in its last channel
+    return std::ranges::any_of(table.values.back(), [](double v) { return std::isfinite(v); });
+}
 
 // One axis of a panel: its curves, and how they are written.
 struct Side {
@@ -66,8 +119,8 @@ class SeriesPanelMaker {
     }
 
   private:
-    bool has_sums() const { return planned_.number == 0 && !plan_.sums.empty(); }
-    // On a logarithmic axis what the energy balance changes by is a magnitude.
+    bool has_sums() const { return !keys_.sums.empty(); }
+    // A logarithmic axis shows the magnitude of the change of the energy balance.
     bool is_closure() const {
         return keys_.logarithmic && keys_.channels.front().kind == sim::ChannelKind::energy_residual;
     }
@@ -78,7 +131,7 @@ class SeriesPanelMaker {
         const bool own_label = !side.right && !keys_.label.empty();
         axis.label =
             axis_label(own_label ? keys_.label : fmt::format("{}", fmt::join(side.symbols, ", ")), side.measure.unit);
-        for (std::size_t i = 0; i < side.curves.size(); ++i) has_sums() ? add_sum(side, i) : add_curve(side, i);
+        for (std::size_t i = 0; i < side.curves.size(); ++i) side.curves[i].sum ? add_sum(side, i) : add_curve(side, i);
         if (std::ranges::find(planned_.motions, plan_.measured_motion) != planned_.motions.end()) add_data(side);
         if (side.right) return;
         for (auto* limit : {&axis.from, &axis.to})
@@ -87,12 +140,12 @@ class SeriesPanelMaker {
         if (is_closure()) begin_at_rounding(side);
     }
 
-    // The rows of the curves; panels of motions apart have one unit.
+    // Reads the rows of the curves. Separate panels of several motions have one unit.
     void read(Side& side) const {
         double most = 0;
         for (const SeriesCurve& curve : side.curves) {
             side.rows.push_back(rows_of(curve));
-            most = std::max(most, largest(side.rows.back().values.back()));
+            most = std::max(most, largest_magnitude(side.rows.back().values.back()));
         }
         if (plan_.keys.apart) most = std::max(most, largest_of_all(side.right));
         const Channel& first = side.channels.front();
@@ -100,7 +153,7 @@ class SeriesPanelMaker {
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(first), plan_.keys.from, plan_.end));
         const std::string si = unit(first, plan_.motions.front().problem);
-        side.measure = plan_.sums.empty() ? measure_of(si, most) : Measure{1, si};
+        side.measure = plan_.has_sums() ? Measure{1, si} : measure_of(si, most);
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
                 filled(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}", render::print_symbol(channel)));
@@ -112,7 +165,7 @@ class SeriesPanelMaker {
             if (is_closure()) v = std::max(std::abs(v), rounding(curve));
         return rows;
     }
-    // Below it the balance is rounding, another on every machine.
+    // Below it the change of the energy balance is rounding, which differs between machines.
     double rounding(const SeriesCurve& curve) const {
         return 1e-12 * results_[plan_.motions[curve.motion].study]->energy_scale;
     }
@@ -121,23 +174,23 @@ class SeriesPanelMaker {
         for (const PlannedPanel& panel : plan_.panels)
             if (panel.number == planned_.number)
                 for (const SeriesCurve& curve : right ? panel.right : panel.left)
-                    most = std::max(most, largest(rows_of(curve).values.back()));
+                    most = std::max(most, largest_magnitude(rows_of(curve).values.back()));
         return most;
     }
 
-    // The lower edge of the axis; where all of it is rounding, and there are other panels, nothing is shown.
+    // Starts the axis at the rounding. A panel that would show rounding alone is omitted if there are others.
     void begin_at_rounding(const Side& side) {
         double floor = 0, most = 0;
         for (std::size_t i = 0; i < side.curves.size(); ++i)
             floor = std::max(floor, rounding(side.curves[i])),
-            most = std::max(most, largest(side.rows[i].values.back()));
+            most = std::max(most, largest_magnitude(side.rows[i].values.back()));
         if (!panel_.y.from && floor > 0) panel_.y.from = floor * side.measure.factor;
         is_rounding_ = plan_.keys.panels.size() > 1 && !(floor > 0 && most > 10 * floor);
     }
 
-    // One of several channels that is nothing throughout is left out.
+    // A sum of several channels that is zero throughout is omitted.
     void add_sum(const Side& side, std::size_t i) {
-        const SeriesSum& sum = plan_.sums[*side.curves[i].sum];
+        const SeriesSum& sum = *side.curves[i].sum;
         const std::vector<double>& values = side.rows[i].values.back();
         if (sum.plus.size() > 1 && std::ranges::all_of(values, [](double v) { return v == 0; })) return;
         constexpr int kBlack = 6;
@@ -194,7 +247,7 @@ class SeriesPanelMaker {
         s.line = true, s.every_point = false, s.right = side.right;
     }
 
-    // Beneath the computed curves. Nothing where the data do not hold what these are drawn against.
+    // Draws data beneath the computed curves, if they hold the quantity of the x axis.
     void add_points(const Measured& measured, Channel channel, const Side& side) {
         const Measurement& data = measured.data;
         const auto along = plan_.abscissa.of(data, plan_.motion_with_data().problem);
@@ -219,14 +272,18 @@ class SeriesPanelMaker {
             if (!part->x.empty()) differences_.series.push_back(std::move(*part));
     }
 
-    // Their unit has a prefix of its own.
+    // Their unit has its own prefix.
     void finish_differences() {
         const Channel& channel = keys_.channels.front();
         double most = 0;
-        for (const Series& each : differences_.series) most = std::max(most, largest(each.y));
+        for (const Series& each : differences_.series) most = std::max(most, largest_magnitude(each.y));
         const Measure measure = measure_of(unit(channel, plan_.motions.front().problem), most);
-        for (Series& each : differences_.series) each.y = scaled(std::move(each.y), measure.factor), each.label.clear();
-        differences_.y.label = axis_label("Δ" + render::print_symbol(channel), measure.unit);
+        const std::string symbol = "Δ" + render::print_symbol(channel);
+        for (Series& each : differences_.series) {
+            each.y = scaled(std::move(each.y), measure.factor);
+            each.name = fmt::format("{}, {}", symbol, std::exchange(each.label, {}));
+        }
+        differences_.y.label = axis_label(symbol, measure.unit);
         differences_.name = name(channel) + " difference";
         differences_.rules.push_back({.at = 0});
         differences_.share = 0.6;
@@ -259,11 +316,15 @@ class SeriesPanelMaker {
     const SeriesMotion& first_;  // of the motions shown
 
     Panel panel_, differences_;
-    bool is_rounding_ = false;  // all that it would show
-    int curves_ = 0;            // so far, on both axes and with data: the look of the next one
+    bool is_rounding_ = false;  // it would show rounding alone
+    int curves_ = 0;            // so far, on both axes and of data; the look of the next one
 };
 
 }  // namespace
+
+bool marks_collisions(const sim::Result& result, double from, double to) {
+    return starts_of(result.impacts, from, to).size() > kMostRules;
+}
 
 std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results,
                                  double weight) {

@@ -1,4 +1,4 @@
-// The panels of a series: the curves of its motions, measured data among them, and lines across.
+// The panels of a series: the curves of its motions, measured data and lines at instants.
 #pragma once
 
 #include <vector>
@@ -8,8 +8,11 @@
 
 namespace beamcam::scenes {
 
-// A planned panel; with `keys.residuals` also, below it, what data differ by. `weight`: of the lines.
+// A planned panel; with `keys.residuals` also a panel of the differences of the data. `weight`: of the lines.
 std::vector<render::figure::Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned,
                                                  const Results& results, double weight);
+
+// Whether lines mark collisions because the impacts between these instants are too many to distinguish.
+bool marks_collisions(const sim::Result& result, double from, double to);
 
 }  // namespace beamcam::scenes

@@ -18,7 +18,7 @@ std::vector<SeriesMotion> motions_of(const Scene& scene, const SeriesKeys& keys)
     return motions;
 }
 
-// Data are of the scene's own motion; where that is not among those shown, they are held against the first.
+// Data belong to the scene's own motion; if it is not shown, they are compared with the first.
 std::size_t motion_measured(const Scene& scene, const std::vector<SeriesMotion>& motions) {
     const std::string own = Studies::key(scene.problem);
     for (std::size_t k = 0; k < motions.size(); ++k)
@@ -45,19 +45,20 @@ std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const SeriesM
     return tables.size() - 1;
 }
 
-// One table for all sums, with the rows that the first of their channels needs.
-void add_sums(const SeriesPlan& plan, std::size_t motion, Studies& studies, std::vector<SeriesCurve>& curves) {
-    constexpr int kSumRows = 8001;  // to begin with: energies swing with whatever the beam does
-    std::vector<sim::ChannelKind> all;
-    for (const SeriesSum& sum : plan.sums)
-        for (const auto* kinds : {&sum.plus, &sum.minus})
-            for (const sim::ChannelKind kind : *kinds)
-                if (std::ranges::find(all, kind) == all.end()) all.push_back(kind);
-    const sim::Channel first{all.front(), 0};
+// One table for all sums of a panel, with the rows that the first of their channels needs.
+void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::size_t motion, Studies& studies,
+              std::vector<SeriesCurve>& curves) {
+    constexpr int kSumRows = 8001;  // to begin with: energies vary as fast as the beam vibrates
+    std::vector<sim::Channel> all;
+    for (const SeriesSum& sum : sums)
+        for (const auto* channels : {&sum.plus, &sum.minus})
+            for (const sim::Channel& channel : *channels)
+                if (std::ranges::find(all, channel) == all.end()) all.push_back(channel);
+    const sim::Channel first = all.front();
     all.erase(all.begin());
     const std::size_t table =
         studies.curve(plan.motions[motion].study, {plan.keys.from, plan.end, kSumRows}, {}, first, all);
-    for (std::size_t k = 0; k < plan.sums.size(); ++k) curves.push_back({first, motion, table, k});
+    for (const SeriesSum& sum : sums) curves.push_back({first, motion, table, sum});
 }
 
 PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std::size_t> motions, Studies& studies) {
@@ -68,19 +69,19 @@ PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std
             for (const std::size_t motion : out.motions)
                 curves.push_back({channel, motion, table_of(plan, channel, plan.motions[motion], studies)});
     };
-    if (number == 0 && !plan.sums.empty())
-        for (const std::size_t motion : out.motions) add_sums(plan, motion, studies, out.left);
-    else
-        add(keys.channels, out.left);
+    if (keys.sums.empty()) add(keys.channels, out.left);
+    for (const std::size_t motion : out.motions)
+        if (!keys.sums.empty()) add_sums(plan, keys.sums, motion, studies, out.left);
     add(keys.right, out.right);
     return out;
 }
 
 sim::Table summed(const sim::Table& rows, const SeriesSum& sum) {
     sim::Table out{{rows.channels[0], rows.channels[1]}, {rows.values[0], std::vector<double>(rows.rows(), 0)}};
-    const auto add = [&](const std::vector<sim::ChannelKind>& kinds, double sign) {
-        for (const sim::ChannelKind kind : kinds) {
-            const std::vector<double>& values = column(rows, kind);
+    const auto add = [&](const std::vector<sim::Channel>& channels, double sign) {
+        for (const sim::Channel& channel : channels) {
+            const auto at = std::ranges::find(rows.channels, channel) - rows.channels.begin();
+            const std::vector<double>& values = rows.values.at(static_cast<std::size_t>(at));
             for (std::size_t i = 0; i < values.size(); ++i)
                 if (std::isfinite(values[i])) out.values[1][i] += sign * values[i];
         }
@@ -93,7 +94,7 @@ sim::Table summed(const sim::Table& rows, const SeriesSum& sum) {
 
 sim::Table SeriesPlan::rows(const SeriesCurve& curve, const Results& results) const {
     const sim::Table& rows = results[motions[curve.motion].study]->tables[curve.table];
-    if (curve.sum) return summed(rows, sums[*curve.sum]);
+    if (curve.sum) return summed(rows, *curve.sum);
     return abscissa.is_frequency() ? spectrum_table(rows, keys.x_high) : rows;
 }
 

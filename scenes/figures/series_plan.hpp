@@ -1,6 +1,7 @@
-// What a series asks of the mechanics: its motions, and a table for each curve of each panel.
+// The simulations that a series needs: its motions, and a table for each curve of each panel.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,16 +19,10 @@ struct SeriesMotion {
     std::size_t study = 0;
 };
 
-// A curve that is a sum of channels of one unit; those that are empty add nothing.
-struct SeriesSum {
-    std::string label;
-    std::vector<sim::ChannelKind> plus, minus = {};  // minus: it is a balance, drawn in black
-};
-
 struct SeriesCurve {
     sim::Channel channel;
-    std::size_t motion = 0, table = 0;    // the table: of the motion's study
-    std::optional<std::size_t> sum = {};  // which it is, in place of the channel
+    std::size_t motion = 0, table = 0;  // the table: of the motion's study
+    std::optional<SeriesSum> sum = {};  // instead of the channel
 };
 
 struct PlannedPanel {
@@ -46,17 +41,19 @@ struct SeriesPlan {
     std::vector<Measured> measured = {};
     std::size_t measured_motion = 0;  // with which data are compared
 
-    std::vector<SeriesSum> sums = {};  // of the first panel, in place of its channels
-    bool horizon = true;               // curves are paler where θ is not reproducible
+    bool horizon = true;  // curves are paler where θ is not reproducible
 
+    bool has_sums() const {
+        return std::ranges::any_of(keys.panels, [](const SeriesPanel& panel) { return !panel.sums.empty(); });
+    }
     const SeriesMotion& motion_with_data() const { return motions[measured_motion]; }
     // The rows of a curve, or its amplitudes by frequency; its values come last.
     sim::Table rows(const SeriesCurve& curve, const Results& results) const;
-    // Where curves are lighter; a spectrum is of all of a stretch.
+    // Where curves are lighter; nowhere in a spectrum, which is of the whole interval.
     std::vector<Lost> lost(const sim::Result& result) const;
 };
 
-// Adds motions and panels to what the plan says of itself. `name`: of the figure, for messages.
+// Adds motions and panels to a plan. `name`: of the figure, for messages.
 void complete(SeriesPlan& plan, const Scene& scene, const char* name, Studies& studies);
 
 }  // namespace beamcam::scenes

@@ -80,7 +80,7 @@ std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channe
     return until(highest, sim::amplitude_spectrum(*values, step));
 }
 
-std::string measured_spectrum_words(const std::vector<Measured>& all, Lang lang) {
+std::string measured_spectrum_text(const std::vector<Measured>& all, Lang lang) {
     const bool en = lang == Lang::en;
     std::string text;
     for (const Measured& each : all) {
@@ -96,10 +96,10 @@ std::string measured_spectrum_words(const std::vector<Measured>& all, Lang lang)
     return text;
 }
 
-std::string spectrum_words(const sim::Problem& problem, double from, double to, Lang lang) {
+std::string spectrum_text(const sim::Problem& problem, double from, double to, Lang lang) {
     const int count = samples(problem, to - from);
     return filled(lang == Lang::en
-                      ? "Amplitude spectrum of the stretch from {} s to {} s less its mean, {} samples, Hann window, "
+                      ? "Amplitude spectrum of the interval from {} s to {} s less its mean, {} samples, Hann window, "
                         "resolution {} Hz. "
                       : "{} s 至 {} s 区间（去均值）的幅值谱，{} 个样本，Hann 窗，分辨率 {} Hz。",
                   number(from, 4), number(to, 4), count, number(1.5 / (to - from), 2));

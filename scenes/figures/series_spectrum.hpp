@@ -1,4 +1,4 @@
-// A series against the frequency: amplitudes of a stretch of a motion.
+// Amplitude spectra: of an interval of a motion and of measured data.
 #pragma once
 
 #include <optional>
@@ -15,9 +15,9 @@ std::vector<double> spectrum_instants(const sim::Problem& problem, double from, 
 sim::Table spectrum_table(const sim::Table& rows, std::optional<double> highest);
 // Of measured values, at their own rate, until `highest`; nothing where their instants are few or not equally spaced.
 std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channel channel, double highest);
-// How fine the spectra of the data are, and which data have none.
-std::string measured_spectrum_words(const std::vector<Measured>& all, Lang lang);
-// Its window, its resolution and the rate of its samples.
-std::string spectrum_words(const sim::Problem& problem, double from, double to, Lang lang);
+// States the resolution of the spectra of the data, and which data have none.
+std::string measured_spectrum_text(const std::vector<Measured>& all, Lang lang);
+// States window, resolution and number of samples.
+std::string spectrum_text(const sim::Problem& problem, double from, double to, Lang lang);
 
 }  // namespace beamcam::scenes

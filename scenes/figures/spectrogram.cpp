@@ -6,24 +6,20 @@
 #include <numbers>
 
 #include "render/plot/channel_label.hpp"
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_curves.hpp"
+#include "scenes/figures/series_caption.hpp"
 #include "scenes/figures/series_spectrum.hpp"
-#include "scenes/figures/series_words.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/observe/spectrum.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Panel;
-
 constexpr std::size_t kSlices = 300, kLines = 240;  // a printed column resolves no more
-constexpr double kDecades = 3;                      // of amplitude that colours tell
+constexpr double kDecades = 3;                      // of amplitude that the colours span
 
-// Amplitudes by windows and groups of lines; of a group the largest counts.
+// Amplitudes by windows and groups of spectral lines: the largest of each group.
 struct Spectrogram {
     double window = 0, hop = 0, first = 0;  // [s]: length, distance, begin of the first
     double line = 0;                        // height of a group [Hz]
@@ -55,7 +51,7 @@ Spectrogram spectrogram(const sim::Table& rows, double window, double highest) {
     return out;
 }
 
-// Without the frequencies above which nothing is shown.
+// Removes the highest frequencies, where no amplitude reaches `least`.
 void shorten(Spectrogram& s, double least) {
     std::size_t shown = 4;
     for (std::size_t i = 0; i < s.amplitude.size(); ++i)
@@ -67,7 +63,7 @@ void shorten(Spectrogram& s, double least) {
     s.amplitude = std::move(kept), s.lines = shown;
 }
 
-// A twentieth of the stretch, but four periods of the slowest vibration where that leaves four windows.
+// A twentieth of the interval, or four periods of the slowest vibration if four such windows fit.
 double usual_window(const sim::Problem& problem, double length) {
     double slowest = 0;  // period [s]
     for (const sim::Mode& mode : sim::natural_modes(problem))
@@ -91,18 +87,18 @@ render::figure::Cells cells_of(const Spectrogram& s, double most, double factor)
     return cells;
 }
 
-std::string spectrogram_words(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
+std::string spectrogram_caption(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
     return filled(
         lang == Lang::en
-            ? "{}: amplitude by frequency and time, a Hann window of {} s each {} s ({} samples a second), resolution "
-              "{} "
-              "Hz; what is a thousand times less than the largest is left white. "
+            ? "{}: amplitude by frequency and time, a Hann window of {} s every {} s ({} samples per second), "
+              "resolution "
+              "{} Hz; amplitudes below a thousandth of the largest are white. "
             : "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} Hz；小于最大值千分之一者不显示。",
         series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3), number(s.hop, 2),
         number(rate, 4), number(1.5 / s.window, 2));
 }
 
-// The first that the keys name, else what vibrates most.
+// The first one that the keys name, else the one that vibrates most.
 sim::Channel channel_of(const Scene& scene, const SeriesKeys& keys) {
     if (!keys.panels.empty() && !keys.panels.front().channels.empty()) return keys.panels.front().channels.front();
     const bool rigid = scene.problem.beam.model == sim::ModelKind::rigid;
@@ -113,7 +109,7 @@ sim::Channel channel_of(const Scene& scene, const SeriesKeys& keys) {
 Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most, const Measure& measure) {
     const double largest = most * measure.factor;
     Panel panel;
-    panel.legend = render::figure::Legend::none;
+    panel.legend = Legend::none;
     panel.x.label = "$t$ / s";
     panel.y.label = "$f$ / Hz";
     panel.y.tight = true;
@@ -151,10 +147,8 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
         Panel panel = spectrogram_panel(channel, s, most, measure_of(sim::unit(channel, problem), most));
         panel.x.from = from, panel.x.to = to;
         Figure figure;
-        figure.name = "spectrogram";
-        figure.title = lang == Lang::en ? "Amplitudes by frequency and time" : "时频谱";
         figure.panels.push_back(std::move(panel));
-        figure.caption = spectrogram_words(channel, s, rate, lang) + facts(problem, lang);
+        figure.caption = spectrogram_caption(channel, s, rate, lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&problem, results[study]}}, lang);
         return figure;
     };
@@ -162,9 +156,9 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
 
 }  // namespace
 
-const Recipe kSpectrogram{"spectrogram",          {"Amplitudes by frequency and time", "时频谱"}, no_refusal,
+const Recipe kSpectrogram{"spectrogram",           {"Amplitudes by frequency and time", "时频谱"}, no_refusal,
                           prepare_spectrogram,
-                          /*takes_stretch=*/true,
+                          /*takes_interval=*/true,
                           /*takes_channel=*/true};
 
 }  // namespace beamcam::scenes

@@ -7,13 +7,10 @@
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/stretch.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Panel;
 using render::figure::Shape;
 using sim::Vec2;
 
@@ -71,7 +68,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<
                    .align = render::HAlign::right});
 }
 
-// Beyond the tip, where no other beam comes.
+// Beyond the tip, where no other beam is drawn.
 void add_instant(const sim::Pose& pose, std::vector<Shape>& out) {
     const Vec2 along = sim::unit(pose.theta);
     const bool level = std::abs(along.x) > 0.5;
@@ -104,14 +101,14 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     if (problem.cam)
         panel.shapes.push_back(
             {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
-    // First and last; together they would stand on each other.
+    // First and last, unless they would overlap.
     add_instant(poses.front(), panel.shapes);
     constexpr double kApart = 0.12;  // [rad]
     if (std::abs(poses.back().theta - poses.front().theta) > kApart) add_instant(poses.back(), panel.shapes);
     return panel;
 }
 
-std::string strobe_caption(std::size_t count, const Stretch& shown, Lang lang) {
+std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang) {
     const bool en = lang == Lang::en;
     return count == 1
                ? filled(en ? "The mechanism at {} s, deflection to scale. " : "{} s 时的机构，挠度按比例。",
@@ -124,17 +121,15 @@ std::string strobe_caption(std::size_t count, const Stretch& shown, Lang lang) {
 
 FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
-    const Stretch shown = stretch(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
+    const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
     return [=, problem = scene.problem, lang = how.lang](const Results& results) {
         const sim::Result& result = *results[shown.study];
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
         render::Bounds extent;
         Figure figure;
-        figure.name = "strobe";
-        figure.title = lang == Lang::en ? "The mechanism at several instants" : "机构的多时刻叠加";
         figure.panels.push_back(strobe_panel(poses, problem, extent));
-        // As the shapes need it, with the room around them and for words beside them.
+        // The shapes with a margin and room for labels.
         figure.aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
         figure.caption = strobe_caption(poses.size(), shown, lang) + facts(problem, lang);

@@ -7,12 +7,11 @@
 
 namespace beamcam::scenes {
 
-std::vector<double> instants(const Instants& wanted) {
+std::vector<double> instants(const Instants& grid) {
     std::vector<double> times;
-    times.reserve(static_cast<std::size_t>(wanted.count));
-    for (int k = 0; k < wanted.count; ++k)
-        times.push_back(k + 1 == wanted.count ? wanted.to
-                                              : wanted.from + (wanted.to - wanted.from) * k / (wanted.count - 1));
+    times.reserve(static_cast<std::size_t>(grid.count));
+    for (int k = 0; k < grid.count; ++k)
+        times.push_back(k + 1 == grid.count ? grid.to : grid.from + (grid.to - grid.from) * k / (grid.count - 1));
     return times;
 }
 
@@ -23,15 +22,18 @@ std::string Studies::key(const sim::Problem& problem) {
 }
 
 std::size_t Studies::of(const sim::Problem& problem, double end_time, const std::string& because) {
-    const std::string wanted = key(problem);
-    const auto known = std::find(keys_.begin(), keys_.end(), wanted);
-    const auto index = static_cast<std::size_t>(known - keys_.begin());
-    if (known == keys_.end()) {
-        keys_.push_back(wanted);
+    const std::string physics = key(problem);
+    const auto found = std::find(keys_.begin(), keys_.end(), physics);
+    const auto index = static_cast<std::size_t>(found - keys_.begin());
+    if (found == keys_.end()) {
+        keys_.push_back(physics);
+        users_.push_back(0);
         all_.push_back({.problem = problem, .request = {}, .because = {}});
         all_.back().request.turning_points = false;
     }
     Study& study = all_[index];
+    ++users_[index];
+    study.request.enough.reset();
     if (study.because.empty() || end_time > study.request.end_time) {
         study.request.end_time = std::max(end_time, study.request.end_time);
         study.because = because;
@@ -39,29 +41,33 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time, const std:
     return index;
 }
 
+void Studies::stop_after(std::size_t study, const sim::EventCounts& events) {
+    if (users_[study] == 1) request(study).enough = events;
+}
+
 std::size_t Studies::table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels) {
     grids_.resize(std::max(grids_.size(), study + 1));
     std::vector<sim::TableRequest>& tables = request(study).tables;
-    auto known = std::find_if(grids_[study].begin(), grids_[study].end(), [&](const auto& g) { return g.first == at; });
-    if (known == grids_[study].end()) {
+    auto grid = std::find_if(grids_[study].begin(), grids_[study].end(), [&](const auto& g) { return g.first == at; });
+    if (grid == grids_[study].end()) {
         tables.push_back({instants(at), {}});
         grids_[study].emplace_back(at, tables.size() - 1);
-        known = grids_[study].end() - 1;
+        grid = grids_[study].end() - 1;
     }
-    std::vector<sim::Channel>& all = tables[known->second].channels;
+    std::vector<sim::Channel>& all = tables[grid->second].channels;
     for (const sim::ChannelKind kind : channels)
         if (std::find(all.begin(), all.end(), sim::Channel{kind, 0}) == all.end()) all.push_back({kind, 0});
-    return known->second;
+    return grid->second;
 }
 
 std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
-                           const std::vector<sim::ChannelKind>& also) {
+                           const std::vector<sim::Channel>& also) {
     const sim::Channel time{};
     constexpr double kStray = 0.002;  // a quarter of a line's width in a column
     sim::TableRequest table{instants(at), {time}, std::pair(x, y), kStray};
     if (x != time) table.channels.push_back(x);
     table.channels.push_back(y);
-    for (const sim::ChannelKind kind : also) table.channels.push_back({kind, 0});
+    table.channels.insert(table.channels.end(), also.begin(), also.end());
     request(study).tables.push_back(std::move(table));
     return request(study).tables.size() - 1;
 }
@@ -75,7 +81,7 @@ std::size_t Studies::point(std::size_t study, double x, const Instants& at) {
 const std::vector<double>& column(const sim::Table& table, sim::ChannelKind channel) {
     for (std::size_t i = 0; i < table.channels.size(); ++i)
         if (table.channels[i].kind == channel) return table.values[i];
-    throw std::logic_error("a figure reads a channel that it did not ask for");
+    throw std::logic_error("a figure reads a channel that it did not request");
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// What figures want of the mechanics: one simulation for each physics, however many figures look at it.
+// The simulations that figures need: one for each physics, shared by all figures.
 #pragma once
 
 #include <optional>
@@ -18,10 +18,10 @@ struct Scene;
 struct Study {
     sim::Problem problem;
     sim::Request request;
-    std::string because;    // who looks furthest
-    bool of_scene = false;  // the scene's own physics; told by the plan
-    // A physics of the figure's own choosing: where it cannot be integrated to the end its result holds what was
-    // reached, or nothing, and the figure does without the rest.
+    std::string because;    // the figure that needs the longest run
+    bool of_scene = false;  // the scene's own physics; for the plan
+    // A physics that the figure chose: if it cannot be integrated to the end, its result holds the part that was
+    // reached, or nothing, and the figure omits the rest.
     bool may_fail = false;
 };
 
@@ -31,7 +31,7 @@ struct Instants {
     int count = 2;            // >= 2
     bool operator==(const Instants&) const = default;
 };
-std::vector<double> instants(const Instants& wanted);
+std::vector<double> instants(const Instants& grid);
 
 class Studies {
   public:
@@ -39,24 +39,27 @@ class Studies {
     std::size_t of(const sim::Problem& problem, double end_time, const std::string& because);
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
-    // A table of its own for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where it bends, and
-    // what `also` names at the same rows.
+    // A separate table for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where the curve bends,
+    // and the channels `also` at the same rows.
     std::size_t curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
-                      const std::vector<sim::ChannelKind>& also = {});
+                      const std::vector<sim::Channel>& also = {});
     std::size_t point(std::size_t study, double x, const Instants& at);
     void turning_points(std::size_t study) { request(study).turning_points = true; }
     void may_fail(std::size_t study) { all_[study].may_fail = true; }
+    // Ends the study after these events, unless another figure uses it.
+    void stop_after(std::size_t study, const sim::EventCounts& events);
     void horizon(std::size_t study) { request(study).horizon = true; }
 
     sim::Request& request(std::size_t i) { return all_[i].request; }
     std::vector<Study> take() { return std::move(all_); }
 
-    // Equal for problems that move alike: every number of the physics.
+    // Equal for problems of equal physics: all their parameters as text.
     static std::string key(const sim::Problem& problem);
 
   private:
     std::vector<Study> all_;
     std::vector<std::string> keys_;  // of all
+    std::vector<int> users_;         // of each
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 
@@ -66,16 +69,17 @@ struct Swept {
     const output::SweepData* data;
 };
 
-// By study. A figure reads only what it asked for, and of a study that may fail asks `is_there` first.
+// By study. A figure reads only what it requested, and checks `has_result` of a study that may fail.
 struct Results {
     std::vector<const sim::Result*> studies = {};
     std::optional<Swept> swept = {};  // for figures of sweeps
 
     const sim::Result* operator[](std::size_t study) const { return studies[study]; }
+    const sim::Result* find(std::optional<std::size_t> study) const { return study ? studies[*study] : nullptr; }
 };
-inline bool is_there(const sim::Result& result) { return result.counters.steps > 0 || !result.tables.empty(); }
+inline bool has_result(const sim::Result& result) { return result.counters.steps > 0 || !result.tables.empty(); }
 
-// A channel of a table; std::logic_error when it was not asked for.
+// A channel of a table; throws std::logic_error if it was not requested.
 const std::vector<double>& column(const sim::Table& table, sim::ChannelKind channel);
 
 }  // namespace beamcam::scenes

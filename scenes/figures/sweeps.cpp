@@ -1,18 +1,154 @@
 #include "scenes/figures/sweeps.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 
+#include "render/base/error.hpp"
+#include "render/draw/markup.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/bifurcation_diagram.hpp"
 #include "scenes/figures/key_map.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/sample_plane.hpp"
-#include "scenes/figures/sweep_words.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 namespace figure = render::figure;
+using render::rgb;
+using sim::AttractorClass;
+
+// ---- captions -------------------------------------------------------------------------------------
+
+std::string span_text(const sim::CamSpan& span, Lang lang) {
+    if (span.time) return fmt::format("{:g} s", *span.time);
+    return filled(lang == Lang::en ? "{:g} turns of the cam" : "凸轮 {:g} 转", span.turns);
+}
+
+std::string axes_text(const SweptPoints& points) {
+    std::string text;
+    for (const output::SweepAxis& axis : points.data.axes)
+        text += filled(
+            points.lang == Lang::en ? "{} = {:.6g} … {:.6g}{} in {} values; " : "{} = {:.6g} … {:.6g}{}，共 {} 值；",
+            symbol_of(axis.name), *std::ranges::min_element(axis.values), *std::ranges::max_element(axis.values),
+            axis.unit == "1" ? "" : " " + axis.unit, axis.values.size());
+    return text;
+}
+
+std::string starts_text(const SweptPoints& points) {
+    std::string text;
+    for (std::uint64_t k = 0; k < std::min<std::uint64_t>(points.seeds(), 3); ++k) {
+        if (k > 0 && points.seed(k) == points.seed(k - 1)) continue;
+        text += (k > 0 ? points.lang == Lang::en ? ", " : "、" : "") + look_of(points.seed(k)).label.in(points.lang);
+    }
+    return points.seeds() > 3 ? fmt::format("{} ({})", text, points.seeds()) : text;
+}
+
+// How many points are of each class.
+std::string class_counts(const std::map<AttractorClass, std::uint64_t>& kinds, Lang lang) {
+    const bool en = lang == Lang::en;
+    std::string counts;
+    for (const auto& [kind, count] : kinds)
+        counts += filled(en ? "{}{} {}" : "{0}{2} {1}",
+                         counts.empty() ? ""
+                         : en           ? ", "
+                                        : "，",
+                         count, class_label(kind, lang));
+    return counts + (en ? ". " : "。");
+}
+
+std::string sweep_caption(const SweptPoints& points) {
+    const bool en = points.lang == Lang::en;
+    std::map<AttractorClass, std::uint64_t> kinds;
+    int longest = 0;  // period
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
+        if (!points.data.has(k)) continue;
+        const output::StoredPoint p = points.data.read(k);
+        ++kinds[kind_of(p)];
+        longest = std::max(longest, p.period);
+    }
+    const sim::Sampling& s = points.scene.sweep->sampling;
+    std::string text = axes_text(points);
+    text += filled(en ? "samples: {}; transient {}, then {} kept; starts: {}. Points: "
+                      : "样本：{}；舍去 {}，保留 {}；初值：{}。点数：",
+                   text_of_sample(s), span_text(s.transient, points.lang), span_text(s.keep, points.lang),
+                   starts_text(points));
+    text += class_counts(kinds, points.lang);
+    if (kinds.contains(AttractorClass::chaotic))
+        text += en ? "Samples of chaotic motions depend on their start, transient and number of periods. "
+                   : "混沌处的点是其初值、过渡与周期数的统计。";
+    if (!s.keep.time && longest > s.keep.turns)
+        text += filled(en ? "Of periods longer than the kept turns, up to {}, only a part is sampled. "
+                          : "周期长于保留转数（最长 {} 转）时只取其一部分。",
+                       longest);
+    Varied varied;
+    varied.cam_speed =
+        std::ranges::find(points.data.axes, "cam.speed", &output::SweepAxis::name) != points.data.axes.end();
+    return text + (en ? "Other parameters: " : "其他参数：") + facts(points.scene.problem, points.lang, varied);
+}
+
+std::string tolerance_text(const SweptPoints& points) {
+    const bool en = points.lang == Lang::en;
+    const sim::Problem& problem = points.scene.problem;
+    const bool closed =
+        problem.beam.model == sim::ModelKind::rigid && problem.contact.model == sim::ContactModel::restitution;
+    return filled(en ? "Relative tolerance {}{}." : "相对容差 {}{}。", one_digit(problem.solver.rtol),
+                  !closed ? ""
+                  : en    ? ", or rounding where the rigid beam is followed in closed form"
+                          : "，刚性梁以闭式求解时为舍入误差");
+}
+
+// ---- all samples in one plane ---------------------------------------------------------------------
+
+constexpr std::uint32_t kValueColors[] = {0x000000, 0xD55E00, 0x0072B2, 0x009E73, 0xCC79A7, 0xE69F00};
+
+// A cloud for each value of one key, if they are few; else one of all.
+std::vector<figure::Cloud> clouds_of_values(const SweptPoints& points) {
+    const output::SweepAxis& axis = points.axis(0);
+    if (points.data.axes.size() > 1 || axis.values.size() > std::size(kValueColors))
+        return {{"", {}, {}, rgb(0x000000)}};
+    std::vector<figure::Cloud> clouds;
+    for (std::size_t i = 0; i < axis.values.size(); ++i)
+        clouds.push_back({value_label(symbol_of(axis.name), axis.values[i], axis.unit), {}, {}, rgb(kValueColors[i])});
+    if (clouds.size() == 1) clouds[0].label.clear();
+    return clouds;
+}
+
+// A Poincaré section, or a map of each impact to the next. `x`, `y`: columns of the samples; `next`: y is that of the
+// sample after.
+figure::Figure sample_plane(const SweptPoints& points, const std::string& x, const std::string& y, bool next) {
+    const std::size_t cx = points.column(x), cy = points.column(y), width = points.data.columns.size();
+    figure::Panel panel;
+    panel.name = y;
+    panel.clouds = clouds_of_values(points);
+    panel.legend = figure::Legend::box;
+    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
+        if (!points.data.has(k)) continue;
+        const output::StoredPoint p = points.data.read(k);
+        if (!has_section(kind_of(p))) continue;
+        figure::Cloud& cloud = panel.clouds[panel.clouds.size() > 1 ? k / points.seeds() : 0];
+        const std::size_t later = next ? width : 0;
+        for (std::size_t i = 0; i + later < p.samples.size(); i += width)
+            add(cloud, drawn(points, cx, p.samples[i + cx]), drawn(points, cy, p.samples[i + later + cy]));
+    }
+    if (all_empty(panel.clouds))
+        throw render::PictureError(
+            "no point has a section to show: all rest, follow the cam, have left it or have not settled");
+    const bool en = points.lang == Lang::en;
+    const auto axis = [&](std::size_t c, const char* which, const char* zh) {
+        return column_label(points, c) + (next ? en ? which : zh : "");
+    };
+    panel.x = {.label = axis(cx, ", impact $k$", "，第 $k$ 次碰撞")};
+    panel.y = {.label = axis(cy, ", impact $k$ + 1", "，第 $k$ + 1 次碰撞")};
+    figure::Figure out;
+    out.panels = {std::move(panel)};
+    out.aspect = 0.9;
+    return out;
+}
+
+// ---- the figures by name --------------------------------------------------------------------------
 
 using Draw = figure::Figure (*)(const SweptPoints& points, const FigureOutput& how);
 
@@ -22,11 +158,10 @@ FigureMaker prepare(const Scene&, const FigureOutput& how, Studies&) {
         if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
         const SweptPoints points(*results.swept, how.lang);
         figure::Figure out = draw(points, how);
-        out.name = recipe.name;
         out.title =
             filled(how.lang == Lang::en ? "{} over {}" : "{}：{}", recipe.title.in(how.lang), points.axis(0).name);
-        out.caption = caption_words(points) + (out.caption.empty() ? "" : " ") + out.caption;
-        out.accuracy = tolerance_words(points);
+        out.caption = sweep_caption(points) + (out.caption.empty() ? "" : " ") + out.caption;
+        out.accuracy = tolerance_text(points);
         return out;
     };
 }
@@ -58,7 +193,7 @@ std::optional<std::string> needs_impacts(const Scene& scene) {
 }
 
 figure::Figure draw_bifurcation(const SweptPoints& points, const FigureOutput& how) {
-    return bifurcation(points, how.value, as_numbered(points), [](auto...) {});
+    return bifurcation(points, how.value);
 }
 figure::Figure draw_map(const SweptPoints& points, const FigureOutput& how) { return key_map(points, how.value); }
 figure::Figure draw_poincare(const SweptPoints& points, const FigureOutput&) {
@@ -69,14 +204,10 @@ figure::Figure draw_impact_map(const SweptPoints& points, const FigureOutput&) {
     return sample_plane(points, "cam_phase", "cam_phase", true);
 }
 
-Recipe recipe_of_sweep(const char* name, Words title, std::optional<std::string> (*refusal)(const Scene&),
-                       decltype(Recipe::prepare) prepare, bool takes_value) {
-    return {.name = name,
-            .title = title,
-            .refusal = refusal,
-            .prepare = prepare,
-            .of_sweep = true,
-            .takes_value = takes_value};
+Recipe recipe_of_sweep(const char* name, Translated title, std::optional<std::string> (*refusal)(const Scene&),
+                       decltype(Recipe::maker) maker, bool takes_value) {
+    return {
+        .name = name, .title = title, .refusal = refusal, .maker = maker, .of_sweep = true, .takes_value = takes_value};
 }
 
 }  // namespace
@@ -105,6 +236,20 @@ std::vector<std::string> diagram_values(std::string_view diagram, const Scene& s
         if (scene.sweep->sampling.kind == sim::SampleKind::impacts || !column.of_impacts)
             known.emplace_back(column.name);
     return known;
+}
+
+std::string point_text(const Swept& swept, std::uint64_t point, Lang lang) {
+    const SweptPoints points(swept, lang);
+    const output::StoredPoint p = points.data.read(point);
+    const output::SweepAxis& axis = points.axis(0);
+    std::string text = fmt::format("{} = {:.{}g}{}", render::to_plain(symbol_of(axis.name)),
+                                   points.data.place(point)[0], kValueDigits, axis.unit == "1" ? "" : " " + axis.unit);
+    text += lang == Lang::en ? ": " : "：";
+    if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
+    if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);
+    const auto plural = [](auto count) { return count == 1 ? "" : "s"; };
+    return text + fmt::format("period {} turn{}, {:g} impact{}", p.period, plural(p.period), p.impacts_per_period,
+                              plural(p.impacts_per_period));
 }
 
 std::vector<std::string> diagram_names() {

@@ -2,18 +2,24 @@
 // maps.
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "scenes/figures/studies.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 
 std::vector<std::string> diagram_names();
-// The one that suits the scene's sweep.
+// The default diagram of the scene's sweep.
 std::string usual_diagram(const Scene& scene);
-// What the diagram can show of the points of the scene's sweep, by the key "value".
+// The values of the key "value" for this diagram and the scene's sweep.
 std::vector<std::string> diagram_values(std::string_view diagram, const Scene& scene);
+
+constexpr int kValueDigits = 6;  // of the swept key's value in the text of films
+// "ω = 45.2 rad/s: period 2, 3 impacts", without markup.
+std::string point_text(const Swept& swept, std::uint64_t point, Lang lang);
 
 }  // namespace beamcam::scenes

@@ -7,7 +7,7 @@
 #include <string_view>
 
 #include "render/base/error.hpp"
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 
 namespace beamcam::scenes {
 
@@ -54,7 +54,8 @@ std::size_t SweptPoints::column(const std::string& name) const {
         if (data.columns[c].name == name) return c;
         known.push_back(data.columns[c].name);
     }
-    throw render::PictureError(fmt::format("the samples have no column {}: {}", name, fmt::join(known, ", ")));
+    throw render::PictureError(
+        fmt::format("the samples have no column {}; they have {}", name, fmt::join(known, ", ")));
 }
 
 Color color_of(AttractorClass kind) { return render::rgb(look_of(kind).color); }

@@ -1,4 +1,4 @@
-// The points of a sweep as its figures read them, and how their classes, starts and columns are drawn and called.
+// The points of a sweep as its figures read them, and the colours and names of classes, starts and columns.
 #pragma once
 
 #include <cstdint>
@@ -39,7 +39,7 @@ std::string class_label(sim::AttractorClass kind, Lang lang);
 
 struct StartLook {
     SeedKind kind;
-    Words label;
+    Translated label;
     const char* lane;  // beside the strip of classes, whose highest lane is the first start
 };
 const StartLook& look_of(SeedKind kind);

@@ -10,7 +10,7 @@
 #include "output/files/numbers.hpp"
 #include "output/film/video_format.hpp"
 #include "output/image/png_reader.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/film_times.hpp"
 
@@ -53,7 +53,7 @@ void check_physics(ObjectReader& r, const sim::Problem& problem) {
 }
 
 void check_words(ObjectReader& r, const char* key, const std::string& text) {
-    if (const std::string problem = render::problem_with_words(text); !problem.empty())
+    if (const std::string problem = render::markup_problem(text); !problem.empty())
         r.warn(key, fmt::format("{}: {}; the picture shows it unchanged", r.path(key), problem));
 }
 

@@ -46,7 +46,7 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
 // A figure other than "series": keys that it does not have, its interval and its window.
 void check_other_figure(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
     const SeriesKeys& series = figure.series;
-    const bool interval = recipe && recipe->takes_stretch, windows = recipe && recipe->takes_channel;
+    const bool interval = recipe && recipe->takes_interval, windows = recipe && recipe->takes_channel;
     if (interval) check_interval(r, figure);
     for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "compare",
                                        "comparison", "residuals", "notes"})
@@ -155,6 +155,11 @@ std::string problem_with_value(std::string_view diagram, const std::string& valu
 void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     require_one_unit(r, "channels", panel.channels);
     require_one_unit(r, "right", panel.right);
+    std::vector<sim::Channel> summed = panel.channels;
+    for (const SeriesSum& sum : panel.sums)
+        for (const auto* channels : {&sum.plus, &sum.minus})
+            summed.insert(summed.end(), channels->begin(), channels->end());
+    if (!panel.sums.empty()) require_one_unit(r, "sums", summed);
     check_markup(r, "title", panel.title);
     check_markup(r, "label", panel.label);
     if (panel.low && panel.high && !(*panel.low < *panel.high))

@@ -14,9 +14,21 @@ namespace beamcam::scenes {
 namespace dim = sim::dimension;
 using sim::between, sim::required;
 
+static void visit(SceneVisitor& v, SeriesSum& sum) {
+    v.text("label", sum.label, "Its name in the legend; $θ$ is set as mathematics.");
+    v.value(sim::required("plus", "[\"energy_elastic\", \"energy_contact\"]"), channels_format(sum.plus),
+            "Channels that are added.");
+    v.value("minus", channels_format(sum.minus), "Channels that are subtracted; the curve is then drawn in black.");
+    v.check([&sum](ObjectReader& r) { check_markup(r, "label", sum.label); });
+}
+
 static void visit(SceneVisitor& v, SeriesPanel& panel) {
     v.value(sim::required("channels", "[\"theta\"]"), channels_format(panel.channels), "Curves, all of one unit.");
     v.value("right", channels_format(panel.right), "Curves of another unit, on the right axis.");
+    List sums = SceneVisitor::items_of(panel.sums);
+    sums.most = 12, sums.of = "sums";
+    sums.example = "[{\"label\": \"stored\", \"plus\": [\"energy_elastic\", \"energy_contact\"]}]";
+    v.list("sums", sums, "Curves that are sums of channels, instead of \"channels\", whose unit they have.");
     v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}}, "Scale of the left axis.");
     v.number("low", panel.low, sim::kPlainNumber, sim::kAny, "Lower end of the left axis, in SI units.");
     v.number("high", panel.high, sim::kPlainNumber, sim::kAny, "Upper end of the left axis, in SI units.");
@@ -39,7 +51,7 @@ static const std::string& series_constraint() {
     static const std::string kText = [] {
         std::vector<std::string> names, windows;
         for (const Recipe& recipe : recipes()) {
-            if (recipe.takes_stretch) names.push_back(fmt::format("\"{}\"", recipe.name));
+            if (recipe.takes_interval) names.push_back(fmt::format("\"{}\"", recipe.name));
             if (recipe.takes_channel) windows.push_back(fmt::format("\"{}\"", recipe.name));
         }
         return fmt::format(R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}, "required": ["figure"]}},
@@ -63,7 +75,7 @@ static const std::string& series_constraint() {
 static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string& figure) {
     const bool is_series = figure == "series";
     const Recipe* recipe = recipe_named(figure);
-    const bool interval = is_series || (recipe && recipe->takes_stretch);
+    const bool interval = is_series || (recipe && recipe->takes_interval);
     const bool windows = recipe && recipe->takes_channel;
     const auto key = [is_series](const char* name) { return sim::written_if(is_series, name); };
     if (windows && series.panels.empty()) series.panels.emplace_back();

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "render/plot/ticks.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -74,7 +74,7 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
     }
     for (const render::Callout& c : film.callouts)
         out.subtitles.push_back(
-            {c.first / film.fps, std::min(end, (c.last + 1) / film.fps), render::plain_words(c.text)});
+            {c.first / film.fps, std::min(end, (c.last + 1) / film.fps), render::plain_text(c.text)});
     std::erase_if(out.subtitles, [](const Cue& cue) { return !(cue.to > cue.from); });
     std::ranges::stable_sort(out.subtitles, {}, &Cue::from);
     return out;

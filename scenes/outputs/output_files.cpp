@@ -4,7 +4,7 @@
 #include <set>
 
 #include "output/files/atomic_file.hpp"
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"

@@ -6,7 +6,7 @@
 
 #include "output/files/atomic_file.hpp"
 #include "output/image/png.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -71,7 +71,7 @@ std::map<std::string, std::string> png_metadata(const SinkFiles& to) {
     std::map<std::string, std::string> all = {{"Software", fmt::format("beamcam {}", kVersion)},
                                               {"beamcam-scene", to_json(to.scene)},
                                               {"beamcam-accuracy", to.accuracy}};
-    if (!to.scene.title.empty()) all["Title"] = render::plain_words(to.scene.title);
+    if (!to.scene.title.empty()) all["Title"] = render::plain_text(to.scene.title);
     return all;
 }
 

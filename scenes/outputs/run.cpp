@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "render/gl/gl_environment.hpp"
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/outputs/scene_run.hpp"

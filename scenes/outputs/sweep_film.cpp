@@ -12,10 +12,9 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
-#include "render/plot/words.hpp"
-#include "scenes/figures/growing_diagram.hpp"
-#include "scenes/figures/make.hpp"
-#include "scenes/figures/sweep_words.hpp"
+#include "render/plot/user_text.hpp"
+#include "scenes/figures/bifurcation_diagram.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
@@ -136,14 +135,14 @@ class SweepFilm {
         options.metadata = {{"comment", fmt::format("made by beamcam {}", kVersion)},
                             {"beamcam-scene", to_json(grid_.scene())},
                             {"beamcam-version", std::string(kVersion)}};
-        if (!scene_.title.empty()) options.metadata["title"] = render::plain_words(scene_.title);
+        if (!scene_.title.empty()) options.metadata["title"] = render::plain_text(scene_.title);
         return options;
     }
 
     render::FilmSetup setup_of(const SweepShot& shot) const {
         render::FilmSetup setup = setup_;
         setup.problem = shot.problem;
-        setup.title = words_of_point({&grid_.scene(), &data_}, shot.point, how_.lang);
+        setup.title = point_text({&grid_.scene(), &data_}, shot.point, how_.lang);
         setup.width = static_cast<int>(halves_.beam.w), setup.height = static_cast<int>(halves_.beam.h);
         setup.fps = how_.fps.value();
         setup.view.style = how_.style;

@@ -5,7 +5,7 @@
 #include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"
 #include "output/image/png.hpp"
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -19,7 +19,7 @@ std::map<std::string, std::string> film_metadata(const Pictures& p, const SinkFi
                                               {"beamcam-version", std::string(kVersion)},
                                               {"beamcam-accuracy", to.accuracy}};
     if (!p.part.empty()) all["beamcam-frames"] = p.part;
-    if (!to.scene.title.empty()) all["title"] = render::plain_words(to.scene.title);
+    if (!to.scene.title.empty()) all["title"] = render::plain_text(to.scene.title);
     return all;
 }
 

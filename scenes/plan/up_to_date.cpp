@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/files.hpp"
 

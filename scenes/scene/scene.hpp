@@ -300,9 +300,15 @@ struct SweepFilmOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
+// A curve that is a sum of channels of one unit; channels without values add nothing.
+struct SeriesSum {
+    std::string label;
+    std::vector<sim::Channel> plus = {}, minus = {};  // with `minus` it is a balance, drawn in black
+};
 // A panel of the figure "series": curves of one unit, and of another unit on the right axis.
 struct SeriesPanel {
     std::vector<sim::Channel> channels = {}, right = {};
+    std::vector<SeriesSum> sums = {};  // curves instead of the channels, of their unit
     bool logarithmic = false;
     std::optional<double> low = {}, high = {};  // of the left axis, in SI units
     std::vector<double> lines = {};             // horizontal, at these values of the left axis

@@ -98,19 +98,33 @@ TEST(FigureAxis, LogarithmicShowsDecadesAndRefusesWhatHasNoLogarithm) {
     EXPECT_THROW(AxisMap({.from = std::nan("")}, {}, 5, "test"), PictureError);
 }
 
+TEST(FigureAxis, LogarithmicHasPlainNumbersWithinADecade) {
+    EXPECT_THAT(labels(axis(0.33, 0.79, {.scale = Scale::logarithmic})), ::testing::IsSupersetOf({"0.4", "0.7"}));
+    EXPECT_THAT(labels(axis(0.4, 4, {.scale = Scale::logarithmic})), ::testing::IsSupersetOf({"0.5", "1", "2"}));
+}
+
+TEST(FigureAxis, NamesLabelTheMiddlesOfTheirIntervals) {
+    const Extent four{true, 0, 4};
+    const AxisMap all({.names = {"a", "b", "c", "d"}}, four, 4, "test");
+    ASSERT_EQ(all.ticks().size(), 4u);
+    EXPECT_DOUBLE_EQ(all.ticks()[1].at, all.place(1.5));
+    EXPECT_EQ(all.ticks()[1].label, "b");
+    EXPECT_THAT(labels(AxisMap({.names = {"a", "b", "c", "d"}}, four, 3, "test")), ::testing::ElementsAre("a", "c"));
+}
+
 TEST(FigureAxis, UnitsGetThePrefixThatSuitsTheNumbers) {
     const AxisMap small = axis(0, -3e-6, {.label = "$w$ / mm"});
     EXPECT_EQ(small.label(), "$w$ / nm");
     EXPECT_EQ(small.common(), "");
-    EXPECT_NEAR(small.told(-3e-6), -3, 1e-12);
+    EXPECT_NEAR(small.tick_value(-3e-6), -3, 1e-12);
     EXPECT_THAT(labels(small), ::testing::Contains("−2"));
     EXPECT_NEAR(small.place(-1e-6), axis(0, -3e-6, {.label = "$w$"}).place(-1e-6), 1e-12);
     EXPECT_EQ(axis(0, 2e7, {.label = "$F$ / N"}).label(), "$F$ / MN");
     EXPECT_EQ(axis(0, 2e5, {.label = "$f$ / Hz"}).label(), "$f$ / kHz");
     const AxisMap slope = axis(0, -6e-3, {.label = "d$w$/d$x$ / 10^{−3}"});
     EXPECT_EQ(slope.label(), "d$w$/d$x$ / 10^{−6}");
-    EXPECT_NEAR(slope.told(-6e-3), -6, 1e-12);
-    // Usual numbers, and units without prefixes, stay as they are; so does a number that an offset is told beside.
+    EXPECT_NEAR(slope.tick_value(-6e-3), -6, 1e-12);
+    // Ordinary numbers and units without prefixes are not changed; nor are numbers with a common offset.
     EXPECT_EQ(axis(0, 300, {.label = "$F$ / N"}).label(), "$F$ / N");
     EXPECT_EQ(axis(0, 1e-6, {.label = "$θ$ / rad"}).label(), "$θ$ / rad");
     EXPECT_EQ(axis(0, 1e-6, {.label = "$θ$ / rad"}).common(), "×10^{−6}");
@@ -632,6 +646,10 @@ TEST(Figure, DataIsATidyTableOfWhatIsPlotted) {
     EXPECT_EQ(data_csv(figure),
               "panel,series,x_quantity,x,y_quantity,y,value\n1,\"a, b\",t / s,0,θ / rad,0.10000000000000001,\n1,\"a, "
               "b\",t / s,1,θ / rad,,\n");
+    figure.panels[0].series[0].label.clear();
+    EXPECT_THAT(data_csv(figure), HasSubstr("\n1,θ,t / s,0,"));  // the quantity of its axis
+    figure.panels[0].series[0].name = "mean";
+    EXPECT_THAT(data_csv(figure), HasSubstr("\n1,mean,t / s,0,"));
 }
 
 }  // namespace

@@ -14,9 +14,10 @@
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/accuracy.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/findings.hpp"
-#include "scenes/figures/make.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/survival_map.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
 #include "tests/scenes/support.hpp"
@@ -193,6 +194,70 @@ TEST(ContactPlaces, HaveTheUnitThatSuitsTheBeam) {
     EXPECT_THAT(label(R"({"contact": {"model": "restitution"}, "time": {"end": 0.4}})"), HasSubstr("/ mm"));
 }
 
+TEST(Figures, EnergiesAreThoseThatTheSceneHas) {
+    const auto labels = [](const char* scene) {
+        std::string all;
+        const auto figure = figure_of(scene_from(scene), "energy");
+        for (const auto& series : figure.panels[0].series) all += series.label + "; ";
+        return all;
+    };
+    EXPECT_EQ(labels(R"({"time": {"end": 0.4}})"),
+              "kinetic; potential; bending and contact; lost; external work; sum − work; ");
+    EXPECT_EQ(labels(R"({"beam": {"model": "rigid"}, "time": {"end": 0.4}})"),
+              "kinetic; potential; contact; lost; external work; sum − work; ");
+    EXPECT_EQ(labels(R"({"cam": null, "time": {"end": 0.2}})"), "kinetic; potential; bending; sum − work; ");
+    EXPECT_EQ(labels(R"({"cam": null, "gravity": 0, "initial": {"angular_velocity": 1}, "time": {"end": 0.1}})"),
+              "kinetic; sum − work; ");  // a straight beam that turns is not bent
+}
+
+// A torque lifts the beam against the cam from below: what follows is no rebound upwards.
+TEST(Figures, OnlyABeamThatFallsOntoTheCamHasARebound) {
+    const Scene
+        fallen = scene_from(R"({"beam": {"model": "rigid"}, "time": {"end": 0.6}})"),
+        lifted = scene_from(
+            R"({"beam": {"model": "rigid"}, "hub": {"drive": {"type": "torque", "value": 1.5}}, "time": {"end": 1.5}})");
+    const auto apex = [](const Scene& scene) {
+        sim::Request request;
+        request.end_time = scene.end_time;
+        const sim::Result result = sim::simulate(scene.problem, request);
+        EXPECT_FALSE(result.impacts.empty());
+        return rebound_apex(scene.problem, result, scene.end_time);
+    };
+    ASSERT_TRUE(apex(fallen));
+    EXPECT_GT(*apex(fallen), 0.4);
+    EXPECT_FALSE(apex(lifted));
+}
+
+TEST(Studies, StopAfterEventsUnlessAnotherFigureNeedsThem) {
+    Studies studies;
+    const sim::Problem problem;
+    const std::size_t alone = studies.of(problem, 1, "a");
+    studies.stop_after(alone, {.collisions = 1});
+    EXPECT_TRUE(studies.request(alone).enough);
+    EXPECT_EQ(studies.of(problem, 1, "b"), alone);
+    EXPECT_FALSE(studies.request(alone).enough);
+    studies.stop_after(alone, {.collisions = 1});
+    EXPECT_FALSE(studies.request(alone).enough);
+}
+
+TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
+    sim::Campaign campaign;
+    campaign.grids = {{"grid", "rows", "columns", {"r1", "r2"}, {"c1", "c2", "c3"}}};
+    std::vector<sim::StressResult> results(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        campaign.cases.emplace_back();
+        campaign.cases.back().row = i / 2, campaign.cases.back().column = 2;
+    }
+    results[0].outcome = sim::Outcome::closed;  // two variants of one cell, and one of the cell below
+    const auto figure = survival_map(campaign, results);
+    const auto& panel = figure.panels.at(0);
+    ASSERT_EQ(panel.series.size(), 1u);
+    EXPECT_EQ(panel.series[0].x.size(), 3u);  // the stripes of the two that failed
+    EXPECT_EQ(panel.y.names, (std::vector<std::string>{"r2", "r1"}));
+    const auto shown = std::ranges::count_if(panel.cells[0].colors, [](const render::Color& c) { return c.a > 0; });
+    EXPECT_EQ(shown, 4);  // a lone variant fills both stripes of its cell
+}
+
 TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
     const auto figure = figure_of(scene_from("{}"), "deflection");
     const auto& slope = figure.panels[1].series;
@@ -346,7 +411,7 @@ TEST(Figures, ModelsAreComparedInTheSameShapes) {
     EXPECT_EQ(largest.count("1 exact"), 0u);
     const std::string caption = render::to_plain(figure.caption);
     EXPECT_THAT(caption, HasSubstr("2×10⁻⁵ rad between eq. (4) and first-order"));
-    EXPECT_THAT(caption, HasSubstr("by 0.042 rad, which is no difference of the equations"));
+    EXPECT_THAT(caption, HasSubstr("by 0.042 rad; this is an effect of the shapes"));
 }
 
 // Ten seconds of impacts in the models whose contact takes Runge–Kutta steps would be a minute of computing.
@@ -355,7 +420,7 @@ TEST(Figures, ModelsEndWhereTheirWorkIsSpentAndSaySo) {
     const auto figure = figure_of(scene_from(R"({"solver": {"max_steps": 2000}, "time": {"end": 10}})"), "models");
     EXPECT_GT(figure.panels[0].x.to, 0.3);
     EXPECT_LT(figure.panels[0].x.to, 2);
-    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("Curves end where the work"));
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("Curves end where the computing budget"));
     for (std::size_t k : {1u, 2u})
         for (const auto& s : figure.panels[k].series)
             for (const double x : s.x) EXPECT_LE(x, figure.panels[0].x.to) << s.label;

@@ -109,6 +109,23 @@ TEST(Series, AChannelWithoutValuesIsTold) {
 }
 
 // Their potential energy is nothing by itself.
+TEST(Series, DrawsSumsOfChannels) {
+    const auto figure = figure_of(
+        R"("panels": [{"channels": ["energy_elastic"], "label": "$E$",
+                       "sums": [{"label": "stored", "plus": ["energy_elastic", "energy_contact"]},
+                                {"label": "balance", "plus": ["energy_kinetic", "energy_potential", "energy_elastic",
+                                 "energy_contact", "loss_contact"], "minus": ["work_cam"]}]}])");
+    ASSERT_EQ(figure.panels[0].series.size(), 2u);
+    EXPECT_EQ(figure.panels[0].series[0].label, "stored");
+    const auto [least, most] = std::ranges::minmax(figure.panels[0].series[1].y);
+    EXPECT_NEAR(least, most, 1e-6 * std::abs(most));  // energy is conserved
+    EXPECT_THAT(figure.caption, ::testing::StartsWith("Stored, balance."));
+    EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "panels": [
+                    {"channels": ["theta"], "sums": [{"label": "a", "plus": ["theta", "contact_force"]}]}]}]})")
+                    .report(),
+                HasSubstr("one axis has one unit"));
+}
+
 TEST(Series, CountsPotentialEnergyFromItsLeast) {
     const Figure figure = figure_of(R"("channels": ["energy_potential"])");
     EXPECT_EQ(*std::ranges::min_element(figure.panels[0].series[0].y), 0);
@@ -118,7 +135,7 @@ TEST(Series, MarksImpacts) {
     const Figure figure = figure_of(R"("channels": ["theta"], "impacts": true)");
     ASSERT_EQ(figure.panels[0].rules.size(), 1u);
     EXPECT_NEAR(figure.panels[0].rules[0].at, 0.277394, 1e-6);
-    EXPECT_THAT(figure.caption, HasSubstr("Dashed lines: impacts begin."));
+    EXPECT_THAT(figure.caption, HasSubstr("Dashed lines: starts of impacts."));
     EXPECT_THAT(figure_of(R"("channels": ["theta"])").caption, Not(HasSubstr("Dashed")));
 }
 

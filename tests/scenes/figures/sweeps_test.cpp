@@ -6,10 +6,10 @@
 
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
+#include "scenes/figures/bifurcation_diagram.hpp"
 #include "scenes/figures/branches.hpp"
-#include "scenes/figures/growing_diagram.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/sweep_words.hpp"
+#include "scenes/figures/sweeps.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
 #include "tests/scenes/support.hpp"
@@ -72,7 +72,7 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_THAT(figure.caption, HasSubstr("transient 200 turns of the cam"));
     EXPECT_THAT(figure.caption, HasSubstr("starts: same start. Points: 1 rest, 1 following"));
     EXPECT_THAT(figure.caption, HasSubstr("1 over-the-top"));
-    EXPECT_THAT(figure.caption, HasSubstr("statistic"));
+    EXPECT_THAT(figure.caption, HasSubstr("Samples of chaotic motions"));
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
 }
 
@@ -129,8 +129,8 @@ TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
     // Whatever is shown, the points are all there, so that limits and dots stay.
     EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[0].x, (std::vector<double>{1, 1, 2, 2, 3, 3}));
     EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[1].x, (std::vector<double>{3, 3, 2, 2, 1, 1}));
-    EXPECT_EQ(words_of_point(swept, 2, Lang::en), "ω = 3 rad/s: period 1 turn, 2 impacts");
-    EXPECT_EQ(words_of_point(swept, 2, Lang::zh), "ω = 3 rad/s：周期 1 圈，碰撞 2 次");
+    EXPECT_EQ(point_text(swept, 2, Lang::en), "ω = 3 rad/s: period 1 turn, 2 impacts");
+    EXPECT_EQ(point_text(swept, 2, Lang::zh), "ω = 3 rad/s：周期 1 圈，碰撞 2 次");
 }
 
 TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {

@@ -12,16 +12,10 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
-using sim::ChannelKind;
-
 constexpr int kFallPoints = 2001;  // points: a column of print has fewer dots
-constexpr double kAround = 12e-6;  // the enlarged stretch about the rigid crossing [s]
+constexpr double kAround = 12e-6;  // half of the enlarged interval about the rigid crossing [s]
 
-// Where the inset looks: only the hinged rod at rest has the closed form that tells beforehand.
+// The time that the inset enlarges: only the hinged rod released at rest has a closed form for it.
 std::optional<double> closed_form(const sim::Problem& p) {
     const bool plain = std::holds_alternative<sim::FreeDrive>(p.hub.drive) && p.hub.radius == 0 && p.hub.inertia == 0 &&
                        p.initial.angular_velocity == 0 && p.initial.shape == sim::InitialShape::straight &&
@@ -54,7 +48,7 @@ std::optional<double> zero_of(const sim::Result& result) {
     return result.theta_zero.front().t;
 }
 
-// Microseconds about the closed form, microradians about zero; only where both beams cross there.
+// Microseconds about the closed form, microradians about zero, if both beams cross there.
 std::optional<render::figure::Inset> close_up(const Fall& flexible, const Fall& stiff, double exact,
                                               const Results& results) {
     Panel panel;
@@ -98,7 +92,7 @@ std::string fall_caption(const Beams& beams, const Results& results, double end,
                                             : "无凸轮时柔性梁与刚性梁的转角。")
                                       : (en ? "Hub angle without the cam. " : "无凸轮时的转角。");
     std::vector<std::string> times;
-    const auto add = [&](int k, const sim::Problem& problem, Words whose) {
+    const auto add = [&](int k, const sim::Problem& problem, Translated whose) {
         if (!zero(k)) return;
         const Estimate at = estimate(problem, *zero(k), k == 0 ? fewer : std::nullopt);
         times.push_back(filled(en ? "{} s ({})" : "{} s（{}）", supported(at), whose.in(lang)));
@@ -127,7 +121,7 @@ std::string fall_caption(const Beams& beams, const Results& results, double end,
     return text;
 }
 
-// Until `end`; about the time `closely` [s] in close-up too.
+// Until `end`; also in close-up about the time `closely` [s].
 Fall ask_for_fall(Studies& studies, const sim::Problem& problem, double end, std::optional<double> closely) {
     Fall fall;
     fall.study = studies.of(problem, end, "free-fall");
@@ -139,7 +133,7 @@ Fall ask_for_fall(Studies& studies, const sim::Problem& problem, double end, std
     return fall;
 }
 
-// Which beams the scene has, and what is asked of each. `closely`: when the rigid beam is level, if that is shown.
+// The beams of the scene and their studies. `closely`: when the rigid beam is level, if the inset shows it.
 Beams beams_of(const Scene& scene, std::optional<double>& closely, Studies& studies) {
     const double end = scene.end_time;
     Beams beams;
@@ -153,20 +147,17 @@ Beams beams_of(const Scene& scene, std::optional<double>& closely, Studies& stud
     beams.falls[0] = ask_for_fall(studies, beams.own, end, closely);
     beams.falls[1] = ask_for_fall(studies, beams.stiff, end, closely);
     if (beams.paper) beams.falls[2] = ask_for_fall(studies, beams.doubled, end, {});
-    if (const auto fewer = with_one_mode_fewer(beams.own)) {
-        beams.fewer = studies.of(*fewer, end, "free-fall");
-        studies.turning_points(*beams.fewer);
-        studies.may_fail(*beams.fewer);
-    }
+    beams.fewer = study_with_one_mode_fewer(beams.own, end, "free-fall", studies);
+    if (beams.fewer) studies.turning_points(*beams.fewer);
     return beams;
 }
 
 // The beams that are shown, with their labels.
-std::vector<std::tuple<int, const sim::Problem*, Words>> shown_beams(const Beams& beams) {
-    std::vector<std::tuple<int, const sim::Problem*, Words>> out;
-    if (beams.flexible) out.emplace_back(0, &beams.own, Words{"flexible", "柔性"});
-    out.emplace_back(1, &beams.stiff, Words{"rigid", "刚性"});
-    if (beams.paper) out.emplace_back(2, &beams.doubled, Words{"rigid, factor 2", "刚性，2 倍"});
+std::vector<std::tuple<int, const sim::Problem*, Translated>> shown_beams(const Beams& beams) {
+    std::vector<std::tuple<int, const sim::Problem*, Translated>> out;
+    if (beams.flexible) out.emplace_back(0, &beams.own, Translated{"flexible", "柔性"});
+    out.emplace_back(1, &beams.stiff, Translated{"rigid", "刚性"});
+    if (beams.paper) out.emplace_back(2, &beams.doubled, Translated{"rigid, factor 2", "刚性，2 倍"});
     return out;
 }
 
@@ -181,14 +172,14 @@ Panel fall_panel(const Beams& beams, std::optional<double> closely, const Result
         panel.series.push_back(curve(results[fall.study]->tables[fall.table], label.in(lang), k));
         panel.series.back().solid = panel.series.size() == 1;
     }
-    // Room above the curves for the legend.
-    double low = 0, high = 0;
-    for (const Series& s : panel.series)
-        for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
-    panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
     if (beams.paper) mark_zero(panel, *results[beams.falls[2].study], 2, false);
     auto inset = closely ? close_up(beams.falls[0], beams.falls[1], *closely, results) : std::nullopt;
     if (inset) {
+        // Room above the curves for the legend and the inset.
+        double low = 0, high = 0;
+        for (const Series& s : panel.series)
+            for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
+        panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
         panel.insets.push_back(std::move(*inset));
     } else {
         if (beams.flexible) mark_zero(panel, *results[beams.falls[0].study], 0, false);
@@ -202,8 +193,6 @@ FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& s
     const Beams beams = beams_of(scene, closely, studies);
     return [=, lang = how.lang, end = scene.end_time](const Results& results) {
         Figure figure;
-        figure.name = "free-fall";
-        figure.title = lang == Lang::en ? "Hub angle without the cam" : "无凸轮时的转角";
         figure.panels.push_back(fall_panel(beams, closely, results, lang));
         figure.aspect = 0.74;
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;

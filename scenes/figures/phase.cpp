@@ -1,25 +1,15 @@
-// The phase portrait: raw, and its mean over a period of the first bending mode.
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
+// The phase portrait of the hub: the motion, and its mean over a period of the first bending mode.
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/reproducible.hpp"
 #include "sim/beam/modes.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
-using sim::ChannelKind;
-
-// The run may go on for other figures.
+// The run may be longer because of other figures.
 std::ptrdiff_t impacts_until(const sim::Problem& problem, const sim::Result& result, double end) {
     return std::ranges::count_if(result.impacts,
                                  [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
@@ -31,7 +21,7 @@ double first_period(const sim::Problem& problem) {
     return modes.empty() || !(modes.front().omega > 0) ? 0 : 2 * M_PI / modes.front().omega;
 }
 
-// For a mean over a period, which takes many of them.
+// Enough rows for a mean over a period.
 int rows_until(double end, double period) {
     constexpr double kOfAPeriod = 24, kFewest = 20'000, kMost = 400'000;
     return static_cast<int>(std::clamp(period > 0 ? kOfAPeriod * end / period : 0, kFewest, kMost)) + 1;
@@ -42,7 +32,7 @@ int rows_of(double period, const std::vector<double>& time) {
     return time.size() < 2 ? 0 : static_cast<int>(std::lround(period / (time[1] - time[0])));
 }
 
-// Over `rows` values around each, fewer at the ends.
+// The mean of `rows` values around each value; of fewer at the ends.
 std::vector<double> mean(const std::vector<double>& values, int rows) {
     std::vector<double> sums{0}, out;
     for (const double v : values) sums.push_back(sums.back() + v);
@@ -72,22 +62,24 @@ Series portrait(const sim::Table& table) {
     return s;
 }
 
-// In grey, beneath the mean.
+// Drawn in grey beneath the mean.
 Series raw_portrait(const sim::Table& table) {
     Series raw = portrait(table);
     raw.color = render::rgb(0xD2D2D2);
     raw.weight = 0.35;
+    raw.name = "with vibration";
     return raw;
 }
 
 std::string phase_caption(bool is_mean, bool has_impacts, Lang lang) {
     const bool en = lang == Lang::en;
     std::string text =
-        is_mean ? (en ? "Phase portrait of the hub angle: in grey as it is, with the beam's vibration; coloured "
-                        "by time, the mean over one period of the first bending mode. "
+        is_mean ? (en ? "Phase portrait of the hub angle. Grey: the motion with the beam's vibration. Coloured by "
+                        "time: its "
+                        "mean over one period of the first bending mode. "
                       : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
                 : (en ? "Phase portrait of the hub angle, coloured by time. " : "转角的相图，颜色表示时间。");
-    if (has_impacts) text += en ? "Near-vertical stretches are collisions. " : "近似竖直的线段为碰撞。";
+    if (has_impacts) text += en ? "Near-vertical segments are collisions. " : "近似竖直的线段为碰撞。";
     return text;
 }
 
@@ -109,6 +101,7 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
         const int period = rows_of(first, s.value);
         if (period > 1) {
             panel.series.push_back(raw_portrait(result.tables[curve]));
+            s.name = "mean over a period";
             s.x = mean(s.x, period);
             s.y = mean(s.y, period);
         }
@@ -116,8 +109,6 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
             panel.marks.push_back({.x = s.x.front(), .y = s.y.front(), .label = en ? "start" : "起点", .look = 6});
         panel.series.push_back(std::move(s));
         Figure figure;
-        figure.name = "phase";
-        figure.title = en ? "Phase portrait" : "相图";
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.75;
         figure.caption =

@@ -1,5 +1,5 @@
-// The paper's trial method (S49): which point of the falling beam reaches the cam first. One simulation of the fall
-// serves the trial, its refinement and the curves.
+// The paper's trial method (S49): which point of the falling beam reaches the cam first. The trial, its refinement and
+// the curves use one simulation of the fall.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,17 +7,13 @@
 #include <cmath>
 #include <limits>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
 namespace {
-
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 
 // Instants of the fall: a quarter of a millisecond apart, or nearer in a short scene.
 int fall_rows(double end) { return static_cast<int>(std::clamp(end / 2.5e-4, 4e3, 4e4)) + 1; }
@@ -49,8 +45,8 @@ struct DistanceHistory {
     std::vector<std::vector<double>> distance;  // [m], by position, then instant
 };
 
-// Of a place that is counted in stations, over the instants `t`, from the cam's surface [m]. Between stations its
-// position is that of a cubic through the four around it.
+// The distance of a point from the cam's surface over the instants `t` [m]. `place` counts stations; between them the
+// position is interpolated by a cubic through the four around it.
 std::vector<double> distance(const sim::Result& fall, const std::vector<std::size_t>& stations, double place,
                              const std::vector<double>& t, const sim::Problem& problem) {
     const std::size_t first = std::clamp<std::size_t>(static_cast<std::size_t>(place), 1, stations.size() - 3) - 1;
@@ -95,8 +91,8 @@ double arrival(const std::vector<double>& t, const std::vector<double>& d) {
     return kNever;
 }
 
-// The first of the trial points among the stations: they are about x₁, unless the earliest zero is at their edge or
-// beyond it.
+// The first of the trial points among the stations: they are centred on x₁, unless the earliest zero is at their edge
+// or beyond it.
 template <class ArrivalAt>
 std::size_t trial_begin(const Stations& searched, const ArrivalAt& arrival_at) {
     constexpr std::size_t kMiddle = kTrial / 2;
@@ -109,7 +105,7 @@ std::size_t trial_begin(const Stations& searched, const ArrivalAt& arrival_at) {
     return std::clamp<std::size_t>(middle, kMiddle, searched.x.size() - 1 - kMiddle) - kMiddle;
 }
 
-// The first touch of the simulation, in the digits that one mode fewer leaves.
+// The first touch of the simulation, with the digits that one mode fewer does not change.
 std::string located(const sim::Problem& problem, const sim::Result& result, const sim::Result* fewer, Lang lang) {
     const bool en = lang == Lang::en;
     if (result.impacts.empty()) return en ? "the simulation has no impact. " : "仿真中无碰撞。";
@@ -158,18 +154,24 @@ Panel distance_panel(const Trial& trial) {
     const DistanceHistory& f = trial.history;
     Panel panel;
     panel.legend = Legend::box;
-    panel.x.label = "$t$ / ms";
-    panel.y.label = "$D$′ / mm";
     panel.rules.push_back({.at = 0});
     const double touch = trial.when[trial.first], shown = std::min(kShown, 0.25 * touch);
     const double from = touch - shown, to = touch + 0.5 * shown;
+    double farthest = 0;  // [m]
+    for (std::size_t k = 0; k < f.x.size(); k += kRefined)
+        for (std::size_t i = 0; i < f.t.size(); ++i)
+            if (f.t[i] >= from && f.t[i] <= to) farthest = std::max(farthest, std::abs(f.distance[k][i]));
+    const Measure time = measure_of("s", touch), length = measure_of("m", farthest);
+    panel.x.label = axis_label("$t$", time.unit);
+    panel.y.label = axis_label("$D$′", length.unit);
     int look = 0;
     for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
         Series s;
         s.label = "$x$ = " + length_text(f.x[k]);
         s.look = look++;
         for (std::size_t i = 0; i < f.t.size(); ++i)
-            if (f.t[i] >= from && f.t[i] <= to) s.x.push_back(f.t[i] * 1e3), s.y.push_back(f.distance[k][i] * 1e3);
+            if (f.t[i] >= from && f.t[i] <= to)
+                s.x.push_back(f.t[i] * time.factor), s.y.push_back(f.distance[k][i] * length.factor);
         panel.series.push_back(std::move(s));
     }
     // Room above the falling curves for the inset.
@@ -180,17 +182,25 @@ Panel distance_panel(const Trial& trial) {
     return panel;
 }
 
+// Keeps marks off the frame.
+void widen(render::Axis& axis, const std::vector<double>& values) {
+    const auto [least, most] = std::ranges::minmax(values);
+    const double air = 0.08 * (most - least);
+    if (air > 0) axis.from = least - air, axis.to = most + air;
+}
+
 // When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
 Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
     Panel inset;
     inset.legend = Legend::none;
     inset.x.label = "$x$ / m";
     inset.x.tight = false;
-    inset.y.label = "$t_{0}$ / ms";
+    const Measure time = measure_of("s", trial.when[trial.first]);
+    inset.y.label = axis_label("$t_{0}$", time.unit);
     Series coarse, refined;
     for (std::size_t k = 0; k < trial.when.size(); ++k) {
         if (trial.when[k] == kNever) continue;
-        const double x = trial.history.x[k], t = trial.when[k] * 1e3;
+        const double x = trial.history.x[k], t = trial.when[k] * time.factor;
         const bool near = k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined;
         if (k % kRefined == 0) coarse.x.push_back(x), coarse.y.push_back(t);
         if (near) refined.x.push_back(x), refined.y.push_back(t);
@@ -201,32 +211,36 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
     coarse.line = false;
     coarse.every_point = true;
     inset.series = {refined, coarse};
+    widen(inset.x, coarse.x), widen(inset.y, coarse.y);
     if (!strikes.impacts.empty()) {
         const sim::Impact& hit = strikes.impacts.front();
-        inset.marks.push_back(
-            {.x = hit.x, .y = hit.t_start * 1e3, .label = lang == Lang::en ? "located" : "事件定位", .look = 1});
+        inset.marks.push_back({.x = hit.x,
+                               .y = hit.t_start * time.factor,
+                               .label = lang == Lang::en ? "located" : "事件定位",
+                               .look = 1});
     }
     return inset;
 }
 
-std::string trial_words(const Trial& trial, double rtol, Lang lang) {
+std::string trial_caption(const Trial& trial, double rtol, Lang lang) {
     const std::vector<double>&when = trial.when, &x = trial.history.x;
     const std::size_t first = trial.first;
-    // The first zero lies between the neighbours of the first point; its time is known as well as theirs agree.
+    // The first zero lies between the neighbours of the first point; its time is as certain as theirs agree.
     double around = 0;
     for (const std::size_t k : {first > 0 ? first - 1 : first, std::min(first + 1, x.size() - 1)})
         if (when[k] != kNever) around = std::max(around, when[k] - when[first]);
-    return filled(lang == Lang::en
-                      ? "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
-                        "near the first touch. Inset: the time of zero against $x$, the trial method's first round "
-                        "(points) and its refinement (line), and the event that the simulation locates. First of the "
-                        "trial points: {} m; among points {} mm apart: $x$ = {} m, $t$ = {} s; "
-                      : "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
-                        "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
-                        "mm 后 $x$ "
-                        "= {} m，$t$ = {} s；",
-                  number(x[trial.first_trial], 3), number(trial.spacing() * 1e3, 3), number(x[first], 4),
-                  supported({when[first], std::max(around, 10 * rtol * when[first])}));
+    return filled(
+        lang == Lang::en
+            ? "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
+              "near the first touch. Inset: the time at which the distance is zero against $x$, by the first round "
+              "of the trial method (points), its refinement (line) and the simulation (“located”). Earliest "
+              "trial point: {} m; earliest of points {} mm apart: $x$ = {} m, $t$ = {} s; "
+            : "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
+              "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
+              "mm 后 $x$ "
+              "= {} m，$t$ = {} s；",
+        number(x[trial.first_trial], 3), number(trial.spacing() * 1e3, 3), number(x[first], 4),
+        supported({when[first], std::max(around, 10 * rtol * when[first])}));
 }
 
 FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -238,23 +252,18 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     std::vector<std::size_t> where;
     for (const double x : searched.x) where.push_back(studies.point(fall, x, all));
     const std::size_t touching = studies.of(scene.problem, scene.end_time, "distance");
-    std::optional<std::size_t> check;
-    if (const auto fewer = with_one_mode_fewer(scene.problem)) {
-        check = studies.of(*fewer, scene.end_time, "distance");
-        studies.may_fail(*check);
-    }
+    const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, "distance", studies);
+    if (fewer) studies.stop_after(*fewer, {.touches = 1});
     return [=, problem = scene.problem](const Results& results) {
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
         Panel panel = distance_panel(trial);
         panel.insets.push_back({.panel = {arrivals_panel(trial, strikes, lang)}, .width = 0.42, .height = 0.42});
         Figure figure;
-        figure.name = "distance";
-        figure.title = lang == Lang::en ? "Distance of points of the beam from the cam" : "梁上各点到凸轮表面的距离";
         figure.panels.push_back(std::move(panel));
         figure.aspect = 0.76;
-        figure.caption = trial_words(trial, problem.solver.rtol, lang) +
-                         located(problem, strikes, check ? results[*check] : nullptr, lang) + facts(problem, lang);
+        figure.caption = trial_caption(trial, problem.solver.rtol, lang) +
+                         located(problem, strikes, results.find(fewer), lang) + facts(problem, lang);
         figure.accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang);
         return figure;
     };

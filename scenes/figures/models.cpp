@@ -1,4 +1,4 @@
-// How much the choice of model matters: the rungs of the ladder compared.
+// The models of the beam compared: how much the choice of model matters.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -9,18 +9,12 @@ namespace beamcam::scenes {
 namespace {
 
 using render::Scale;
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 using sim::Basis;
-using sim::ChannelKind;
 using sim::ModelKind;
 
 constexpr int kModelsPoints = 4001;
 
-// Steps that the figure `models` spends on a motion: about a second of computing, of which a Runge–Kutta step of N
-// shapes takes so many microseconds.
+// The budget of steps of a motion: about a second of computing, from the time of a Runge–Kutta step with N shapes.
 int affordable_steps(ModelKind model, int modes) {
     const bool nonlinear = model == ModelKind::second_order || model == ModelKind::exact;
     const double microseconds = 40 + (nonlinear ? 2.0 : 0.5) * modes * modes;
@@ -31,7 +25,7 @@ int affordable_steps(ModelKind model, int modes) {
 struct Rung {
     ModelKind model;
     Basis basis;
-    bool same_shapes;  // as the reference: the difference is the model's alone
+    bool same_shapes;  // as the reference, so that only the model differs
     std::string label;
     sim::Problem problem = {};
     std::size_t study = 0, table = 0;
@@ -43,7 +37,7 @@ const char* shapes(Basis basis, bool en) {
 }
 
 // The reference first. Models are compared in the same shapes and number of modes; the paper's equation, which only the
-// paper's scenes show, has none but cantilever shapes. What other shapes change is shown apart.
+// paper's scenes show, has cantilever shapes only. The effect of other shapes is shown separately.
 std::vector<Rung> rungs(const Scene& scene, Lang lang) {
     const bool en = lang == Lang::en;
     const sim::Problem& problem = scene.problem;
@@ -75,37 +69,36 @@ const Rung* found(const std::vector<Rung>& all, ModelKind model, bool same_shape
     return it == all.end() ? nullptr : &*it;
 }
 
-// Which curves end before the scene does.
+// Names the curves that end before the scene.
 std::string cut_short(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
     const bool en = lang == Lang::en;
     std::string list;
     for (const Rung& rung : all)
-        if (const sim::Result& result = *results[rung.study]; is_there(result) && result.end_time < end)
+        if (const sim::Result& result = *results[rung.study]; has_result(result) && result.end_time < end)
             list += filled(en ? "{}{} ends at {} s" : "{}{} 止于 {} s",
                            list.empty() ? ""
                            : en         ? ", "
                                         : "，",
                            rung.label, number(result.end_time, 3));
     if (list.empty()) return list;
-    return filled(
-        en ? "Curves end where the work that this figure spends on a model does, or where the model cannot go "
-             "on: {}. "
-           : "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。",
-        list);
+    return filled(en ? "Curves end where the computing budget of this figure for a model is spent, or where the model "
+                       "cannot be integrated further: {}. "
+                     : "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。",
+                  list);
 }
 
-// What equation and shapes change of the first rebound, each by itself.
+// States how equation and shapes, each alone, change the first rebound.
 std::string models_caption(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
     const bool en = lang == Lang::en;
     const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
         const Rung* rung = found(all, model, same_shapes);
-        return rung ? rebound_apex(*results[rung->study], end) : std::nullopt;
+        return rung ? rebound_apex(rung->problem, *results[rung->study], end) : std::nullopt;
     };
     const Rung& reference = all.front();
     std::string text = filled(
         en ? "The models of the beam compared: (a) hub angle; (b) largest difference so far from the model "
-             "second-order, all in {0} {1} modes, so that it is the model's alone; (c) the same of other shapes: {2} "
-             "modes, and the polynomials of the model exact (inextensible elastica). "
+             "second-order, with {0} {1} modes in all models, so that only the model differs; (c) the same difference "
+             "for other shapes: {2} modes, and the polynomials of the model exact (inextensible elastica). "
            : "各梁模型比较：(a) 转角；(b) 与 second-order 模型之差迄今的最大值，均用 {0} "
              "阶{1}模态，故仅为模型之差；(c) "
              "其他形函数的同一差值：{2}模态，以及 exact（不可伸长弹性线）模型的多项式。",
@@ -122,17 +115,16 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
                           : "式 (4) 与 first-order 的首次回弹最高点相差 {} rad。",
                        number(std::abs(*first - *printed), 1));
     if (reference_apex && other_apex)
-        text +=
-            filled(en ? "The other shapes change the apex of the first rebound by {} rad, which is no difference of "
-                        "the equations. "
-                      : "更换形函数使首次回弹最高点改变 {} rad，这并非方程之差。",
-                   number(std::abs(*reference_apex - *other_apex), 2));
+        text += filled(en ? "The other shapes change the apex of the first rebound by {} rad; this is an effect of the "
+                            "shapes, not of the equations. "
+                          : "更换形函数使首次回弹最高点改变 {} rad，这并非方程之差。",
+                       number(std::abs(*reference_apex - *other_apex), 2));
     if (!results[reference.study]->impacts.empty())
         text += en ? "Impacts multiply small differences. " : "碰撞会放大微小差别。";
     return text;
 }
 
-// The hub angle of a motion that may have been cut short: what follows is not a number.
+// The hub angle of a motion that may have been cut short; rows after its end are not numbers.
 Series reached(const sim::Table& table) {
     Series s;
     s.x = column(table, ChannelKind::t);
@@ -143,7 +135,7 @@ Series reached(const sim::Table& table) {
     return s;
 }
 
-// From each instant's reference, so far; empty where there is none.
+// The largest difference from the reference up to each instant; empty where there is none.
 Series largest_difference(Series s, const std::vector<double>& reference) {
     s.x.resize(std::min(s.x.size(), reference.size()));
     s.y.resize(s.x.size());
@@ -156,7 +148,7 @@ Series largest_difference(Series s, const std::vector<double>& reference) {
     return s;
 }
 
-// The hub angle of each model, and what it differs by from the first: of equal shapes, and of others.
+// The hub angle of each model and its difference from the first, for equal shapes and for others.
 struct ModelPanels {
     Panel angle, models, bases;
 };
@@ -178,7 +170,7 @@ ModelPanels model_panels(const std::vector<Rung>& all, const Results& results) {
     std::vector<double> reference;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Rung& rung = all[k];
-        if (!is_there(*results[rung.study])) continue;
+        if (!has_result(*results[rung.study])) continue;
         Series s = reached(results[rung.study]->tables[rung.table]);
         s.label = rung.label;
         s.look = k == 0 ? 6 : static_cast<int>(k) - 1;
@@ -192,7 +184,7 @@ ModelPanels model_panels(const std::vector<Rung>& all, const Results& results) {
     return out;
 }
 
-// Until the last of the flexible beams is cut short: what the rigid one does beyond compares with nothing.
+// Until the last of the flexible beams ends: beyond it the rigid beam has nothing to compare with.
 double shown_until(const std::vector<Rung>& all, const Results& results) {
     double shown = 0;
     for (const Rung& rung : all)
@@ -211,13 +203,11 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
     return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
-        if (!is_there(*results[all[0].study]))
+        if (!has_result(*results[all[0].study]))
             throw render::PictureError(
                 "figure models: the model second-order, with which the others are compared, "
                 "cannot be integrated; its warning says why");
         Figure figure;
-        figure.name = "models";
-        figure.title = lang == Lang::en ? "The models compared" : "各模型比较";
         ModelPanels panels = model_panels(all, results);
         for (Panel* panel : {&panels.angle, &panels.models, &panels.bases}) {
             panel->x.label = "$t$ / s";
@@ -229,7 +219,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         figure.aspect = 1.5;
         std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
         for (const Rung& rung : all)
-            if (is_there(*results[rung.study])) runs.emplace_back(&rung.problem, results[rung.study]);
+            if (has_result(*results[rung.study])) runs.emplace_back(&rung.problem, results[rung.study]);
         figure.caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
                          facts(problem, lang, {.model = true, .modes = true});
         figure.accuracy = accuracy(runs, lang);
@@ -240,7 +230,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
 std::optional<std::string> needs_flexible_fall(const Scene& scene) {
     if (auto prescribed = needs_free_hub(scene)) return prescribed;
     if (scene.problem.beam.model != ModelKind::rigid) return std::nullopt;
-    return "the ladder starts from a flexible beam; choose another beam.model than \"rigid\"";
+    return "the comparison starts from a flexible beam; choose another beam.model than \"rigid\"";
 }
 
 }  // namespace

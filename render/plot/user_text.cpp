@@ -1,4 +1,4 @@
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 #include <pango/pango.h>
 
@@ -15,7 +15,7 @@
 namespace beamcam::render {
 namespace {
 
-// The formula that begins at this dollar, both dollars included; empty: none does.
+// The formula that begins at this dollar, with both dollars; empty: none.
 std::string_view formula_at(std::string_view text, std::size_t dollar) {
     for (std::size_t end = dollar + 1; end < text.size(); ++end) {
         if (text[end] == '\\')
@@ -55,7 +55,7 @@ std::optional<std::vector<Run>> read(std::string_view formula) {
     }
 }
 
-// Letters that need no more than Pango's markup; nothing where something is raised, lowered or has dots.
+// As Pango markup in one line; none for a formula with scripts, dots or fractions.
 std::optional<std::string> in_line(const Canvas& canvas, const std::vector<Run>& runs) {
     std::string out;
     for (const Run& run : runs) {
@@ -66,7 +66,7 @@ std::optional<std::string> in_line(const Canvas& canvas, const std::vector<Run>&
     return out;
 }
 
-// A formula that can be read, else its own letters.
+// A formula, or its source if it cannot be parsed.
 std::string drawn(const Canvas& canvas, std::string_view text) {
     const auto runs = read(text);
     if (!runs) return escape(canvas.drawable(text));
@@ -96,7 +96,7 @@ std::vector<std::string> parts_of(std::string_view formula) {
     return parts;
 }
 
-// One text of two that follow each other; what was one formula is one again.
+// Joins two texts; parts of one formula become one again.
 std::string joined(const std::string& before, const std::string& space, const std::string& after) {
     const bool formula = before.ends_with('$') && !before.ends_with("\\$") && space == " " &&
                          std::ranges::any_of(std::array{"$= ", "$+ ", "$- ", "$< ", "$> "},
@@ -104,7 +104,7 @@ std::string joined(const std::string& before, const std::string& space, const st
     return formula ? before.substr(0, before.size() - 1) + space + after.substr(1) : before + space + after;
 }
 
-// What cannot be broken. A formula is to Unicode what a letter is; or each of its parts.
+// The unbreakable pieces. For Unicode a formula, or each of its parts, is one letter.
 std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = false) {
     std::string letters;
     std::vector<std::string> meant;  // by each of them
@@ -146,7 +146,7 @@ std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = fals
 
 }  // namespace
 
-std::string words(const Canvas& canvas, std::string_view text) {
+std::string text_markup(const Canvas& canvas, std::string_view text) {
     std::string out;
     const std::string between = needs_cjk(text) ? apart() : std::string();
     split(
@@ -155,7 +155,7 @@ std::string words(const Canvas& canvas, std::string_view text) {
     return out;
 }
 
-std::string plain_words(std::string_view text) {
+std::string plain_text(std::string_view text) {
     std::string out;
     split(
         text, [&](const std::string& plain) { out += plain; },
@@ -177,12 +177,12 @@ std::string characters_without_font(std::string_view text) {
                 out.find(one) == std::string::npos)
                 out += (out.empty() ? "" : " ") + one;
         }
-    } catch (const FontError&) {  // told by whoever draws
+    } catch (const FontError&) {  // drawing reports it
     }
     return out;
 }
 
-std::string problem_with_words(std::string_view text) {
+std::string markup_problem(std::string_view text) {
     std::string out;
     split(
         text, [](const std::string&) {},
@@ -196,10 +196,11 @@ std::string problem_with_words(std::string_view text) {
     return out;
 }
 
-std::vector<std::string> wrapped(Canvas& canvas, std::string_view text, const TextStyle& style, std::size_t most) {
+std::vector<std::string> wrapped_lines(Canvas& canvas, std::string_view text, const TextStyle& style,
+                                       std::size_t most) {
     TextStyle natural = style;
     natural.max_width = 0;
-    const auto markup = [&](const std::string& line) { return words(canvas, line); };
+    const auto markup = [&](const std::string& line) { return text_markup(canvas, line); };
     std::vector<std::string> lines;
     std::string line, space;
     const auto end_line = [&] {
@@ -213,7 +214,7 @@ std::vector<std::string> wrapped(Canvas& canvas, std::string_view text, const Te
     for (const Piece& piece : pieces(std::string(text))) {
         all.push_back(piece);
         if (style.max_width <= 0 || !is_wide(piece.text)) continue;
-        all.pop_back();  // a formula that needs more than a line
+        all.pop_back();  // a formula longer than a line
         for (const Piece& part : pieces(piece.text, true)) all.push_back(part);
         all.back().space = piece.space, all.back().ends_line = piece.ends_line;
     }

@@ -11,14 +11,10 @@
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-using render::figure::Legend;
-using render::figure::Panel;
-using render::figure::Series;
 using sim::Printing;
 
 constexpr int kPerSpan = 201;
-constexpr double kLeastReach = 0.02;              // cos θ: less is a beam that stands upright
+constexpr double kLeastReach = 0.02;              // cos θ: below it the beam is nearly vertical
 constexpr std::array kSupports{0.25, 0.4, 0.55};  // of the horizontal length
 
 // The inclination of the beam that is drawn [rad].
@@ -27,7 +23,7 @@ struct Inclination {
     bool tangent = false;  // to the disc as if it were centred
 };
 
-// The rod that just touches the disc, or the start where no such rod exists.
+// The rod that is tangent to the disc, or the initial angle if there is no such rod.
 Inclination inclination(const sim::Problem& p) {
     if (p.cam) {
         const double distance = norm(p.cam->centre), radius = p.cam->radius;
@@ -41,8 +37,8 @@ Inclination inclination(const sim::Problem& p) {
 
 struct Curves {
     Printing printing;
-    Words label;
-    int look;  // whose dash it has
+    Translated label;
+    int look;  // the line style
 };
 constexpr std::array kCurves{Curves{Printing::corrected, {"along the rod", "沿杆"}, 0},
                              Curves{Printing::completed, {"terms completed", "补全各项"}, 2},
@@ -152,8 +148,6 @@ Figure deflection_figure(const sim::Problem& problem, Lang lang) {
     }
     if (curves.size() > 1) add_key(curves, lang, panels.slope);
     Figure figure;
-    figure.name = "deflection";
-    figure.title = lang == Lang::en ? "Static deflection for several contact points" : "不同接触点的静挠度";
     figure.panels = {std::move(panels.shape), std::move(panels.slope)};
     figure.share_x = true;
     figure.aspect = 1.15;

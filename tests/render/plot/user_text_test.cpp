@@ -1,5 +1,5 @@
 // Words and formulas of pictures.
-#include "render/plot/words.hpp"
+#include "render/plot/user_text.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -25,21 +25,21 @@ class Words : public ::testing::Test {
 
 TEST_F(Words, WithoutDollarsAreWhatTheyAre) {
     for (const char* text : {"a & b <b>", "5 $ a day", "\\omega", "x_{1}^2", "costs $"})
-        EXPECT_EQ(words(canvas_, text), escape(text)) << text;
-    EXPECT_EQ(words(canvas_, "\\$5 and \\$6"), "$5 and $6");
-    EXPECT_EQ(words(canvas_, "$\\nonsense$"), "$\\nonsense$");
-    EXPECT_THAT(problem_with_words("a $\\nonsense$"), HasSubstr("\\nonsense is not among the commands"));
-    EXPECT_EQ(problem_with_words("$\\dot\\theta_1^2$ and 5 $"), "");
+        EXPECT_EQ(text_markup(canvas_, text), escape(text)) << text;
+    EXPECT_EQ(text_markup(canvas_, "\\$5 and \\$6"), "$5 and $6");
+    EXPECT_EQ(text_markup(canvas_, "$\\nonsense$"), "$\\nonsense$");
+    EXPECT_THAT(markup_problem("a $\\nonsense$"), HasSubstr("\\nonsense is not among the commands"));
+    EXPECT_EQ(markup_problem("$\\dot\\theta_1^2$ and 5 $"), "");
 }
 
 TEST_F(Words, FormulasAreSetAsMathematics) {
-    EXPECT_EQ(words(canvas_, "$\\omega$"), math("ω"));
-    EXPECT_EQ(words(canvas_, "at $\\r{Re} x$"), "at Re " + math("x"));
+    EXPECT_EQ(text_markup(canvas_, "$\\omega$"), math("ω"));
+    EXPECT_EQ(text_markup(canvas_, "at $\\r{Re} x$"), "at Re " + math("x"));
     for (const char* text : {"$x_c$", "$\\dot\\theta$", "$\\frac{a}{2}$", "$\\sqrt{a}$", "$\\lambda_1^2$"})
-        EXPECT_EQ(words(canvas_, std::string("at ") + text), "at " + formula(text));
+        EXPECT_EQ(text_markup(canvas_, std::string("at ") + text), "at " + formula(text));
     std::string deep = "x";
     for (int k = 0; k < 200; ++k) deep = "\\frac{1}{" + deep + "}";
-    EXPECT_NE(problem_with_words("$" + deep + "$"), "");
+    EXPECT_NE(markup_problem("$" + deep + "$"), "");
 }
 
 // By the rules of labels (label_test.cpp), in the letters of pictures.
@@ -59,20 +59,20 @@ TEST_F(Words, PartsOfFormulasStandWhereTheyShould) {
 TEST_F(Words, LinesBreakBetweenWordsAndBeforeSigns) {
     TextStyle narrow = style_;
     narrow.max_width = 320;
-    const auto lines = wrapped(canvas_, "speeds of $a = b + c + d$ of it all", narrow, 5);
+    const auto lines = wrapped_lines(canvas_, "speeds of $a = b + c + d$ of it all", narrow, 5);
     EXPECT_EQ(lines.front(), "speeds of");
-    EXPECT_EQ(lines[1], words(canvas_, "$a = b + c + d$ of it"));
+    EXPECT_EQ(lines[1], text_markup(canvas_, "$a = b + c + d$ of it"));
     EXPECT_EQ(lines.back(), "all");
     narrow.max_width = 150;
-    const auto broken = wrapped(canvas_, "$a = b + c + d$", narrow, 5);
+    const auto broken = wrapped_lines(canvas_, "$a = b + c + d$", narrow, 5);
     ASSERT_EQ(broken.size(), 2u);
-    EXPECT_EQ(broken[0], words(canvas_, "$a = b$"));
-    EXPECT_EQ(broken[1], words(canvas_, "$+ c + d$"));
+    EXPECT_EQ(broken[0], text_markup(canvas_, "$a = b$"));
+    EXPECT_EQ(broken[1], text_markup(canvas_, "$+ c + d$"));
 }
 
 TEST(PlainWords, AreForOtherPrograms) {
-    EXPECT_EQ(plain_words("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^3/2, ω_1 $");
-    EXPECT_EQ(plain_words("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "(λ_1)/L√(EI)");
+    EXPECT_EQ(plain_text("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^3/2, ω_1 $");
+    EXPECT_EQ(plain_text("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "(λ_1)/L√(EI)");
     EXPECT_EQ(to_latex("$\\frac{λ_1}{L}$"), "$\\frac{\\lambda_{\\mathrm{1}}}{L}$");
 }
 

@@ -1,7 +1,8 @@
-// Symbols and units on the axes of figures, as markup (render/draw/markup.hpp).
+// Symbols and units on the axes of figures, as markup (render/draw/markup.hpp), and the prefixes that suit values.
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "sim/problem/problem.hpp"
 
@@ -15,5 +16,14 @@ std::string axis_label(const std::string& symbol, const std::string& unit);
 std::string value_label(const std::string& symbol, double value, const std::string& unit);
 // Of a key of this problem that is a number.
 std::string key_label(const std::string& key, const sim::Problem& problem);
+
+// How the values of a quantity are written along an axis: multiplied by `factor`, in `unit`, which may be empty.
+struct Measure {
+    double factor = 1;
+    std::string unit;
+};
+// The prefix that suits the largest value, in SI units; of m, N, J and s alone.
+Measure measure_of(const std::string& unit, double largest);
+double largest_magnitude(const std::vector<double>& values);  // 0: there is no finite one
 
 }  // namespace beamcam::scenes

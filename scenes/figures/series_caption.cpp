@@ -1,4 +1,4 @@
-#include "scenes/figures/series_words.hpp"
+#include "scenes/figures/series_caption.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -7,15 +7,13 @@
 
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_rules.hpp"
+#include "scenes/figures/series_panels.hpp"
 #include "scenes/figures/series_spectrum.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Figure;
-
-std::string words_of(const sim::Channel& channel, Lang lang) {
+std::string channel_text(const sim::Channel& channel, Lang lang) {
     const render::ChannelLabel& label = render::label_of(channel.kind);
     std::string text = lang == Lang::en ? label.words : label.chinese;
     if (lang == Lang::en) text.front() = static_cast<char>(std::tolower(text.front()));
@@ -23,7 +21,7 @@ std::string words_of(const sim::Channel& channel, Lang lang) {
 }
 
 // "12 impacts", "no impact" until `end` [s].
-std::string impacts_words(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
+std::string impacts_text(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
     const auto count = std::ranges::count_if(
         result.impacts, [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
     if (lang == Lang::zh) return count == 0 ? "无冲击" : fmt::format("{} 次冲击", count);
@@ -42,7 +40,7 @@ std::string common_facts(const std::vector<SeriesMotion>& motions, Lang lang) {
     return filled(lang == Lang::en ? "Of {}: " : "{}：", first.label) + facts(first.problem, lang);
 }
 
-// Of a motion with panels of its own: "(c)", the first of them. A panel of differences follows those of the motion with
+// The first panel, "(c)", of a motion with separate panels. A panel of differences follows those of the motion with
 // data.
 std::string first_panel(const SeriesPlan& plan, std::size_t motion, const Figure& figure) {
     const std::size_t differences = figure.panels.size() - plan.panels.size(),
@@ -50,36 +48,39 @@ std::string first_panel(const SeriesPlan& plan, std::size_t motion, const Figure
     return fmt::format("({})", panel_letter(first));
 }
 
-// What each motion is called where it is told apart from others.
+// The name of a motion among several.
 std::string motion_name(const SeriesPlan& plan, std::size_t motion, const Figure& figure) {
     return plan.keys.apart ? first_panel(plan, motion, figure) : plan.motions[motion].label;
 }
 
 // ": (a) ω = 0, no impact; (b) …"; empty: the only motion has no name.
-std::string motions_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
+std::string motions_text(const SeriesPlan& plan, const Figure& figure, const Results& results) {
     const bool en = plan.lang == Lang::en;
     std::vector<std::string> labels;
     for (std::size_t k = 0; k < plan.motions.size(); ++k) {
         const SeriesMotion& motion = plan.motions[k];
         if (plan.keys.apart)
             labels.push_back(filled(en ? "{} {}, {}" : "{} {}，{}", first_panel(plan, k, figure), motion.label,
-                                    impacts_words(motion.problem, *results[motion.study], plan.end, plan.lang)));
+                                    impacts_text(motion.problem, *results[motion.study], plan.end, plan.lang)));
         else if (!motion.label.empty())
             labels.push_back(motion.label);
     }
     return labels.empty() ? "" : filled(en ? ": {}" : "：{}", fmt::join(labels, en ? "; " : "；"));
 }
 
-std::string dashed_lines_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
+std::string dashed_lines_text(const SeriesPlan& plan, const Figure& figure, const Results& results) {
     if (!plan.keys.impacts || figure.panels.front().rules.empty()) return "";
     const bool en = plan.lang == Lang::en;
-    return marks_collisions(*results[plan.motions.front().study], plan.keys.from, plan.end)
-               ? (en ? "Dashed lines: series of impacts begin. " : "虚线：冲击序列开始。")
-               : (en ? "Dashed lines: impacts begin. " : "虚线：冲击开始。");
+    const SeriesMotion& first = plan.motions.front();  // whose impacts are marked in panels of several motions
+    const bool collisions = marks_collisions(*results[first.study], plan.keys.from, plan.end);
+    const std::string of =
+        plan.keys.apart || plan.motions.size() == 1 ? "" : filled(en ? " of {}" : "（{}）", first.label);
+    return filled(en ? "Dashed lines: starts of {}{}. " : "虚线：{}{}开始。",
+                  collisions ? (en ? "collisions" : "碰撞") : (en ? "impacts" : "冲击"), of);
 }
 
-// Data that hold what the panels show, but not what it is drawn against.
-std::string undrawn_words(const SeriesPlan& plan) {
+// Names data that hold channels of the panels but not the quantity of the x axis.
+std::string undrawn_text(const SeriesPlan& plan) {
     std::string text;
     for (const Measured& each : plan.measured)
         if (!plan.abscissa.of(each.data, plan.motion_with_data().problem))
@@ -89,19 +90,19 @@ std::string undrawn_words(const SeriesPlan& plan) {
     return text;
 }
 
-// How far the curves can be relied on, and what data are held against them.
-std::string trust_words(const SeriesPlan& plan, const Figure& figure, const Results& results) {
+// Where the curves are reproducible, and how the data compare with them.
+std::string trust_text(const SeriesPlan& plan, const Figure& figure, const Results& results) {
     const double from = plan.keys.from;
-    if (!plan.horizon) return undrawn_words(plan);
+    if (!plan.horizon) return undrawn_text(plan);
     if (plan.abscissa.is_frequency())
-        return spectrum_words(plan.motions.front().problem, from, plan.end, plan.lang) +
-               measured_spectrum_words(plan.measured, plan.lang);
+        return spectrum_text(plan.motions.front().problem, from, plan.end, plan.lang) +
+               measured_spectrum_text(plan.measured, plan.lang);
     std::vector<std::pair<std::string, const sim::Result*>> runs;
     for (std::size_t k = 0; k < plan.motions.size(); ++k)
         runs.emplace_back(motion_name(plan, k, figure), results[plan.motions[k].study]);
     const SeriesMotion& motion = plan.motion_with_data();
-    return horizon_words(runs, from, plan.end, plan.lang) + undrawn_words(plan) +
-           agreement_words(plan.measured, *results[motion.study], motion.problem, plan.lang);
+    return horizon_text(runs, from, plan.end, plan.lang) + undrawn_text(plan) +
+           agreement_text(plan.measured, *results[motion.study], motion.problem, plan.lang);
 }
 
 }  // namespace
@@ -111,21 +112,25 @@ std::string panel_letter(std::size_t panel) { return {static_cast<char>('a' + pa
 std::string series_subject(const SeriesKeys& keys, Lang lang) {
     const bool en = lang == Lang::en;
     std::vector<std::string> words;
-    for (const SeriesPanel& panel : keys.panels)
-        for (const auto* side : {&panel.channels, &panel.right})
-            for (const sim::Channel& channel : *side) words.push_back(words_of(channel, lang));
+    for (const SeriesPanel& panel : keys.panels) {
+        for (const SeriesSum& sum : panel.sums) words.push_back(sum.label);
+        for (const auto* side : {&panel.channels, &panel.right}) {
+            if (side == &panel.channels && !panel.sums.empty()) continue;
+            for (const sim::Channel& channel : *side) words.push_back(channel_text(channel, lang));
+        }
+    }
     std::string all = fmt::format("{}", fmt::join(words, en ? ", " : "，"));
-    if (en) all.front() = static_cast<char>(std::toupper(all.front()));
+    if (en) all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
     if (keys.against == "phase") return all + (en ? " against the phase of the cam" : "随凸轮相位的变化");
     const auto against = sim::channel_named(keys.against);
     if (!against || against->kind == sim::ChannelKind::t) return all;
-    return all + filled(en ? " against {}" : "随{}的变化", words_of(*against, lang));
+    return all + filled(en ? " against {}" : "随{}的变化", channel_text(*against, lang));
 }
 
 std::string series_caption(const SeriesPlan& plan, const std::string& subject, const Figure& figure,
                            const Results& results) {
-    return fmt::format("{}{}{}", subject, motions_words(plan, figure, results), plan.lang == Lang::en ? ". " : "。") +
-           dashed_lines_words(plan, figure, results) + trust_words(plan, figure, results) +
+    return fmt::format("{}{}{}", subject, motions_text(plan, figure, results), plan.lang == Lang::en ? ". " : "。") +
+           dashed_lines_text(plan, figure, results) + trust_text(plan, figure, results) +
            common_facts(plan.motions, plan.lang);
 }
 

@@ -1,4 +1,4 @@
-// From a figure and the way it is wanted to the bytes of its files.
+// The files of a figure: picture, data and caption, as bytes.
 #pragma once
 
 #include <string>
@@ -10,7 +10,7 @@
 
 namespace beamcam::scenes {
 
-// The names that a figure's output writes: the figure, then data and caption where asked for.
+// The names of the files that a figure's output writes: the figure, then data and caption if requested.
 std::vector<std::string> files_of(const FigureOutput& how);
 
 // Names and bytes of these files. `scene` is the resolved scene as JSON, which the figure carries. PDF and SVG hold the
@@ -21,10 +21,10 @@ std::vector<std::pair<std::string, std::string>> figure_files(const render::figu
 // Its pixels at `how.dpi`, as a .png has them.
 render::Image figure_image(const render::figure::Figure& figure, const FigureOutput& how);
 
-// The scene as a figure carries it: its physics and this one figure, whatever its file is called.
+// The scene that is embedded in a figure: its physics and this figure, without the name of its file.
 std::string scene_of_figure(Scene scene, FigureOutput how);
 
-// The caption with its accuracy statement: plain text, then LaTeX; `.tex`: LaTeX, the plain text as its comment.
+// The caption with its accuracy statement as plain text, then as LaTeX; for `.tex` the plain text is a comment.
 std::string caption_text(const render::figure::Figure& figure, const std::string& file);
 
 }  // namespace beamcam::scenes

@@ -1,10 +1,13 @@
-#include "scenes/figures/key_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <map>
 
 #include "render/draw/markup.hpp"
+#include "render/plot/ticks.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -54,6 +57,19 @@ std::string value_label(const std::string& symbol, double value, const std::stri
 std::string key_label(const std::string& key, const sim::Problem& problem) {
     if (const auto known = sim::number_key(problem, key)) return axis_label(symbol_of(key), si_unit(known->dimension));
     return symbol_of(key);
+}
+
+Measure measure_of(const std::string& unit, double largest) {
+    const bool prefixed = unit == "m" || unit == "N" || unit == "J" || unit == "s";
+    const render::Prefix prefix = render::prefix_for(prefixed && largest > 0 && std::isfinite(largest) ? largest : 1);
+    return {1 / prefix.factor, prefix.symbol + unit};
+}
+
+double largest_magnitude(const std::vector<double>& values) {
+    double out = 0;
+    for (const double v : values)
+        if (std::isfinite(v)) out = std::max(out, std::abs(v));
+    return out;
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// What the caption of a series says.
+// The caption of a series.
 #pragma once
 
 #include <string>
@@ -11,10 +11,10 @@ namespace beamcam::scenes {
 // "(a)" is the panel 0.
 std::string panel_letter(std::size_t panel);
 
-// The channels that it shows, and against what.
+// Names the channels and the x axis.
 std::string series_subject(const SeriesKeys& keys, Lang lang);
 
-// `subject`: what the figure shows, without a full stop. `figure` has its panels.
+// `subject`: the first sentence, without its full stop. `figure` must have its panels.
 std::string series_caption(const SeriesPlan& plan, const std::string& subject, const render::figure::Figure& figure,
                            const Results& results);
 

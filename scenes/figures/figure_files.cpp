@@ -1,4 +1,4 @@
-#include "scenes/figures/make.hpp"
+#include "scenes/figures/figure_files.hpp"
 
 #include <fmt/format.h>
 
@@ -48,7 +48,7 @@ figure::Page page_of(const figure::Figure& f, const FigureOutput& how) {
     return figure::page_of(f, *column, how.width ? std::optional(*how.width * 1e3) : std::nullopt);
 }
 
-// What `take` gets out of the sheet with the figure on it.
+// Draws the figure and returns what `take` reads from the canvas.
 template <class Take>
 auto drawn(const figure::Figure& f, const FigureOutput& how, figure::Medium medium, const figure::Document& document,
            Take take) {
