@@ -275,8 +275,12 @@ class CloseUpPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_close_up_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<CloseUpPanel>(context, slot);
+PanelType close_up_panel() {
+    return {.kind = PanelKind::close_up,
+            .name = "close-up",
+            .smallest = {240, 170},
+            .make = make_panel<CloseUpPanel>,
+            .needs_cam = true};
 }
 
 }  // namespace beamcam::render

@@ -147,8 +147,15 @@ class EnergyPanel final : public ChartPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_energy_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<EnergyPanel>(context, slot);
+PanelType energy_panel() {
+    using enum ChannelKind;
+    return {.kind = PanelKind::energy,
+            .name = "energy",
+            .smallest = {300, 150},
+            .make = make_panel<EnergyPanel>,
+            .channels = {energy_kinetic, energy_potential, energy_elastic, energy_contact, loss_structural,
+                         loss_contact, loss_friction, work_cam, work_drive},
+            .takes_window = true};
 }
 
 }  // namespace beamcam::render

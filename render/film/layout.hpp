@@ -14,8 +14,13 @@
 
 namespace beamcam::render {
 
-// Each has a row in panel_types.cpp.
-enum class PanelKind { mechanism, strip, phase, energy, close_up, traces };
+// The kinds of panels, in the order of the reference. A new panel is a name in this list and one file, which defines
+// its PanelType in a function of this name with "_panel" behind it.
+#define BEAMCAM_PANELS(entry) entry(mechanism) entry(phase) entry(energy) entry(close_up) entry(traces) entry(strip)
+
+#define BEAMCAM_PANEL_KIND(name) name,
+enum class PanelKind { BEAMCAM_PANELS(BEAMCAM_PANEL_KIND) };
+#undef BEAMCAM_PANEL_KIND
 
 struct PanelSpec {
     PanelKind kind = PanelKind::mechanism;
@@ -96,17 +101,17 @@ Box plot_area(const Box& box, double unit, double tick);
 class FilmPanel;
 struct FilmContext;
 
-// All that layouts, scenes and films know of a kind of panel.
+// Everything that layouts, scenes and films need to know about a kind of panel.
 struct PanelType {
     PanelKind kind;
-    const char* name;  // as scenes write it
-    Vec2 smallest;     // room that it can use [design px]
+    const char* name;  // in scenes
+    Vec2 smallest;     // smallest useful size [design px]
     std::unique_ptr<FilmPanel> (*make)(const FilmContext& context, const PanelSlot& slot);
-    std::vector<sim::ChannelKind> channels = {};  // of the chart, beside those that scenes name
-    bool draws_curve = false;                     // the second of `channels` over the first
-    bool takes_channels = false;                  // scenes name them
-    bool takes_window = false;                    // of time
-    bool takes_collisions = false;                // instead of a window
+    std::vector<sim::ChannelKind> channels = {};  // that it reads from Motion::chart, beside those that scenes name
+    bool draws_curve = false;                     // plots the second of `channels` against the first
+    bool takes_channels = false;                  // accepts the keys "channels", …
+    bool takes_window = false;                    // … "window" with a duration, …
+    bool takes_collisions = false;                // … or with "collision"
     bool needs_cam = false;
 };
 const std::vector<PanelType>& panel_types();

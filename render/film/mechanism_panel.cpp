@@ -312,8 +312,9 @@ std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
     return out;
 }
 
-std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<MechanismPanel>(context, slot);
+PanelType mechanism_panel() {
+    return {
+        .kind = PanelKind::mechanism, .name = "mechanism", .smallest = {16, 16}, .make = make_panel<MechanismPanel>};
 }
 
 }  // namespace beamcam::render

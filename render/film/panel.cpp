@@ -69,6 +69,21 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
     return out;
 }
 
+// ---- the registry of panels ----------------------------------------------------------------------
+
+#define BEAMCAM_PANEL_TYPE(name) PanelType name##_panel();
+BEAMCAM_PANELS(BEAMCAM_PANEL_TYPE)
+#undef BEAMCAM_PANEL_TYPE
+
+const std::vector<PanelType>& panel_types() {
+#define BEAMCAM_PANEL_TYPE(name) name##_panel(),
+    static const std::vector<PanelType> types{BEAMCAM_PANELS(BEAMCAM_PANEL_TYPE)};
+#undef BEAMCAM_PANEL_TYPE
+    return types;
+}
+
+const PanelType& type_of(PanelKind kind) { return *std::ranges::find(panel_types(), kind, &PanelType::kind); }
+
 // ---- what panels share -------------------------------------------------------------------------
 
 FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {

@@ -103,7 +103,12 @@ class FilmPanel {
     virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
 };
 
-// ---- small things that panels share ------------------------------------------------------------
+template <class Panel>
+std::unique_ptr<FilmPanel> make_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<Panel>(context, slot);
+}
+
+// ---- helpers that panels share ------------------------------------------------------------------
 
 // The column of a channel; null when the table has none.
 const std::vector<double>* column(const sim::Table& table, sim::Channel channel);

@@ -144,8 +144,13 @@ class PhasePanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_phase_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<PhasePanel>(context, slot);
+PanelType phase_panel() {
+    return {.kind = PanelKind::phase,
+            .name = "phase",
+            .smallest = {240, 170},
+            .make = make_panel<PhasePanel>,
+            .channels = {ChannelKind::theta, ChannelKind::theta_dot},
+            .draws_curve = true};
 }
 
 }  // namespace beamcam::render

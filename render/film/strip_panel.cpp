@@ -156,10 +156,18 @@ class CollisionPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_strip_panel(const FilmContext& context, const PanelSlot& slot) {
-    if (slot.spec.by_collision && context.members() == 1 && context.setup->problem.cam)
-        return std::make_unique<CollisionPanel>(context, slot);
-    return std::make_unique<StripPanel>(context, slot);
+PanelType strip_panel() {
+    return {.kind = PanelKind::strip,
+            .name = "strip",
+            .smallest = {300, 150},
+            .make = [](const FilmContext& context, const PanelSlot& slot) -> std::unique_ptr<FilmPanel> {
+                if (slot.spec.by_collision && context.members() == 1 && context.setup->problem.cam)
+                    return std::make_unique<CollisionPanel>(context, slot);
+                return std::make_unique<StripPanel>(context, slot);
+            },
+            .takes_channels = true,
+            .takes_window = true,
+            .takes_collisions = true};
 }
 
 }  // namespace beamcam::render

@@ -91,8 +91,12 @@ class TracesPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_traces_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<TracesPanel>(context, slot);
+PanelType traces_panel() {
+    return {.kind = PanelKind::traces,
+            .name = "traces",
+            .smallest = {240, 170},
+            .make = make_panel<TracesPanel>,
+            .needs_cam = true};
 }
 
 }  // namespace beamcam::render
