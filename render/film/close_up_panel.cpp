@@ -38,8 +38,8 @@ class CloseUpPanel final : public FilmPanel {
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const Palette& p = *context_.palette;
-        const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
-            plain{.size = 21 * u, .weight = Weight::medium};
+        const TextStyle bold{.size = context_.heading(), .weight = Weight::semibold},
+            plain{.size = context_.heading(), .weight = Weight::medium};
         const double room = plot_.w - canvas.measure(context_.say("penetration 000\u00A0µm"), plain).w - 16 * u;
         const std::string whose = of_motion(context_, member_);
         const std::string whole = context_.say("Contact close-up"), brief = context_.say("Contact");
@@ -216,25 +216,27 @@ class CloseUpPanel final : public FilmPanel {
                                    : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                                  : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
         told(canvas, {plot_.right(), box_.y + 26 * u}, context_.say(deep ? "penetration" : "gap"), amount,
-             "00.0\u00A0mm", {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+             "00.0\u00A0mm",
+             {.size = context_.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
         // Up to three lines in the upper right corner. The face may pass behind them: the halo is the colour of most of
         // it.
         const Color background = p.tint(p.grid, 0.35);
         const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
         const Color behind = over_beam ? mix(background, p.motion, 0.30) : background;
         const std::string count = counted(pose.t);
+        const auto line = [&](int k) { return plot_.y + 2 * u + (1.1 + 1.3 * k) * context_.tick; };
         const double room = plot_.w - canvas.measure(context_.say("beam"), {.size = context_.tick}).w - 40 * u;
         TextStyle style{.size = context_.tick, .color = p.ink, .align = HAlign::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
-            canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
+            canvas.text({plot_.right() - 10 * u, line(0)}, count, style);
         if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
         const char* widest = "00.0\u00A0mN";
         style.weight = Weight::medium;
         if (canvas.measure(context_.say("friction "), style).w + canvas.measure(widest, style).w > room) return;
-        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, context_.say("force"), quantity(near.force, "N"),
-             widest, style);
+        told(canvas, {plot_.right() - 10 * u, line(1)}, context_.say("force"), quantity(near.force, "N"), widest,
+             style);
         if (near.friction != 0)
-            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, context_.say("friction"),
+            told(canvas, {plot_.right() - 10 * u, line(2)}, context_.say("friction"),
                  quantity(std::abs(near.friction), "N"), widest, style);
     }
 

@@ -92,7 +92,7 @@ class EnergyPanel final : public ChartPanel {
         const double first = plot.x +
                              canvas
                                  .measure(context_.say(is_wide(context_, box_) ? "Energy E / mJ" : "E / mJ"),
-                                          {.size = 21 * u, .weight = Weight::semibold})
+                                          {.size = context_.heading(), .weight = Weight::semibold})
                                  .w +
                              20 * u;
         struct Step {
@@ -100,7 +100,14 @@ class EnergyPanel final : public ChartPanel {
             bool in_symbols = false;
         } chosen{};
         const auto words = [&](const Part& part) { return chosen.in_symbols ? part.symbol : std::string(part.label); };
-        for (const Step step : {Step{16, 19, 16}, {16, 18, 9}, {14, 15, 8}, {16, 19, 12, true}, {16, 17, 6, true}}) {
+        const double full = 16.0 / 17 * context_.tick / u;
+        for (const Step step : {Step{full, full + 3, 16},
+                                {full, full + 2, 9},
+                                {16, 19, 16},
+                                {16, 18, 9},
+                                {14, 15, 8},
+                                {16, 19, 12, true},
+                                {16, 17, 6, true}}) {
             chosen = step;
             double end = first - step.gap * u;
             for (const Part& part : shown)

@@ -151,13 +151,19 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     const Box& b = *context.places.scales;
     const TextStyle small{
         .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
-    const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks) {
-        const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
+    const std::string moment_title = context.say("bending moment"),
+                      trace_title =
+                          context.say(context.setup->view.trace == TraceColor::force ? "contact force, trace (√ scale)"
+                                                                                     : "age of the trace");
+    const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
+                                             context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));
+    const auto bar = [&](double right, const std::string& title, const auto& color, std::array<std::string, 3> marks) {
+        const Box strip{std::round(right - wide), std::round(b.y + 22 * u), wide, std::round(10 * u)};
         for (int i = 0; i < static_cast<int>(strip.w); ++i) {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
             canvas.fill(color((i + 0.5) / strip.w));
         }
-        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, context.say(name), small);
+        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, title, small);
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
@@ -170,18 +176,17 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
         const std::string top = quantity(context.force_scale, "N"),
                           quarter = quantity(context.force_scale / 4, prefix_for(context.force_scale), "N");
         if (context.setup->view.trace == TraceColor::force) {
-            bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
-                {"0", quarter, top});
+            bar(right, trace_title, [&](double s) { return force_color(palette, s); }, {"0", quarter, top});
         } else {
             const double half_life = trace_half_life(context.span), oldest = 4 * half_life;
-            bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
+            bar(right, trace_title, [&](double s) { return age_color(palette, s * oldest, half_life); },
                 {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)});
         }
-        right -= 300 * u;
+        right -= wide + 50 * u;
     }
     if (context.moment_scale > 0) {
         const std::string top = quantity(context.moment_scale, "N\u2009m");
-        bar(right, "bending moment", [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
+        bar(right, moment_title, [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
     }
 }
 

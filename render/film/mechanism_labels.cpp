@@ -26,6 +26,8 @@ double least_letter(const MechanismView& at) {
     return std::max(kReadable, kOfTicks * at.context.tick);
 }
 
+double label_size(const MechanismView& at) { return std::max(21 * at.unit, at.context.tick); }
+
 double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
 
 std::string speed_label(const MechanismView& at) {
@@ -177,8 +179,9 @@ class LabelPlacer {
         const double clear = force_label_distance(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
         const Vec2 tip = at.px(most.foot) + n * clear;
         const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
-        const double gap = 14 * u + shrunk(width);
-        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - 14 * u, width, 28 * u}, at.px(most.foot));
+        const double gap = 14 * u + shrunk(width), size = label_size(at);
+        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - size * 2 / 3, width, size * 4 / 3},
+                     at.px(most.foot));
     }
 
   private:
@@ -190,7 +193,8 @@ class LabelPlacer {
         const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
         const double base = std::min(to.y + 12 * u, at.box.bottom() - 34 * u);  // above the scale bar
         const double gap = 8 * u + shrunk(width);
-        return {to.x + (right ? gap : -gap - width), base - 17.72 * u, width, 22 * u};
+        const double size = label_size(at);
+        return {to.x + (right ? gap : -gap - width), base - 0.844 * size, width, 1.048 * size};
     }
 
     // The solid view is drawn smaller than the flat one, its words are not: so much they come nearer to their arrows.
@@ -245,7 +249,8 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
         for (SweptRegion* each : {&swept, &pressed}) each->room.cover(at.label_box(label, nullptr), 1);
     };
     if (at.problem().cam) {
-        out.speed = placer.speed(swept.room, canvas.measure(speed_label(at), {.size = 21 * at.unit}).w, out.speed_way);
+        out.speed =
+            placer.speed(swept.room, canvas.measure(speed_label(at), {.size = label_size(at)}).w, out.speed_way);
         take(*out.speed);
         for (SweptRegion* each : {&swept, &pressed})
             placer.each_of_arrow(out.speed_way, [&](const Box& box) { each->room.cover(box, 1); });

@@ -71,6 +71,8 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
 // As they are written.
 std::string speed_label(const MechanismView& at);
 std::string force_label(const MechanismView& at, const ForceArrow& arrow);
+// Size of the letters of the cam's speed and of the force [px].
+double label_size(const MechanismView& at);
 // The least size of the letters on a mechanism [px].
 double least_letter(const MechanismView& at);
 // Of a design pixel of the angle's letter [px].

@@ -73,7 +73,7 @@ double arrow_length(const MechanismView& at, const ForceArrow& arrow) {
 }
 
 TextStyle force_style(const MechanismView& at) {
-    return {.size = 22 * at.unit, .color = at.palette.contact, .weight = Weight::medium};
+    return {.size = 22.0 / 21 * label_size(at), .color = at.palette.contact, .weight = Weight::medium};
 }
 
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
@@ -129,7 +129,7 @@ void draw_cam_speed(const MechanismScene& s) {
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
-    draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = 21 * s.at.unit, .color = s.at.palette.muted},
+    draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted},
                s.on(axis + down(middle) * radius), s.at.labels->speed->base);
 }
 

@@ -83,7 +83,10 @@ void MechanismWords::scale_bar(Canvas& canvas, const MechanismView& at) const {
 }
 
 TextStyle MechanismWords::label_style() const {
-    return {.size = 24 * at_.unit, .color = at_.palette.ink, .weight = Weight::semibold, .halo = at_.palette.paper};
+    return {.size = std::max(24 * at_.unit, at_.context.heading()),
+            .color = at_.palette.ink,
+            .weight = Weight::semibold,
+            .halo = at_.palette.paper};
 }
 
 void MechanismWords::label(Canvas& canvas) const {

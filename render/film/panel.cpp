@@ -240,9 +240,9 @@ std::string of_motion(const FilmContext& context, int member) {
 }
 
 void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup) {
-    const double u = context.unit;
-    canvas.text({box.x, box.y + 26 * u}, markup,
-                {.size = 21 * u, .color = context.palette->ink, .weight = Weight::semibold, .max_width = box.w});
+    canvas.text(
+        {box.x, box.y + 26 * context.unit}, markup,
+        {.size = context.heading(), .color = context.palette->ink, .weight = Weight::semibold, .max_width = box.w});
 }
 
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,

@@ -12,6 +12,7 @@
 #include "render/draw/canvas.hpp"
 #include "render/film/film.hpp"
 #include "render/mechanism/trace.hpp"
+#include "render/plot/chart_axes.hpp"
 #include "render/plot/labels.hpp"
 #include "render/plot/ticks.hpp"
 
@@ -28,8 +29,9 @@ struct FilmContext {
     const Palette* palette = nullptr;  // of these
     bool cjk = false;
     Layout places;
-    double unit = 1;   // [px] of one design pixel
-    double tick = 17;  // size of letters at axes and scales [px]
+    double unit = 1;                                             // [px] of one design pixel
+    double tick = 17;                                            // size of letters at axes and scales [px]
+    double heading() const { return heading_size(unit, tick); }  // size of letters of headings and readings [px]
     TimeFormat time;
     double factor = 1;                              // of exaggeration, the same for all motions
     double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none

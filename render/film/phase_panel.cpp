@@ -53,7 +53,7 @@ class PhasePanel final : public FilmPanel {
         const double u = context_.unit;
         const std::string name = y_->name(),
                           words = label_of(ChannelKind::theta_dot).heading(context_.setup->view.lang) + name;
-        const TextStyle heading{.size = 21 * u, .weight = Weight::semibold};
+        const TextStyle heading{.size = context_.heading(), .weight = Weight::semibold};
         draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {words, name}, heading, plot_.w));
         draw_levels(canvas, chart_style(context_), *y_, plot_);

@@ -122,6 +122,18 @@ Color curve_color(const FilmContext& context, Channel channel, std::size_t i, in
     return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
 }
 
+// The places of impulsive impacts, which last no time and have no force that could color them.
+void add_impulses(const FilmContext& context, int member, ChartContent& c, Extent& places) {
+    if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
+    const Palette& p = *context.palette;
+    const Color color = context.members() > 1 ? context.member_color(member) : p.contact;
+    for (const sim::Impact& impact : context.motion(member).impacts) {
+        if (impact.t_start < c.time.low || impact.t_start > c.time.high) continue;
+        places.add({&impact.x, 1});
+        c.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
+    }
+}
+
 // The places of contact as dots.
 void add_places(const FilmContext& context, ChartContent& c) {
     Extent places;
@@ -136,6 +148,7 @@ void add_places(const FilmContext& context, ChartContent& c) {
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.dots.push_back({s.t, s.x, color, faint});
         }
+    for (int m = 0; m < context.members(); ++m) add_impulses(context, m, c, places);
     const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 1e-3 * length);
     c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
@@ -236,6 +249,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
     c.words = single ? label_of(first.kind).heading(context.setup->view.lang) : "";
+    if (c.words.starts_with("Contact point on")) c.short_words = "Contact point ";
     c.unit = context.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);

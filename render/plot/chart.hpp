@@ -43,14 +43,16 @@ struct ChartBand {
 };
 
 struct ChartContent {
-    std::string words;             // before the symbol, left out where there is no room: "Hub angle "
+    std::string words;             // before the symbol, if there is space: "Contact point on the beam "
+    std::string short_words = {};  // otherwise these, if there is space: "Contact point "
     std::string symbol;            // markup: θ; may be empty
     std::string unit;              // "rad", "N", "" for none
     Range value;                   // to be shown; the axis is widened to round ends
     Range time;                    // of the film [s]
     std::optional<double> window;  // [s]
     double time_unit = 1;          // [s]
-    // The readings are told in this unit by themselves, as labels beside the mechanism tell them; empty: in the axis's.
+    // Unit of the readings, which choose their prefix as labels beside the mechanism do; empty: the axis's unit and
+    // prefix.
     std::string reading_unit = {};
     std::string time_label;    // markup, "t / s"
     std::string instead = {};  // in place of the axis of values, where there is none to be shown: "no contact"

@@ -1,6 +1,7 @@
 // The axes of charts in films: a line across the plot at every number at the left, and numbers below it.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,16 @@ namespace beamcam::render {
 // `unit` "" for none; `most` >= 2 marks.
 AxisMap chart_axis(double low, double high, const std::string& symbol, const std::string& unit, int most);
 
+// Letters of headings and readings are larger than those at axes [px].
+inline double heading_size(double unit, double numbers) { return std::max(21 * unit, 1.14 * numbers); }
+
 // What charts of a film have in common.
 struct ChartStyle {
     const Palette& palette;
     double unit;     // [px] of a design pixel
     double numbers;  // size of the letters at axes [px]
+
+    double heading() const { return heading_size(unit, numbers); }
 };
 void draw_levels(Canvas& canvas, const ChartStyle& style, const AxisMap& axis, const Box& plot);
 
