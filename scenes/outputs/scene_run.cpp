@@ -193,7 +193,7 @@ void SceneRun::write_pictures(std::size_t picture) {
     const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
                        film_track(setup, p.picture.view.lang)};
     render::Film film(std::move(setup));
-    if (const auto wanted = p.picture.view.exaggeration; wanted && film.yields())
+    if (const auto wanted = p.picture.view.exaggeration; wanted && film.exaggeration_reduced())
         context_.say(
             "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam into the cam or "
             "far from where it touches\n",
@@ -201,7 +201,7 @@ void SceneRun::write_pictures(std::size_t picture) {
     if (film.exaggeration() > 1 && !p.picture.view.show.legend)
         context_.say("note: {} shows deflection ×{:g} and does not say so; its caption has to\n", p.file,
                      film.exaggeration());
-    if (film.cuts_title())
+    if (film.title_truncated())
         context_.say("warning: {} shows only the beginning of the title: {}\n", p.file,
                      why_text_is_omitted(p.picture.size));
     if (const int empty = film.empty_frames(); empty > 0)
