@@ -10,8 +10,7 @@
 #include <string_view>
 
 #include "output/files/interrupt.hpp"
-#include "render/base/memory.hpp"
-#include "render/base/threads.hpp"
+#include "render/base/limits.hpp"
 
 namespace beamcam::output {
 namespace {

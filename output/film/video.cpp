@@ -20,8 +20,7 @@
 #include "output/film/palette.hpp"
 #include "output/film/pixel_layout.hpp"
 #include "output/film/video_library.hpp"
-#include "render/base/memory.hpp"
-#include "render/base/threads.hpp"
+#include "render/base/limits.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::output {

@@ -1,4 +1,4 @@
-// What can go wrong with pictures, by what the user can do about it. Messages name the remedy.
+// Errors of drawing, grouped by what the user can do about them. Messages name the remedy.
 #pragma once
 
 #include <stdexcept>
@@ -6,7 +6,7 @@
 
 namespace beamcam::render {
 
-// A part that this machine lacks: a renderer, a codec or a font (exit code 5).
+// A renderer, codec or font is missing on this machine (exit code 5).
 struct MissingPart : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -17,12 +17,12 @@ struct GlError : MissingPart {
     using MissingPart::MissingPart;
 };
 
-// A picture that cannot be drawn as asked: no frames, an impossible size (exit code 3).
+// The requested picture is impossible, for example of an invalid size or without frames (exit code 3).
 struct PictureError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// A library needs threads that cannot start (exit code 6).
+// A library cannot start the threads that it needs (exit code 6).
 struct ThreadError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -19,13 +19,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// A build folder repeats the installed layout, with the program at its root and test programs one below.
+// A build folder has the installed layout, with the program at its root and test programs in a subfolder.
 bool is_build_folder(const fs::path& folder) {
     std::error_code unreadable;
     return fs::is_regular_file(folder / "CMakeCache.txt", unreadable);
 }
 
-// The loader's words for an allocation that failed are many; all name memory or mapping.
+// The dynamic loader has several messages for failed allocations.
 bool is_short_of_memory(std::string_view reason) {
     for (const std::string_view words : {"annot allocate memory", "failed to map segment", "out of memory"})
         if (reason.find(words) != std::string_view::npos) return true;

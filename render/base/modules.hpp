@@ -1,9 +1,9 @@
-// Loads the program's own modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/lit.hpp), when they are first
-// needed: linking their libraries would cost every start some tens of milliseconds.
+// Loads the program's modules, beamcam_video.so (FFmpeg) and those of OpenGL (gl/lit.hpp), on first use: linking their
+// libraries would add tens of milliseconds to every start.
 //
-// A module exports one function, `beamcam_module`, and offers one C++ interface through it. Program and module must
-// come from the same headers and compiler; `kModuleInterface`, a digest of both, is compared before anything else.
-// They are looked for in the build folder, or where the program is installed; $BEAMCAM_MODULE_DIR alone when it is set.
+// A module exports one function, `beamcam_module`, which returns one C++ interface. Program and module must be built
+// from the same headers by the same compiler; a digest of both is compared first. Modules are searched in the build
+// folder, or where the program is installed; only in $BEAMCAM_MODULE_DIR if that is set.
 #pragma once
 
 #include <filesystem>
@@ -14,19 +14,19 @@
 namespace beamcam::render {
 
 struct ModuleEntry {
-    const char* interface_digest;  // kModuleInterface of its build
-    const void* library;           // the interface that the module offers; lives as long as the program
+    const char* interface_digest;  // digest of headers and compiler
+    const void* library;           // the interface of the module; valid until the program ends
 };
 
-// The module cannot be used: every place that was searched, and why.
+// The module cannot be loaded. The message lists every place that was searched, with the reason.
 struct ModuleError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The interface of the module in this file. The module stays loaded. Throws ModuleError; std::bad_alloc.
+// Loads the module in this file and returns its interface. It stays loaded. Throws ModuleError, std::bad_alloc.
 const void* load_module(const std::string& file);
 
-// Where the module may be, best first. `program` is the program's file; empty where /proc is not mounted.
+// Where to search for the module, in order. `program`: the program's file; empty if /proc is not mounted.
 std::vector<std::filesystem::path> module_places(const std::filesystem::path& program, const std::string& file);
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// Which libraries draw flat pictures and figures: part of the fingerprint that digests are kept under.
+// Versions of the drawing libraries: part of the fingerprint of accepted digests.
 #pragma once
 
 #include <string>
@@ -7,7 +7,7 @@
 
 namespace beamcam::render {
 
-// Name and version of each library that decides about pixels: cairo, pixman, pango, harfbuzz, freetype.
+// Name and version of each library that determines pixels: cairo, pixman, pango, harfbuzz, freetype.
 std::vector<std::pair<std::string, std::string>> library_versions();
 
 }  // namespace beamcam::render

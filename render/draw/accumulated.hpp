@@ -15,20 +15,20 @@ struct TimedPath {
     std::vector<double> times;  // increasing [s]
     std::vector<Vec2> points;   // [px of the layer]; NaN breaks the path
 };
-// Points nearer than `least` pixels to the one before are left out, the last one excepted.
+// Removes points nearer than `least` pixels to the previous one, except the last point.
 TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& points, double least);
 
 class AccumulatedLayer {
   public:
     AccumulatedLayer(int width, int height) : image_(width, height) {}
-    // The pieces that end at or before t are drawn. Where the layer changed; all of it after going back in time.
+    // Draws the pieces that end at or before t. Returns the changed box; after going back in time, the whole layer.
     Box extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen);
     const Image& image() const { return image_; }
     Box whole() const { return {0, 0, double(image_.width), double(image_.height)}; }
 
   private:
     Image image_;
-    std::size_t drawn_ = 0;  // points passed
+    std::size_t drawn_ = 0;  // number of points drawn
 };
 
 }  // namespace beamcam::render

@@ -11,11 +11,11 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kFlatness = 0.02;  // of a circle's polygon [px]
-constexpr float kHalf = 0.5F;       // before truncation: rounds
-constexpr int kBand = 32;           // rows whose sums are held at once
+constexpr double kFlatness = 0.02;  // deviation of a polygon from its circle [px]
+constexpr float kHalf = 0.5F;       // added before truncation, to round
+constexpr int kBand = 32;           // rows that are accumulated at once
 
-// The corners lie as far outside as the sides' middles lie inside.
+// A polygon whose corners lie as far outside the circle as the middles of its sides lie inside.
 std::vector<Vec2> circle(Vec2 centre, double radius) {
     std::vector<Vec2> corners;
     if (!(radius > 0)) return corners;
@@ -31,8 +31,8 @@ std::vector<Vec2> circle(Vec2 centre, double radius) {
     return corners;
 }
 
-// How much more of each pixel is covered than of the one to the left: rows of a picture that are worked on together,
-// `width` columns from `left` on.
+// Accumulates for each pixel the difference of coverage from its left neighbour, for kBand rows and `width` columns
+// from `left` on.
 class CoverageAccumulator {
   public:
     CoverageAccumulator(int left, int width)
@@ -41,7 +41,7 @@ class CoverageAccumulator {
           stride_(static_cast<std::size_t>(width) + 2 + 2 * kEight),
           sums_(kBand * stride_, 0.0F) {}
 
-    // The part of the edge within the rows; `top` is the first row's.
+    // Adds the part of an edge within the rows; `top` is the first row.
     void add(int top, Vec2 a, Vec2 b, float sense) {
         const double slope = (b.x - a.x) / (b.y - a.y);
         const double from = std::max<double>(a.y, top), to = std::min<double>(b.y, top + kBand);
@@ -56,8 +56,8 @@ class CoverageAccumulator {
         }
     }
 
-    // Calls take(x, part) for pixels that are covered in part, 1 … 255, fill(first, end) for stretches that are wholly,
-    // from left to right, and forgets the row.
+    // Calls take(x, part) for pixels covered in part (1 … 254) and fill(first, end) for runs of full pixels, from left
+    // to right, and clears the row.
     template <class Take, class Fill>
     void take_row(int row, const Take& take, const Fill& fill) {
         Reach& reach = reach_[static_cast<std::size_t>(row)];
@@ -68,7 +68,7 @@ class CoverageAccumulator {
             sums[x] = 0;
             const int part = static_cast<int>(std::min(std::abs(covered), 1.0F) * 255 + kHalf);
             int next = x + 1;
-            if (zeros(sums + next)) {  // nothing begins or ends there
+            if (zeros(sums + next)) {  // no edge there
                 do next += kEight;
                 while (next < end && zeros(sums + next));
                 next = std::min(next, end);
@@ -95,8 +95,8 @@ class CoverageAccumulator {
         return (words[0] | words[1] | words[2] | words[3]) == 0;
     }
 
-    // An edge that passes from left to right in a row, of which it covers `height` (with its sense). What is beyond the
-    // columns lies along their borders.
+    // Adds an edge that spans from left to right in a row, with signed `height`. Parts outside the columns are moved to
+    // their borders.
     void cross(int row, double left, double right, double height) {
         const auto end = static_cast<double>(width_);
         if (left < 0 || right > end) {
@@ -119,12 +119,13 @@ class CoverageAccumulator {
         reach.first = std::min(reach.first, first);
         reach.end = std::max(reach.end, last + 2);
         if (first == last) {
-            const auto beside = static_cast<float>((left + right) / 2 - first);  // of the pixel, not covered
+            const auto beside =
+                static_cast<float>((left + right) / 2 - first);  // share of the pixel that is not covered
             sums[first] += height * (1 - beside);
             sums[first + 1] += height * beside;
             return;
         }
-        // What is covered of each pixel so far: the triangle at the first, then ever more by `step`.
+        // Cumulative coverage: a triangle in the first pixel, then increments of `step`.
         const auto step = static_cast<float>(1 / (right - left));
         const auto head = static_cast<float>(first + 1 - left), tail = static_cast<float>(right - last);
         float before = 0;
@@ -146,7 +147,7 @@ class CoverageAccumulator {
     std::array<Reach, kBand> reach_;
 };
 
-// Tells the tiles of stretches of pixels, neighbours in a row together.
+// Marks tiles dirty for runs of pixels, joining neighbours in a row.
 class DirtySpans {
   public:
     explicit DirtySpans(DirtyTiles* touched) : touched_(touched) {}
@@ -174,7 +175,7 @@ class DirtySpans {
 }  // namespace
 
 void Area::put(std::span<const Vec2> corners, float sense) {
-    double area = 0;  // twice, positive if the corners follow each other clockwise as seen
+    double area = 0;  // twice the area; positive if the corners run clockwise on the screen
     Bounds box;
     for (std::size_t i = 0; i < corners.size(); ++i) {
         const Vec2 a = corners[i], b = corners[(i + 1) % corners.size()];

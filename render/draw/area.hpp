@@ -1,8 +1,7 @@
-// Areas between closed contours, painted by exact coverage: each pixel gets as much of the colour as the area covers of
-// it. The signed areas that the edges cut off are summed row by row (as in font-rs, R. Levien 2016, and libart before
-// it). Cairo, which samples a pixel in 15 × 17 places, and FreeType, which walks through all contours anew for every
-// few hundred pixels of edge, take several times as long for the beam and the disc, whose edges are elsewhere in every
-// frame.
+// Fills areas between closed contours with exact pixel coverage, by summing the signed areas that edges cut off row by
+// row (as font-rs, R. Levien 2016, and libart before it). For the beam and the disc, whose edges move in every frame,
+// this is several times faster than Cairo, which samples 15 × 17 points per pixel, and FreeType, which repeats its walk
+// through all contours for every few hundred pixels of edge.
 #pragma once
 
 #include <array>
@@ -17,37 +16,37 @@
 
 namespace beamcam::render {
 
-// Pixels 0xAARRGGBB, premultiplied, that somebody else holds.
+// A view of pixels 0xAARRGGBB, premultiplied.
 struct PixelView {
     std::uint32_t* pixels = nullptr;
     int width = 0, height = 0;  // [px]
-    std::ptrdiff_t stride = 0;  // from row to row [pixels]
+    std::ptrdiff_t stride = 0;  // between rows [pixels]
 };
 
 class Area {
   public:
-    // Contours close by themselves and may have either sense; those with a place that is no number are left out.
-    // Where contours added overlap, or one overlaps itself, it is inside; holes are to lie within what is added.
+    // Contours are closed implicitly and may have either orientation; a contour with a NaN is ignored. Overlapping
+    // added contours form a union. Cut contours must lie inside added ones.
     void add(std::span<const Vec2> corners) { put(corners, 1); }
     void cut(std::span<const Vec2> corners) { put(corners, -1); }
-    void add_circle(Vec2 centre, double radius);  // radius > 0, otherwise nothing
+    void add_circle(Vec2 centre, double radius);  // ignored unless radius > 0
     void cut_circle(Vec2 centre, double radius);
 
-    // `touched` may be null.
+    // Adds the changed tiles to `touched`, which may be null.
     void paint(const PixelView& picture, Color opaque, DirtyTiles* touched) const;
 
   private:
     struct Edge {
         Vec2 top, bottom;
-        float sense;  // 1: what is to the right of it comes in; −1: goes out
+        float sense;  // 1: the area begins to the right of the edge; −1: it ends
     };
     void put(std::span<const Vec2> corners, float sense);
     std::vector<Edge> edges_;
     Bounds box_;
 };
 
-// The pixels whose centres lie within the four sides, one behind the other. Quadrilaterals with a common side have no
-// pixel in common and leave none out between them.
+// Paints the pixels whose centres lie within a quadrilateral, without antialiasing. Quadrilaterals with a common side
+// neither share pixels nor leave gaps.
 void paint_quadrilateral(const std::array<Vec2, 4>& corners, const PixelView& picture, Color opaque,
                          DirtyTiles* touched);
 

@@ -8,7 +8,7 @@
 
 namespace beamcam::render {
 
-// What is added before a product is divided by 255.
+// Rounding term, added before a product is divided by 255.
 constexpr std::uint32_t kCairoHalf = 0x7f, kPixmanHalf = 0x80;
 
 // Each channel times b/255.
@@ -21,7 +21,7 @@ inline std::uint32_t times(std::uint32_t pixel, std::uint32_t b, std::uint32_t h
     return two(pixel & kPairs) | two(pixel >> 8 & kPairs) << 8;
 }
 
-// Channels that together exceed 255 stay there.
+// Saturated sum of the channels.
 inline std::uint32_t sum(std::uint32_t p, std::uint32_t q) {
     constexpr std::uint32_t kPairs = 0x00ff00ff;
     const auto two = [](std::uint32_t a, std::uint32_t b) {
@@ -32,7 +32,7 @@ inline std::uint32_t sum(std::uint32_t p, std::uint32_t q) {
     return two(p & kPairs, q & kPairs) | two(p >> 8 & kPairs, q >> 8 & kPairs) << 8;
 }
 
-// An opaque ink over a pixel of which it covers part/255.
+// An opaque colour over a pixel of which it covers part/255.
 inline std::uint32_t over(std::uint32_t ink, std::uint32_t part, std::uint32_t below) {
     return part == 255 ? ink : sum(times(ink, part, kCairoHalf), times(below, 255 - part, kCairoHalf));
 }

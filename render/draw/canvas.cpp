@@ -8,9 +8,9 @@
 #include <numbers>
 #include <stdexcept>
 
+#include "render/draw/cairo_support.hpp"
 #include "render/draw/font_handles.hpp"
 #include "render/draw/formula.hpp"
-#include "render/draw/surface.hpp"
 
 namespace beamcam::render {
 
@@ -21,7 +21,7 @@ std::string escape(std::string_view plain) {
     return out;
 }
 
-// STIX is a little smaller on the body than Inter; 112 % matches the x-heights.
+// At 112 % the x-height of STIX equals that of Inter.
 std::string math(std::string_view symbol) {
     return fmt::format("<span face='STIXGeneral,STIX Two Text' style='italic' weight='normal' size='112%'>{}</span>",
                        symbol);
@@ -29,7 +29,7 @@ std::string math(std::string_view symbol) {
 
 namespace {
 
-// The source, its corner at (x, y), within rectangles of whole pixels: no edge is blended.
+// Blends the source, with its corner at (x, y), within rectangles of whole pixels.
 void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> within) {
     cairo_surface_t* surface = surface_of(source);
     cairo_set_source_surface(cr, surface, x, y);
@@ -40,7 +40,7 @@ void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> 
     cairo_surface_destroy(surface);
 }
 
-// Figures are tabular so that running numbers do not jitter.
+// Tabular digits, so that changing numbers do not jitter.
 LetterFace face_of(const TextStyle& style) {
     return {.family = "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC",
             .size = style.size,
@@ -49,7 +49,8 @@ LetterFace face_of(const TextStyle& style) {
             .max_width = style.max_width};
 }
 
-constexpr double kHalo = 0.30, kOutline = 0.18;  // widths in parts of the size, of its own halo and of all texts'
+constexpr double kHalo = 0.30,
+                 kOutline = 0.18;  // widths relative to the size: of a text's own halo, and of the outline of all texts
 
 struct Metrics {
     Box ink;          // relative to the baseline's start
@@ -79,18 +80,18 @@ void Canvas::rounded(const Box& b, double r) {
     cairo_arc(cr_, b.x + r, b.bottom() - r, r, q, 2 * q);
     cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
     cairo_close_path(cr_);
-    note('O', {b.x, b.y, b.w, b.h, r});
-    pass(b);
+    add_to_key('O', {b.x, b.y, b.w, b.h, r});
+    extend_path_box(b);
 }
 
 void Canvas::paint(Color c) {
-    use(c);
+    set_source(c);
     cairo_paint(cr_);
     if (touched) touched->add_all();
 }
 
 namespace {
-// In whole pixels, rounded outwards, within the source.
+// Rounded outwards to whole pixels within the source.
 Box whole_part(const Image& source, const Box& part) {
     const double x0 = std::clamp(std::floor(part.x), 0.0, double(source.width));
     const double y0 = std::clamp(std::floor(part.y), 0.0, double(source.height));
@@ -103,8 +104,8 @@ Box whole_part(const Image& source, const Box& part) {
 void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     const Box b = whole_part(source, part), there{b.x + x, b.y + y, b.w, b.h};
     blend(cr_, source, x, y, {&there, 1});
-    use({});
-    if (!there.empty()) touch(there);
+    set_source({});
+    if (!there.empty()) mark_painted(there);
 }
 
 void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles) {
@@ -115,7 +116,7 @@ void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& ti
         runs.push_back({double(x0), double(y0), double(x1 - x0), double(y1 - y0)});
     });
     blend(cr_, source, x, y, runs);
-    use({});
+    set_source({});
     if (touched) touched->add(tiles);
 }
 
@@ -126,7 +127,7 @@ void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
 }
 
 void Canvas::paint_pixels(const std::function<void(const PixelView&, DirtyTiles*)>& paint) {
-    if (limit_) throw std::logic_error("Canvas::paint_pixels: clips are not kept to");
+    if (limit_) throw std::logic_error("Canvas::paint_pixels: not allowed within a clip");
     cairo_surface_t* surface = cairo_get_target(cr_);
     cairo_surface_flush(surface);
     auto* pixels = reinterpret_cast<std::uint32_t*>(cairo_image_surface_get_data(surface));
@@ -139,12 +140,12 @@ std::string Canvas::drawable(std::string_view plain) const {
     const char* end = plain.data() + plain.size();
     for (const char* at = plain.data(); at < end; at = g_utf8_next_char(at)) {
         const gunichar character = g_utf8_get_char_validated(at, end - at);
-        if (character >= gunichar(-2)) break;  // not UTF-8: the reader refuses it long before
+        if (character >= gunichar(-2)) break;  // invalid UTF-8, which the scene reader has already rejected
         const std::string one(at, static_cast<std::size_t>(g_utf8_next_char(at) - at));
-        // Joiners and selectors only tell pictographs how to look.
+        // Joiners and variation selectors are not visible.
         if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
         if (character >= 0x80) {
-            if (pango_layout_get_unknown_glyphs_count(laid_out(fonts_, face_of({}), escape(one))) > 0) continue;
+            if (pango_layout_get_unknown_glyphs_count(layout_of(fonts_, face_of({}), escape(one))) > 0) continue;
         }
         out += one;
     }
@@ -158,7 +159,7 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
             baseline.x -= set_parts({}, markup, style, false).w * (style.align == HAlign::centre ? 0.5 : 1);
         return set_parts(baseline, markup, style, true);
     }
-    PangoLayout* layout = laid_out(fonts_, face_of(style), markup);
+    PangoLayout* layout = layout_of(fonts_, face_of(style), markup);
     const Metrics m = metrics(layout);
     double x = baseline.x;
     if (style.align == HAlign::centre) x -= m.advance / 2;
@@ -167,26 +168,27 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
     std::optional<Color> halo = style.halo;
     if (outline) halo = outline->faded(style.color.a);
     const double wide = (outline ? kOutline : kHalo) * style.size;
-    if (halo && halo->faded(0) == style.color.faded(0)) halo.reset();  // it would only thicken the letters
+    if (halo && halo->faded(0) == style.color.faded(0))
+        halo.reset();  // a halo of the same colour would only thicken the letters
     if (halo) {
         pango_cairo_layout_path(cr_, layout);
-        note('t', {x, baseline.y}, face_of(style).key(markup));
-        pass({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
+        add_to_key('t', {x, baseline.y}, face_of(style).key(markup));
+        extend_path_box({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
         stroke({*halo, wide});
         cairo_move_to(cr_, x, baseline.y - m.baseline);
     }
-    use(style.color);
+    set_source(style.color);
     pango_cairo_show_layout(cr_, layout);
     new_path();
     const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
-    touch(ink.inset(halo ? -1 - wide / 2 : -1));  // glyphs stand on whole pixels
+    mark_painted(ink.inset(halo ? -1 - wide / 2 : -1));  // glyphs are placed at whole pixels
     if (record) record->push_back(ink);
     return {x, ink.y, m.advance, ink.h};
 }
 
 Box Canvas::measure(const std::string& markup, const TextStyle& style) {
     if (has_formula(markup)) return set_parts({}, markup, style, false);
-    PangoLayout* layout = laid_out(fonts_, face_of(style), markup);
+    PangoLayout* layout = layout_of(fonts_, face_of(style), markup);
     const Metrics m = metrics(layout);
     return {0, m.ink.y, m.advance, m.ink.h};
 }

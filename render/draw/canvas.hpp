@@ -1,7 +1,7 @@
 // Drawing on an Image with Cairo and Pango: paths, strokes, text. Coordinates in pixels, y down.
 //
-// Text is Pango markup (`escape` what users wrote) with formulas (formula.hpp). Every text drawn can be recorded, so
-// that tests check that labels keep to their boxes and apart from each other.
+// Text is Pango markup (`escape` user text) with formulas (formula.hpp). The boxes of drawn texts can be recorded, so
+// that tests can check that texts stay inside their panels and do not overlap.
 #pragma once
 
 #include <functional>
@@ -27,41 +27,40 @@ std::string math(std::string_view symbol);  // markup of an italic symbol: math(
 class Canvas : public Painter {
   public:
     Canvas(Image& image, const Fonts& fonts);
-    ~Canvas() noexcept(false);  // throws what Cairo could not draw: a picture is whole, or an error
+    ~Canvas() noexcept(false);  // throws if Cairo failed: a picture is complete, or there is an error
 
     void rounded(const Box& box, double radius);
     void paint(Color color);
 
-    // Blends `source`, its top left pixel at (x, y): the `part` of it [px of the source, rounded outwards]. Whole
-    // pixels.
+    // Blends a part of `source` [px of the source, rounded outwards], whose top left pixel goes to (x, y).
     void image_part(const Image& source, int x, int y, const Box& part);
-    // The same within these tiles of the picture.
+    // Blends `source` within these tiles of the picture.
     void image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles);
-    // Puts it in the place of what is there.
+    // Copies a part of `source`, alpha included, instead of blending it.
     void replace_part(const Image& source, int x, int y, const Box& part);
-    // Lets `paint` write the pixels themselves, and note where. Not within `clip`.
+    // Gives `paint` direct access to the pixels; it must mark the tiles that it changes. Not allowed within `clip`.
     void paint_pixels(const std::function<void(const PixelView&, DirtyTiles* touched)>& paint);
 
-    // The text without characters that no typeface has (pictographs, mostly), which would show as boxes.
+    // The text without characters that no font has (mostly pictographs), which would be drawn as boxes.
     std::string drawable(std::string_view plain) const;
     Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
     const Fonts& fonts() const { return fonts_; }
     const Image& image() const { return image_; }                    // as drawn so far
     Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
 
-    // Of all texts, as far as they are seen, instead of their own halos: where the ground is not known.
+    // Outline of all texts instead of their own halos, for pictures without paper.
     std::optional<Color> outline = {};
-    std::vector<Box>* record = nullptr;  // texts drawn, ink boxes
+    std::vector<Box>* record = nullptr;  // collects the ink boxes of drawn texts
 
   private:
-    // A text with formulas, at the left.
+    // Draws or measures a left-aligned text with formulas.
     Box set_parts(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);
 
     const Image& image_;
     const Fonts& fonts_;
 };
 
-// The first of the texts that is no wider than `room`; the last where none is.
+// The first of the texts that is no wider than `room`; the last one if none is.
 std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
                             double room);
 

@@ -56,7 +56,7 @@ const Palette kPrint{.paper = rgb(0xFFFFFF),
                      .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)},
                      .shadow = 0.22};
 
-// The light theme's words where there is no paper: 4 : 1 against white and against dark grounds.
+// Text colour of the light theme without paper: contrast 4 : 1 against white and black.
 constexpr Color kInkAnywhere = rgb(0x757B88);
 
 template <std::size_t N>
@@ -128,8 +128,8 @@ Color readable(const Palette& palette, Color color) {
 }
 
 Color series_color(const Palette& p, std::size_t i) {
-    // Okabe and Ito's palette without its vermilion, which is the contact's, and what keeps farthest from all of it
-    // under every common colour deficiency: eight in all with the palette's own.
+    // Okabe and Ito's palette without vermilion, which means contact, and the colours farthest from all of these under
+    // every common colour deficiency; eight in all with the palette's own.
     static constexpr std::array kOnLight{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x882255),
                                          rgb(0x332288), rgb(0x56B4E9), rgb(0x603018)};
     static constexpr std::array kOnDark{rgb(0x009E73), rgb(0xCC79A7), rgb(0xE69F00), rgb(0x7B6BB5),

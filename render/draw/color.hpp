@@ -1,7 +1,7 @@
 // Colours as drawn (sRGB, 0…1, not premultiplied), and the palette of each theme.
 //
 // Meanings are fixed throughout: blue is the beam and motion, vermilion is contact, grey is reference.
-// Blue and vermilion are told apart with every common colour deficiency.
+// Blue and vermilion are distinguishable with every common colour deficiency.
 #pragma once
 
 #include <array>
@@ -32,37 +32,38 @@ enum class Theme { light, dark, print };
 
 struct Palette {
     Color paper, ink, muted, faint, grid;
-    Color motion, motion_faint;    // beam, curves of motion; what is still to come
+    Color motion, motion_faint;    // beam and curves; their future part
     Color contact, contact_faint;  // forces
     Color steel, steel_edge, pin;  // disc, outline, hub
     std::array<Color, 5> moment;   // −1, −½, 0, ½, 1 of the scale
     std::array<Color, 3> force;    // 0, ½, 1 of the scale
     double shadow = 0.3;           // opacity of the soft shadow in lit views
-    bool transparent = false;      // there is no paper: pale colours are ink that shows the ground
+    bool transparent = false;      // no paper: pale colours have alpha instead
 
-    // A colour so strong on the paper.
+    // A colour diluted to this share on the paper.
     Color tint(Color c, double share) const { return transparent ? c.faded(share) : mix(paper, c, share); }
-    // The same on paper, right on any other ground: pale colours as ink with alpha.
+    // The palette of a film without paper: pale colours get alpha, so that they look the same over this paper and right
+    // over other backgrounds.
     Palette without_paper() const;
 };
 const Palette& palette(Theme theme);
 
-// Colours in place of a theme's, 0xrrggbb; what is pale, and the scales, follow them.
+// Colours that replace those of a theme, 0xrrggbb; pale colours and scales are derived from them.
 struct OwnColors {
     std::optional<std::uint32_t> ink = {}, motion = {}, contact = {}, steel = {};
     bool operator==(const OwnColors&) const = default;
 };
 Palette recolored(Palette palette, const OwnColors& own);
 
-// Colours of curves and motions that stand beside each other; the first is `motion`, none is `contact`.
+// Colours of several curves or motions; the first is `motion`, none is `contact`.
 Color series_color(const Palette& palette, std::size_t index);
 double contrast(const Color& a, const Color& b);  // 1…21, WCAG 2.1
-// For words in a colour: as it is where it stands out from the paper (contrast 3 : 1, WCAG 2.1 for large text), else
-// with as much ink as it takes.
+// The colour for text: unchanged if its contrast with the paper is at least 3 : 1 (WCAG 2.1, large text), otherwise
+// mixed with as much ink as necessary.
 Color readable(const Palette& palette, Color color);
 Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
 Color force_color(const Palette& palette, double share);   // 0…1
-// Of a trace that fades to the metal's colour; ages >= 0 and half-lives > 0 in one unit.
+// Colour of a trace that fades to the metal's colour; age >= 0 and half-life > 0 in the same unit.
 Color age_color(const Palette& palette, double age, double half_life);
 
 }  // namespace beamcam::render

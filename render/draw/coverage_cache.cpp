@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "render/draw/blend.hpp"
-#include "render/draw/cairo_status.hpp"
+#include "render/draw/cairo_support.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -17,7 +17,7 @@ constexpr int kProbe = 24;  // [px]
 using Probe = std::array<std::uint32_t, kProbe * kProbe>;
 
 // Opaque and translucent pixels, premultiplied.
-Probe probe_ground() {
+Probe probe_pixels() {
     Probe pixels{};
     for (std::size_t i = 0; i < pixels.size(); ++i) {
         const auto any = static_cast<std::uint32_t>(i * 2654435761U >> 7);
@@ -28,7 +28,7 @@ Probe probe_ground() {
 
 template <class Draw>
 Probe probed(const Draw& draw) {
-    Probe pixels = probe_ground();
+    Probe pixels = probe_pixels();
     cairo_surface_t* surface = cairo_image_surface_create_for_data(reinterpret_cast<unsigned char*>(pixels.data()),
                                                                    CAIRO_FORMAT_ARGB32, kProbe, kProbe, kProbe * 4);
     cairo_t* cr = cairo_create(surface);
@@ -48,7 +48,7 @@ bool CoverageCache::exact() {
     static const bool all_same = [] {
         for (const double alpha : {1.0, 0.93, 0.5, 0.14, 0.01})
             for (const bool stroke : {false, true}) {
-                if (!stroke && alpha < 1) continue;  // these are never painted through a stencil
+                if (!stroke && alpha < 1) continue;  // translucent fills are never cached
                 const Color color{0.84, 0.37, 0.09, alpha};
                 const auto ink = [&](cairo_t* cr) {
                     cairo_set_line_width(cr, 2.7);
@@ -70,8 +70,8 @@ bool CoverageCache::exact() {
 
 bool CoverageCache::paint(const std::string& key, const Box& box, Color color, cairo_t* cr,
                           const std::function<void(cairo_t*)>& ink) {
-    const auto [at, fresh] = known_.try_emplace(key);
-    Known& known = at->second;
+    const auto [at, fresh] = entries_.try_emplace(key);
+    Entry& known = at->second;
     known.picture = picture_;
     if (fresh) known.first = picture_;
     if (known.first == picture_) return false;
@@ -82,11 +82,11 @@ bool CoverageCache::paint(const std::string& key, const Box& box, Color color, c
 }
 
 void CoverageCache::next_picture() {
-    std::erase_if(known_, [&](const auto& entry) { return entry.second.picture < picture_; });
+    std::erase_if(entries_, [&](const auto& entry) { return entry.second.picture < picture_; });
     ++picture_;
 }
 
-// The path as Cairo has it, moved by whole pixels: neither its numbers nor their coverage change.
+// Draws Cairo's path displaced by whole pixels, which changes neither its coordinates nor their coverage.
 CoverageCache::Stencil CoverageCache::stencil_of(const Box& box, cairo_t* cr,
                                                  const std::function<void(cairo_t*)>& ink) {
     if (std::isnan(box.x + box.y + box.right() + box.bottom())) return {};

@@ -1,7 +1,6 @@
-// Coverage of the shapes that a film draws again where they were: the arrow of the cam, the hub, every piece of the
-// tip's trail. Finding out which part of each pixel a path covers costs far more than painting it; a path that the
-// picture before had at the same place is painted through what was found out then. The pixels are those that Cairo
-// paints: its formulas for opaque and for translucent colours, rounding included.
+// Cached coverage of shapes that are unchanged since the last frame: the arrow of the cam, the hub, pieces of the tip's
+// trail. Computing the coverage of each pixel costs far more than painting it. The pixels equal those that Cairo
+// paints: the formulas for opaque and translucent colours are the same, rounding included.
 #pragma once
 
 #include <cstddef>
@@ -20,34 +19,34 @@ namespace beamcam::render {
 
 class CoverageCache {
   public:
-    // Whether the Cairo and pixman that run paint as these formulas say: tried once in a process, on a small picture.
-    // Where they do not, a film is drawn without stencils, so that its pixels never depend on what was drawn before.
+    // Whether the loaded Cairo and pixman use these formulas, tested once per process on a small picture. If not, films
+    // are drawn without the cache, so that pixels never depend on earlier frames.
     static bool exact();
 
-    // Paints the shape called `key` over the image surface of `cr` if it was painted in an earlier picture and in every
-    // one since; false: the caller has to. The key names everything that coverage depends on. `box` holds all of it
-    // [px]; `ink` paints the shape with any source.
+    // Paints the shape `key` over the image surface of `cr` if it was painted in every picture since an earlier one;
+    // otherwise returns false, and the caller paints it. The key must contain everything that coverage depends on.
+    // `box` contains the shape [px]; `ink` paints it with any source.
     bool paint(const std::string& key, const Box& box, Color color, cairo_t* cr,
                const std::function<void(cairo_t*)>& ink);
-    // What the last picture did not show is forgotten.
+    // Ends a picture: evicts shapes that it did not contain.
     void next_picture();
 
   private:
     // Rows of coverage from (x, y) on, 255: all of the pixel.
     struct Stencil {
         int x = 0, y = 0, width = 0, height = 0, stride = 0;  // [px]
-        std::vector<std::uint8_t> cover;                      // empty: not yet worth it
+        std::vector<std::uint8_t> cover;                      // empty: not computed yet
     };
-    struct Known {
-        long picture = 0;  // that showed it last
-        long first = 0;
+    struct Entry {
+        long picture = 0;  // the last that contained it
+        long first = 0;    // the first
         Stencil stencil;
     };
     static Stencil stencil_of(const Box& box, cairo_t* cr, const std::function<void(cairo_t*)>& ink);
     static void paint(const Stencil& stencil, Color color, cairo_t* cr);
 
     long picture_ = 0;
-    std::unordered_map<std::string, Known> known_;
+    std::unordered_map<std::string, Entry> entries_;
 };
 
 }  // namespace beamcam::render

@@ -1,5 +1,5 @@
-// Where a picture was painted: a set of tiles, small enough to follow a slanted beam. What moves is remembered in
-// tiles, so that the next picture restores, draws and converts those and nothing else.
+// The changed part of a picture as a set of tiles, small enough to follow a slanted beam. The next picture restores,
+// draws and converts these tiles only.
 #pragma once
 
 #include <cstdint>
@@ -12,20 +12,20 @@ namespace beamcam::render {
 
 class DirtyTiles {
   public:
-    // Even, so that the four pixels of one chroma sample lie in one tile; rows of 128 bytes.
+    // Even, so that the four pixels of a chroma sample lie in one tile; rows of 128 bytes.
     static constexpr int kWidth = 32, kHeight = 16;  // [px]
 
     DirtyTiles() = default;
-    DirtyTiles(int width, int height);  // of the picture [px]; empty
+    DirtyTiles(int width, int height);  // of the picture [px]; the set is empty
 
-    // The tiles that the box meets; those beyond the picture do not exist. Anything but numbers: all tiles.
+    // Adds the tiles that the box intersects within the picture; all tiles if the box contains a NaN.
     void add(const Box& box);
     void add(const DirtyTiles& others);  // of a picture of the same size
     void add_all();
     void clear();
     bool any() const;
 
-    // The tiles as rectangles within the picture, neighbours in a row as one: take(left, top, right, bottom).
+    // Calls take(left, top, right, bottom) for each run of neighbouring tiles in a row, clipped to the picture.
     template <typename Take>
     void for_each_run(Take&& take) const {
         for (int row = 0; row < rows_; ++row) {
@@ -46,7 +46,7 @@ class DirtyTiles {
     std::vector<std::uint8_t> set_;  // 0 or 1, rows top to bottom
 };
 
-// Makes `to` what `from` is, within the tiles. All three are of one size.
+// Copies the pixels within the tiles. All three have the same size.
 void copy(const Image& from, Image& to, const DirtyTiles& tiles);
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// The Pango side of Fonts, for the files that talk to Pango.
+// The Pango objects of Fonts, for the files that use Pango.
 #pragma once
 
 #include <fontconfig/fontconfig.h>
@@ -14,14 +14,14 @@
 
 namespace beamcam::render {
 
-// Texts as they were laid out, the latest few hundred: most texts of a frame are those of the frame before.
+// The last few hundred text layouts: most texts of a frame also are in the previous one.
 class LayoutCache {
   public:
     LayoutCache() = default;
     LayoutCache(const LayoutCache&) = delete;
     LayoutCache& operator=(const LayoutCache&) = delete;
-    ~LayoutCache() { forget(); }
-    // Owned by this; valid until the next call.
+    ~LayoutCache() { clear(); }
+    // The layout is owned by the cache and valid until the next call.
     template <typename Make>
     PangoLayout* get(const std::string& key, Make make) {
         if (const auto known = latest_.find(key); known != latest_.end()) return known->second;
@@ -32,16 +32,16 @@ class LayoutCache {
         if (auto known = before_.extract(key)) return latest_.insert(std::move(known)).position->second;
         return latest_.emplace(key, make()).first->second;
     }
-    void forget() { drop(latest_), drop(before_); }
+    void clear() { drop(latest_), drop(before_); }
 
   private:
     static constexpr std::size_t kMostLayouts = 256;
-    using Known = std::unordered_map<std::string, PangoLayout*>;
-    static void drop(Known& layouts) {
+    using Layouts = std::unordered_map<std::string, PangoLayout*>;
+    static void drop(Layouts& layouts) {
         for (const auto& [key, layout] : layouts) g_object_unref(layout);
         layouts.clear();
     }
-    Known latest_, before_;
+    Layouts latest_, before_;
 };
 
 struct Fonts::Handles {
@@ -57,17 +57,17 @@ struct Fonts::Handles {
     ~Handles();
 };
 
-// The letters that a text is laid out in; `family` is the same for all of one size, weight and slant.
+// The font of a text; `family` depends only on size, weight and slant.
 struct LetterFace {
     const char* family;
     double size = 16;
     Weight weight = Weight::regular;
     bool italic = false;
-    bool tabular = false;  // digits of one width
-    double max_width = 0;  // > 0: cut with an ellipsis there
+    bool tabular = false;  // digits of equal width
+    double max_width = 0;  // > 0: truncated with an ellipsis
     std::string key(std::string_view markup) const;
 };
-// The fonts own it; valid until the next call.
-PangoLayout* laid_out(const Fonts& fonts, const LetterFace& face, const std::string& markup);
+// The layout is owned by `fonts` and valid until the next call.
+PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& markup);
 
 }  // namespace beamcam::render

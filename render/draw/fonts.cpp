@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct KnownFile {
     const char* name;
     const char* package;              // Debian's
-    const char* successor = nullptr;  // what newer releases of the package have instead
+    const char* successor = nullptr;  // its name in newer releases of the package
 };
 
 constexpr std::array kFiles{KnownFile{"Inter-Regular.otf", "fonts-inter"}, KnownFile{"Inter-Medium.otf", "fonts-inter"},
@@ -51,7 +51,7 @@ std::vector<fs::path> folders() {
             "/usr/share/fonts/truetype/droid",      "/usr/local/share/fonts"};
 }
 
-// Empty when it is nowhere.
+// Empty if not found.
 fs::path find(const KnownFile& file) {
     for (const char* name : {file.name, file.successor})
         for (const fs::path& folder : folders()) {
@@ -90,8 +90,8 @@ void add(FcConfig* config, const FontFile& file) {
                                     file.path.string(), file.package));
 }
 
-// Pango has fontconfig read the system's files in a thread of its own, needed or not. An empty current configuration
-// spares that: what is set is not read. Once for the process; nothing is ever looked up in it.
+// Pango makes fontconfig read the system's configuration in a separate thread, even if it is not needed. Setting an
+// empty current configuration, once per process, avoids that; it is never used.
 void keep_system_settings_out() {
     static const bool done = [] {
         FcConfig* empty = FcConfigCreate();
@@ -102,8 +102,8 @@ void keep_system_settings_out() {
 
 }  // namespace
 
-// Scripts from U+2E80 on. Pictographs, variation selectors and mathematical letters are none of them, and such a font
-// has none.
+// The scripts from U+2E80 on, without pictographs, variation selectors and mathematical letters, which CJK fonts do not
+// contain.
 bool needs_cjk(std::string_view utf8) {
     const char* const end = utf8.data() + utf8.size();
     for (const char* at = utf8.data(); at < end; at = g_utf8_next_char(at)) {
@@ -128,15 +128,16 @@ std::string missing_glyphs(std::string_view utf8) {
         utf8);
 }
 
-// ---- the sets at rest ----------------------------------------------------------------------------
+// ---- the pool of font sets -----------------------------------------------------------------------
 
 namespace {
 
-// Pango 1.50 sorts fonts in threads of its own, which let go of their set of fonts when they are done. A set that is
-// destroyed meanwhile is destroyed by two threads at once, without a lock (pangofc-fontmap.c, free_patterns). So no set
-// in use is ever destroyed: it rests here until somebody asks for the same files.
+// Pango 1.50 sorts fonts in its own threads, which release their font set when they finish. A set that is destroyed at
+// that time is destroyed by two threads at once, without a lock (pangofc-fontmap.c, free_patterns). So loaded sets are
+// never destroyed; they wait in this pool until the same files are requested.
 class FontPool {
   public:
+    // A set of these files, or null.
     std::unique_ptr<Fonts::Handles> take(const std::string& key) {
         const std::lock_guard lock(mutex_);
         std::vector<std::unique_ptr<Fonts::Handles>>& all = sets_[key];
@@ -162,7 +163,7 @@ FontPool& font_pool() {
 
 }  // namespace
 
-// Of a set that could not be loaded: one that could rests instead.
+// Runs only for sets that failed to load; others go to the pool.
 Fonts::Handles::~Handles() {
     if (map) g_object_unref(map);
     if (config) FcConfigDestroy(config);
@@ -173,7 +174,7 @@ namespace {
 std::unique_ptr<Fonts::Handles> load(std::span<const FontFile> files) {
     auto handles = std::make_unique<Fonts::Handles>();
     Fonts::Handles& h = *handles;
-    h.config = FcConfigCreate();  // empty: no system file is read
+    h.config = FcConfigCreate();  // empty: reads no system file
     if (!h.config) throw FontError("fontconfig cannot create a configuration (out of memory)");
     for (const FontFile& file : files) add(h.config, file);
     h.map = pango_cairo_font_map_new_for_font_type(CAIRO_FONT_TYPE_FT);
@@ -211,7 +212,7 @@ Fonts::Fonts(bool cjk, Typefaces typefaces) : typefaces_(typefaces) {
 }
 
 void Fonts::PutBack::operator()(Handles* handles) const {
-    handles->layouts.forget();
+    handles->layouts.clear();
     font_pool().put(std::unique_ptr<Handles>(handles));
 }
 
@@ -257,7 +258,7 @@ std::string LetterFace::key(std::string_view markup) const {
     return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers).append(markup);
 }
 
-PangoLayout* laid_out(const Fonts& fonts, const LetterFace& face, const std::string& markup) {
+PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& markup) {
     const Fonts::Handles& handles = fonts.handles();
     return handles.layouts.get(face.key(markup), [&] { return make_layout(handles.context, face, markup); });
 }

@@ -1,10 +1,10 @@
-// The typefaces of all pictures: Inter for words and figures, STIX (General, or Two where Debian
-// has no other) for mathematical symbols.
+// The fonts of all pictures: Inter for text and digits, STIX (General, or Two in newer Debian releases) for
+// mathematical symbols.
 //
-// They are loaded by file into a fontconfig configuration of our own, so that neither the system's
-// nor the user's font settings influence a pixel; glyphs are neither hinted nor snapped, and are
-// antialiased in grey. Files are looked for by name in Debian's folders, or in $BEAMCAM_FONT_DIR
-// alone when that is set. Throws FontError, naming the Debian package, when one is missing.
+// They are loaded by file into a private fontconfig configuration, so that no font setting of the system or the user
+// changes a pixel; glyphs are neither hinted nor snapped to pixels, and antialiased in grey. Files are searched by name
+// in Debian's folders, or only in $BEAMCAM_FONT_DIR if that is set. Throws FontError, which names the Debian package,
+// if a file is missing.
 #pragma once
 
 #include <filesystem>
@@ -15,25 +15,25 @@
 
 namespace beamcam::render {
 
-// True when the text has characters that only the Chinese-Japanese-Korean face has.
+// Whether the text has characters that only the Chinese-Japanese-Korean font has.
 bool needs_cjk(std::string_view utf8);
 
-// Figures for print have TrueType faces instead, which every publisher takes embedded: Liberation Sans, Liberation
-// Serif for symbols, Droid Sans Fallback for Chinese; serif: Liberation Serif for all letters.
+// Figures for print use TrueType fonts, which every publisher accepts embedded: Liberation Sans, Liberation Serif for
+// symbols, Droid Sans Fallback for Chinese. serif: Liberation Serif for all letters.
 enum class Typefaces { screen, print, serif };
 
-// The message of an error: what lacks which character, and the Debian package to install.
+// The error message for missing characters; it names the Debian package to install.
 std::string missing_glyphs(std::string_view utf8);
 
-// A file of these typefaces, and the Debian package that brings it; `path` is empty when it is not there.
+// A font file and the Debian package that contains it; `path` is empty if the file is missing.
 struct FontFile {
     std::string name, package;
     std::filesystem::path path;
 };
 std::vector<FontFile> font_files(Typefaces typefaces = Typefaces::screen);
 
-// One per thread. `cjk` adds Noto Sans CJK (Debian package fonts-noto-cjk), in print Droid Sans Fallback
-// (fonts-droid-fallback). What is loaded stays loaded for the next that asks for the same.
+// One object per thread. `cjk` adds Noto Sans CJK (Debian package fonts-noto-cjk), in print Droid Sans Fallback
+// (fonts-droid-fallback). Loaded font sets are pooled and reused.
 class Fonts {
   public:
     explicit Fonts(bool cjk = false, Typefaces typefaces = Typefaces::screen);

@@ -7,7 +7,7 @@ namespace beamcam::render {
 namespace {
 
 constexpr char kBegin = '\x01', kEnd = '\x02';
-constexpr double kInterCaps = 0.727;  // height of Inter's capitals, by their size
+constexpr double kInterCaps = 0.727;  // height of Inter's capitals relative to the size
 
 std::string pango_markup(const Run& run) {
     std::string out = escape(run.text);
@@ -49,8 +49,8 @@ Box Canvas::set_parts(Vec2 at, const std::string& markup, const TextStyle& style
         if (part.formula) {
             const SetLabel label = set_label(parse_markup(part.markup), style.size, {extent, kInterCaps});
             if (draws)
-                set_down(label, at + Vec2{x, 0}, style.size, style.color,
-                         [&](const SetRun& run, Vec2 p) { text(p, pango_markup(run.run), letters_of(run.size)); });
+                draw_label(label, at + Vec2{x, 0}, style.size, style.color,
+                           [&](const SetRun& run, Vec2 p) { text(p, pango_markup(run.run), letters_of(run.size)); });
             if (!label.runs.empty()) ink.add({x, -label.ascent}), ink.add({x + label.width, label.descent});
             x += label.width;
         } else {

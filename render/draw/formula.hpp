@@ -1,5 +1,5 @@
-// Formulas in a text that is Pango's markup otherwise: each is the markup of figures (markup.hpp) between two signs
-// that no text has. Canvas::text draws and Canvas::measure measures them.
+// Formulas within Pango markup: each is figure markup (markup.hpp) between two control characters. Canvas::text draws
+// them, Canvas::measure measures them.
 #pragma once
 
 #include <string>
@@ -8,15 +8,15 @@
 
 namespace beamcam::render {
 
-std::string formula(std::string_view markup);  // outside all tags
+std::string formula(std::string_view markup);  // must be outside all Pango tags
 bool has_formula(std::string_view text);
 
-// Between scripts that Pango would give different baselines, as between Chinese and mathematics.
-inline std::string apart() { return formula({}); }
+// An empty formula: separates scripts for which Pango would use different baselines, such as Chinese and mathematics.
+inline std::string script_break() { return formula({}); }
 
 struct TextPart {
     bool formula = false;
-    std::string markup = {};  // Pango's, or that of figures
+    std::string markup = {};  // Pango markup or figure markup
 };
 std::vector<TextPart> text_parts(std::string_view text);
 

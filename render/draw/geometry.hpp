@@ -37,7 +37,7 @@ struct Bounds {
     Box box() const { return empty() ? Box{} : Box{x0, y0, x1 - x0, y1 - y0}; }
 };
 
-// px = origin + scale·(x, −y): angles and proportions stay true.
+// px = origin + scale·(x, −y): preserves angles and proportions.
 struct Camera {
     double scale = 1;  // [px/m]
     Vec2 origin;       // of the world, in the picture [px]

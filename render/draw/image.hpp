@@ -1,4 +1,4 @@
-// A picture in memory: Cairo's native layout, so that drawing, encoding and hashing share one buffer.
+// A picture in memory, in Cairo's native layout, so that drawing, encoding and hashing share one buffer.
 #pragma once
 
 #include <cstddef>

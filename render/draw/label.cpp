@@ -6,13 +6,13 @@
 namespace beamcam::render {
 namespace {
 
-// All by the size of the letters that something belongs to.
-constexpr double kScriptSize = 0.72, kRaised = 0.36, kLowered = 0.17;  // size and baselines of scripts
-constexpr double kRaisedMore = 0.06, kLoweredMore = 0.07;              // of one base that has both
-constexpr double kBehindItalic = 0.08, kUprightBehindItalic = 0.03;    // a superscript leans away from a slanted letter
-constexpr double kFractionSize = 0.64;                                 // of what stands above and below its line
+// All relative to the size of the letters.
+constexpr double kScriptSize = 0.72, kRaised = 0.36, kLowered = 0.17;  // size and baseline offsets of scripts
+constexpr double kRaisedMore = 0.06, kLoweredMore = 0.07;              // additional, if a base has both
+constexpr double kBehindItalic = 0.08, kUprightBehindItalic = 0.03;    // space after an italic letter
+constexpr double kFractionSize = 0.64;                                 // size of numerator and denominator
 constexpr double kMathAxis = 0.27;                                     // height of a fraction's line
-constexpr double kClearance = 0.09;                                    // free beside lines
+constexpr double kClearance = 0.09;                                    // space around lines
 constexpr double kRootSign = 0.55;                                     // its width
 
 class LabelSetter {
@@ -34,7 +34,7 @@ class LabelSetter {
     }
 
   private:
-    // Scripts of one base stand above each other.
+    // Scripts of one base start at the same position.
     void add_text(const std::vector<Run>& runs, std::size_t i) {
         const Run& run = runs[i];
         SetRun set{.run = run, .size = run.script ? smaller(kScriptSize) : size_};
@@ -77,28 +77,29 @@ class LabelSetter {
         label_.rules.push_back({{x + gap / 2, axis}, {x + wide - gap / 2, axis}});
         const Vec2 up{x + (wide - above.width) / 2, axis - gap - above.descent},
             down{x + (wide - below.width) / 2, axis + gap + below.ascent};
-        take_over(std::move(above), up);
-        take_over(std::move(below), down);
+        append(std::move(above), up);
+        append(std::move(below), down);
         end_base(x + wide);
     }
 
     void add_root(const Run& run) {
         const double gap = kClearance * size_, sign = kRootSign * size_;
         SetLabel inside = set_label(run.over, size_, letters_);
-        const double x = label_.width + (label_.width > 0 ? gap : 0);  // it begins low, where what is before it may end
+        const double x =
+            label_.width + (label_.width > 0 ? gap : 0);  // the root sign starts low, where a subscript may end
         const double top = -inside.ascent - gap, end = x + sign + inside.width;
         label_.rules.push_back({{x, -0.3 * size_},
                                 {x + 0.3 * sign, -0.36 * size_},
                                 {x + 0.6 * sign, inside.descent},
                                 {x + sign, top},
                                 {end, top}});
-        take_over(std::move(inside), {x + sign, 0});
+        append(std::move(inside), {x + sign, 0});
         label_.ascent = std::max(label_.ascent, gap - top);
         end_base(end + gap / 2);
     }
 
-    // A part whose baseline begins here.
-    void take_over(SetLabel part, Vec2 at) {
+    // Adds a part whose baseline starts at `at`.
+    void append(SetLabel part, Vec2 at) {
         for (SetRun& run : part.runs) {
             run.x += at.x, run.y += at.y;
             label_.runs.push_back(std::move(run));
@@ -120,7 +121,7 @@ class LabelSetter {
     double size_;
     const LetterMetrics& letters_;
     SetLabel label_;
-    double base_end_ = 0, above_end_ = 0, below_end_ = 0;  // of the last base and its scripts
+    double base_end_ = 0, above_end_ = 0, below_end_ = 0;  // ends of the last base and its scripts
     bool base_is_italic_ = false;
 };
 

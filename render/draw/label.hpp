@@ -1,5 +1,5 @@
-// Labels set in one line: where the runs of a markup (markup.hpp) stand, and the lines of fractions and roots. Figures
-// and the formulas of films are set by the same rules; only their letters differ.
+// Layout of a label in one line: positions of the runs of a markup (markup.hpp), and the lines of fractions and roots.
+// Figures and films use the same rules with different fonts.
 #pragma once
 
 #include <functional>
@@ -10,15 +10,15 @@
 
 namespace beamcam::render {
 
-// What setting needs to know of the letters that a label is written in.
+// Metrics of the font of a label.
 struct LetterMetrics {
     struct Extent {
-        double advance = 0;  // to where the next run begins
-        double top = 0;      // of its letters, above the baseline: dots stand over it
+        double advance = 0;  // to the start of the next run
+        double top = 0;      // height above the baseline, where dots are placed
     };
     std::function<Extent(const Run& run, double size)> measure;
-    double cap_height = 0.72;  // of capitals and digits, by the size
-    double smallest = 0;       // no letter is smaller, scripts included
+    double cap_height = 0.72;  // of capitals and digits, relative to the size
+    double smallest = 0;       // smallest size of letters, scripts included
 };
 
 struct SetRun {
@@ -28,12 +28,13 @@ struct SetRun {
 };
 struct SetLabel {
     std::vector<SetRun> runs;
-    std::vector<std::vector<Vec2>> rules;  // of fractions and roots
+    std::vector<std::vector<Vec2>> rules;  // lines of fractions and roots
     double width = 0, ascent = 0, descent = 0;
     double smallest_letter = 1e9;
 };
 SetLabel set_label(const std::vector<Run>& runs, double size, const LetterMetrics& letters);
 
-inline constexpr double kRuleWidth = 0.055;  // of the lines of fractions and roots, by the size of the letters
+inline constexpr double kRuleWidth =
+    0.055;  // width of the lines of fractions and roots, relative to the size of the letters
 
 }  // namespace beamcam::render

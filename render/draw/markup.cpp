@@ -14,7 +14,7 @@ namespace {
 
 using Pair = std::pair<std::string_view, std::string_view>;
 
-// Greek of mechanics, and signs, as LaTeX writes them in mathematics.
+// Greek letters and signs of mathematical text, and their LaTeX commands.
 constexpr std::array kLatexMath{
     Pair{"α", "\\alpha"},   Pair{"β", "\\beta"},     Pair{"γ", "\\gamma"},   Pair{"δ", "\\delta"},
     Pair{"ε", "\\epsilon"}, Pair{"ζ", "\\zeta"},     Pair{"η", "\\eta"},     Pair{"θ", "\\theta"},
@@ -50,7 +50,7 @@ std::string_view next_character(std::string_view text, std::size_t at) {
     return text.substr(at, std::size_t(g_utf8_next_char(&text[at]) - &text[at]));
 }
 
-// ASCII and Greek letters; in mathematics they are set in italics.
+// ASCII and Greek letters, which are italic in mathematics.
 bool is_letter(std::string_view c) {
     if (c.size() == 1) return (c[0] >= 'a' && c[0] <= 'z') || (c[0] >= 'A' && c[0] <= 'Z');
     if (c.size() != 2) return false;
@@ -95,7 +95,7 @@ class Parser {
         runs_.push_back(std::move(style));
     }
 
-    // Until the end, or the brace that closes a group.
+    // Parses until the end, or the closing brace of a group.
     void sequence(const Run& style, bool in_braces) {
         while (at_ < text_.size()) {
             if (in_braces && take("}")) return;
@@ -118,21 +118,21 @@ class Parser {
     }
 
     std::vector<Run> inside() {
-        if (++depth_ > kDeepest) fail("fractions and roots stand in one another at most six deep");
+        if (++depth_ > kDeepest) fail("fractions and roots can be nested at most six deep");
         std::vector<Run> before = std::exchange(runs_, {});
         group({});
         --depth_;
         return std::exchange(runs_, std::move(before));
     }
 
-    // After the backslash of a command of LaTeX; false: it is none.
+    // Parses a LaTeX command after its backslash; false if there is none.
     bool command(const Run& style) {
         std::size_t end = at_;
         while (end < text_.size() && std::isalpha(static_cast<unsigned char>(text_[end]))) ++end;
         if (!math_ || end == at_) return false;
         const std::string_view name = text_.substr(at_, end - at_);
         at_ = end;
-        // The space that ends a command, but for one in front of a sign.
+        // Skips the space that ends a command, unless a sign follows.
         const std::size_t next = std::min(text_.find_first_not_of(' ', at_), text_.size());
         const auto sign = [](char c) { return std::string_view("=<>+-").find(c) != std::string_view::npos || c < 0; };
         if (next == text_.size() || !sign(text_[next])) at_ = next;
@@ -192,7 +192,7 @@ class Parser {
 
     std::string_view text_;
     std::size_t at_ = 0;
-    static constexpr int kDeepest = 6;  // smaller ones cannot be read
+    static constexpr int kDeepest = 6;  // deeper ones are too small to read
     int depth_ = 0;
     bool math_ = false, upright_ = false;
     std::vector<Run> runs_;
@@ -204,7 +204,7 @@ const std::string_view* find(const std::array<Pair, N>& table, std::string_view 
     return it == table.end() ? nullptr : &it->second;
 }
 
-// Calls `visit` with each character, and with what follows it.
+// Calls visit(character, rest of the text) for each character.
 template <class Visit>
 void each_character(std::string_view text, const Visit& visit) {
     while (!text.empty()) {
@@ -219,7 +219,7 @@ std::string latex_math(std::string_view text) {
     each_character(text, [&](std::string_view c, std::string_view rest) {
         const std::string_view* known = find(kLatexMath, c);
         out += known ? *known : c;
-        // A command ends at the next letter.
+        // A letter after a command would belong to its name.
         if (known && known->size() > 1 && known->front() == '\\' && known->back() != ' ' && !rest.empty()) out += ' ';
     });
     return out;
@@ -240,7 +240,7 @@ std::string latex_text(std::string_view text) {
 
 std::string latex_of(const std::vector<Run>& runs);
 
-// Within a formula.
+// LaTeX within a formula.
 std::string latex_part(const std::vector<Run>& runs) {
     std::string out = latex_of(runs);
     std::erase(out, '$');
@@ -264,7 +264,7 @@ std::string latex_of(const std::vector<Run>& runs) {
     std::string out;
     for (const Run& run : runs) {
         const std::string piece = latex_run(run);
-        // One formula, not two: "$x$$_{c}$" would open a display.
+        // Joins formulas: "$x$$_{c}$" would start a displayed equation.
         if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
             out.pop_back();
             out += piece.substr(1);

@@ -1,12 +1,12 @@
-// Labels as data: a small markup that is drawn, written as LaTeX and written plainly from one source.
+// The markup of labels, which can be drawn, or converted to LaTeX or plain text.
 //
 //   $θ$ / rad          letters between dollars are italic symbols, digits and signs stay upright
 //   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
 //   $\dot{θ}$          a dot above, \ddot two
-//   $\frac{a}{b}$      above each other, \sqrt{a} under a root; $\omega$ and other names of LaTeX for Greek and signs
-//   \r{…} \b{…}        upright; bold.   \$ \\ \_ \^ stand for themselves.
+//   $\frac{a}{b}$      fraction, \sqrt{a} root; $\omega$ and other LaTeX names of Greek letters and signs
+//   \r{…} \b{…}        upright; bold.   \$ \\ \_ \^ are literal characters.
 //
-// Markup that cannot be read throws std::invalid_argument.
+// Invalid markup throws std::invalid_argument.
 #pragma once
 
 #include <string>
@@ -21,7 +21,7 @@ struct Run {
     bool bold = false;
     int script = 0;                          // −1 below, +1 above
     int dots = 0;                            // above the run
-    std::vector<Run> over = {}, under = {};  // in place of the text: a fraction; without `under` a root
+    std::vector<Run> over = {}, under = {};  // replace the text: a fraction; without `under` a root
     bool operator==(const Run&) const = default;
 };
 

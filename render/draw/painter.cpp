@@ -7,9 +7,8 @@
 #include <utility>
 
 #include "render/base/error.hpp"
-#include "render/draw/cairo_status.hpp"
+#include "render/draw/cairo_support.hpp"
 #include "render/draw/label.hpp"
-#include "render/draw/surface.hpp"
 
 namespace beamcam::render {
 
@@ -27,13 +26,13 @@ void Painter::end() {
     if (!cr_) return;
     cairo_status_t status = cairo_status(cr_);
     cairo_destroy(std::exchange(cr_, nullptr));
-    cairo_surface_finish(surface_);  // writes what is left of a document
+    cairo_surface_finish(surface_);  // writes the rest of a document
     if (status == CAIRO_STATUS_SUCCESS) status = cairo_surface_status(surface_);
     cairo_surface_destroy(surface_);
     if (std::uncaught_exceptions() == exceptions_) require_success(status);
 }
 
-void Painter::use(Color color) {
+void Painter::set_source(Color color) {
     const Color c = recolor_ ? recolor_(color) : color;
     cairo_set_source_rgba(cr_, c.r, c.g, c.b, c.a);
 }
@@ -44,23 +43,23 @@ std::vector<double> dashes(const std::vector<double>& pattern, double unit) {
     return out;
 }
 
-// ---- where the ink goes ------------------------------------------------------------------------
+// ---- painted tiles -----------------------------------------------------------------------------
 
-void Painter::touch(const Box& box) {
+void Painter::mark_painted(const Box& box) {
     if (!touched) return;
-    const Box wide = box.inset(-1);  // antialiased edges reach into the next pixel
+    const Box wide = box.inset(-1);  // antialiased edges extend into the next pixel
     if (!limit_) return touched->add(wide);
     const double x = std::max(wide.x, limit_->x), y = std::max(wide.y, limit_->y);
     const Box within{x, y, std::min(wide.right(), limit_->right()) - x, std::min(wide.bottom(), limit_->bottom()) - y};
     if (!within.empty()) touched->add(within);
 }
 
-void Painter::pass(const Box& box) {
+void Painter::extend_path_box(const Box& box) {
     if (touched) path_.push_back(box);
 }
 
-// In pieces about as long as a tile, so that a slanted line keeps to few of them.
-void Painter::pass_line(Vec2 from, Vec2 to) {
+// Boxes about as long as a tile, so that a slanted line marks few tiles.
+void Painter::add_line_boxes(Vec2 from, Vec2 to) {
     constexpr double kPieceLength = 48, kMostPieces = 1000;
     const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPieceLength), 1.0, kMostPieces));
     for (int i = 0; i < pieces; ++i) {
@@ -69,7 +68,7 @@ void Painter::pass_line(Vec2 from, Vec2 to) {
     }
 }
 
-void Painter::pass_arc(Vec2 c, double radius, double from, double to) {
+void Painter::add_arc_boxes(Vec2 c, double radius, double from, double to) {
     const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0));
     const double step = (to - from) / pieces;
     const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
@@ -82,14 +81,14 @@ void Painter::pass_arc(Vec2 c, double radius, double from, double to) {
     }
 }
 
-// A stroke is near its path; a fill is anywhere between.
-void Painter::touch_path(double around, bool inside) {
+// A stroke marks the boxes of its path; a fill marks the box around all of them.
+void Painter::mark_path_painted(double around, bool inside) {
     if (!touched) return;
     if (!inside) {
-        for (const Box& box : path_) touch(box.inset(-around));
+        for (const Box& box : path_) mark_painted(box.inset(-around));
         return;
     }
-    if (!path_.empty()) touch(path_box());
+    if (!path_.empty()) mark_painted(path_box());
 }
 
 Box Painter::path_box() const {
@@ -98,15 +97,16 @@ Box Painter::path_box() const {
     return all.box();
 }
 
-void Painter::note(char what, std::initializer_list<double> numbers, std::string_view words) {
+void Painter::add_to_key(char what, std::initializer_list<double> numbers, std::string_view words) {
     if (!keeps_coverage()) return;
     key_.append(1, what).append(words);
     key_.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
 }
 
-void Painter::ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint) {
+void Painter::paint_path(Color color, const std::string& name, const Box& box,
+                         const std::function<void(cairo_t*)>& paint) {
     if (keeps_coverage() && !name.empty() && coverage_cache->paint(name, box, color, cr_, paint)) return;
-    use(color);
+    set_source(color);
     paint(cr_);
 }
 
@@ -114,20 +114,20 @@ void Painter::ink(Color color, const std::string& name, const Box& box, const st
 
 void Painter::move_to(Vec2 p) {
     cairo_move_to(cr_, p.x, p.y);
-    note('m', {p.x, p.y});
+    add_to_key('m', {p.x, p.y});
     start_ = at_ = p, open_ = true;
 }
 void Painter::line_to(Vec2 p) {
     cairo_line_to(cr_, p.x, p.y);
-    note('l', {p.x, p.y});
+    add_to_key('l', {p.x, p.y});
     if (!open_) start_ = at_ = p;  // as Cairo does
-    if (touched) pass_line(at_, p);
+    if (touched) add_line_boxes(at_, p);
     at_ = p, open_ = true;
 }
 void Painter::close() {
     cairo_close_path(cr_);
-    note('z', {});
-    if (touched && open_) pass_line(at_, start_);
+    add_to_key('z', {});
+    if (touched && open_) add_line_boxes(at_, start_);
     at_ = start_;
 }
 
@@ -148,10 +148,10 @@ void Painter::arc(Vec2 c, double radius, double from, double to) {
         cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
     else
         cairo_arc(cr_, c.x, c.y, radius, -from, -to);
-    note('a', {c.x, c.y, radius, from, to});
+    add_to_key('a', {c.x, c.y, radius, from, to});
     const auto place = [&](double angle) { return c + Vec2{std::cos(angle), -std::sin(angle)} * radius; };
     if (!open_) start_ = at_ = place(from);
-    if (touched) pass_line(at_, place(from)), pass_arc(c, radius, from, to);
+    if (touched) add_line_boxes(at_, place(from)), add_arc_boxes(c, radius, from, to);
     at_ = place(to), open_ = true;
 }
 
@@ -159,19 +159,19 @@ void Painter::circle(Vec2 c, double radius) {
     cairo_new_sub_path(cr_);
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
-    note('o', {c.x, c.y, radius});
-    if (touched) pass_arc(c, radius, 0, 2 * std::numbers::pi);
+    add_to_key('o', {c.x, c.y, radius});
+    if (touched) add_arc_boxes(c, radius, 0, 2 * std::numbers::pi);
     start_ = at_ = c + Vec2{radius, 0}, open_ = true;
 }
 
 void Painter::rectangle(const Box& b) {
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
-    note('r', {b.x, b.y, b.w, b.h});
-    pass(b);
+    add_to_key('r', {b.x, b.y, b.w, b.h});
+    extend_path_box(b);
     start_ = at_ = {b.x, b.y}, open_ = true;
 }
 
-// A shaft and a filled head; an arrow shorter than its head is a smaller head.
+// A shaft and a filled head; an arrow shorter than its head is only a smaller head.
 void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     const Vec2 way = to - from;
     const double length = norm(way);
@@ -189,17 +189,17 @@ void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     fill(pen.color);
 }
 
-// ---- ink ---------------------------------------------------------------------------------------
+// ---- painting ----------------------------------------------------------------------------------
 
 void Painter::fill(Color c) {
     fill_keeping_path(c);
     new_path();
 }
 void Painter::fill_keeping_path(Color c) {
-    // Cairo paints what is translucent inside faster than a stencil would.
+    // Translucent fills are faster in Cairo than from cached coverage.
     const bool kept = !key_.empty() && c.a == 1;
-    ink(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
-    touch_path(0, true);
+    paint_path(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
+    mark_path_painted(0, true);
 }
 void Painter::new_path() {
     cairo_new_path(cr_);
@@ -209,16 +209,16 @@ void Painter::new_path() {
 }
 void Painter::stroke(const Pen& pen) {
     if (!key_.empty()) {
-        note(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
-        for (double length : pen.dash) note('d', {length});
+        add_to_key(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
+        for (double length : pen.dash) add_to_key('d', {length});
     }
-    ink(pen.color, key_, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
+    paint_path(pen.color, key_, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
         cairo_set_line_width(cr, pen.width);
         cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
         cairo_stroke_preserve(cr);
     });
-    touch_path(pen.width / 2, false);  // joins are round
+    mark_path_painted(pen.width / 2, false);  // joins are round
     new_path();
 }
 void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
@@ -227,7 +227,7 @@ void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     stroke(pen);
 }
 
-// ---- parts, images, labels ----------------------------------------------------------------------
+// ---- clips, images, labels ----------------------------------------------------------------------
 
 void Painter::clip(const Box& b, const std::function<void()>& draw) {
     cairo_save(cr_);
@@ -253,15 +253,15 @@ void Painter::place(const Image& image, const Box& into, bool smooth) {
     if (smooth) cairo_pattern_set_extend(cairo_get_source(cr_), CAIRO_EXTEND_PAD);
     cairo_paint(cr_);
     cairo_restore(cr_);
-    use({});
+    set_source({});
     cairo_surface_destroy(surface);
-    touch(into);
+    mark_painted(into);
 }
 void Painter::pixels(const Image& image, const Box& into) { place(image, into, false); }
 void Painter::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
 
-void Painter::set_down(const SetLabel& label, Vec2 at, double size, Color color,
-                       const std::function<void(const SetRun&, Vec2 at)>& write) {
+void Painter::draw_label(const SetLabel& label, Vec2 at, double size, Color color,
+                         const std::function<void(const SetRun&, Vec2 at)>& write) {
     for (std::vector<Vec2> rule : label.rules) {
         for (Vec2& p : rule) p += at;
         polyline(rule);
@@ -269,7 +269,7 @@ void Painter::set_down(const SetLabel& label, Vec2 at, double size, Color color,
     }
     for (const SetRun& run : label.runs) {
         write(run, at + Vec2{run.x, run.y});
-        // Dots stand above the middle of the slanted letter.
+        // Dots are above the middle of the slanted letter.
         for (int k = 0; k < run.run.dots; ++k) {
             const double across = (k - 0.5 * (run.run.dots - 1)) * 0.22 * run.size;
             circle(at + Vec2{run.x + 0.58 * run.advance + across, run.y - run.top - 0.14 * run.size}, 0.065 * run.size);

@@ -1,5 +1,5 @@
-// Paths, fills and strokes with Cairo: what a picture (Canvas) and a sheet of paper (figure::PageCanvas) have in
-// common. Units are the drawing's own, y down.
+// Paths, fills and strokes with Cairo: the common base of pictures (Canvas) and pages (figure::PageCanvas). Units are
+// those of the drawing, y down.
 #pragma once
 
 #include <functional>
@@ -27,10 +27,10 @@ struct Pen {
     std::vector<double> dash = {};
     Cap cap = Cap::round;
 };
-// A pattern of dashes, each multiplied by `unit`.
+// The dash pattern with each length multiplied by `unit`.
 std::vector<double> dashes(const std::vector<double>& pattern, double unit);
 
-// In parts of its length: half its width, and how far from the tip its back stands on the shaft.
+// half_width: half the width relative to the length. back: distance of the notch from the tip relative to the length.
 struct ArrowHead {
     double length = 0, half_width = 0.42, back = 1;
 };
@@ -56,51 +56,51 @@ class Painter {
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
     void line(Vec2 from, Vec2 to, const Pen& pen);
-    // What `draw` draws shows within the box only.
+    // Clips everything that `draw` draws to the box.
     void clip(const Box& box, const std::function<void()>& draw);
-    // The whole image, each pixel a rectangle.
+    // Draws the image into the box, each pixel a rectangle.
     void pixels(const Image& image, const Box& into);
-    // The same smoothly, made smaller or larger.
+    // Draws the image into the box with smooth scaling.
     void image_fitted(const Image& image, const Box& into);
 
-    // Where ink went, while this is set: never too few tiles.
+    // If set, collects the painted tiles (a superset of the changed pixels).
     DirtyTiles* touched = nullptr;
-    // What is drawn where the picture before had it is painted through these, while they and `touched` are set.
+    // If this and `touched` are set, paths unchanged since the last picture reuse their coverage.
     CoverageCache* coverage_cache = nullptr;
 
   protected:
     Painter() = default;
     ~Painter() noexcept(false) { end(); }
-    // Takes the surface over, before anything is drawn. Throws PictureError where Cairo cannot draw `what` on it.
+    // Takes over the surface. Throws PictureError if Cairo cannot draw on it; `what` names the picture in the message.
     void begin(cairo_surface_t* surface, const std::string& what);
-    // Ends the drawing, what it is drawn on included: while that is there. Throws what Cairo could not draw.
+    // Finishes the drawing and its surface. Throws if Cairo failed.
     void end();
-    void use(Color color);       // for what is painted next
-    void touch(const Box& box);  // ink within it, blurred edges included
-    void pass(const Box& box);   // the path is there
+    void set_source(Color color);
+    void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
+    void extend_path_box(const Box& box);
     void new_path();
-    // What else tells this path from others.
-    void note(char what, std::initializer_list<double> numbers, std::string_view words = {});
-    // Paints the path, or the stencil called `name` that it made.
-    void ink(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
-    // The rules and dots of a label whose baseline begins here; `write` puts down the letters of each run.
-    void set_down(const SetLabel& label, Vec2 at, double size, Color color,
-                  const std::function<void(const SetRun&, Vec2 at)>& write);
+    // Appends to the key that identifies the path in the coverage cache.
+    void add_to_key(char what, std::initializer_list<double> numbers, std::string_view words = {});
+    // Paints the path, or its cached coverage `name`.
+    void paint_path(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
+    // Draws the lines and dots of a label whose baseline starts at `at`; `write` draws the letters of each run.
+    void draw_label(const SetLabel& label, Vec2 at, double size, Color color,
+                    const std::function<void(const SetRun&, Vec2 at)>& write);
     bool keeps_coverage() const { return coverage_cache && touched && !limit_; }
     cairo_t* cr_ = nullptr;
-    Color (*recolor_)(Color) = nullptr;  // what is painted in place of a colour, while it is set
-    const Box* limit_ = nullptr;         // nothing is painted beyond
+    Color (*recolor_)(Color) = nullptr;  // if set, maps colours before painting
+    const Box* limit_ = nullptr;         // the clip; null: none
 
   private:
     cairo_surface_t* surface_ = nullptr;
-    int exceptions_ = 0;  // in flight when drawing began
+    int exceptions_ = 0;  // number of active exceptions when drawing began
     void place(const Image& image, const Box& into, bool smooth);
-    void pass_line(Vec2 from, Vec2 to);
-    void pass_arc(Vec2 centre, double radius, double from, double to);
-    void touch_path(double around, bool inside);
+    void add_line_boxes(Vec2 from, Vec2 to);
+    void add_arc_boxes(Vec2 centre, double radius, double from, double to);
+    void mark_path_painted(double around, bool inside);
     Box path_box() const;
-    std::vector<Box> path_;  // boxes that the path keeps to, while `touched` is set
-    std::string key_;        // of the path, while coverage is kept
+    std::vector<Box> path_;  // boxes that contain the path, while `touched` is set
+    std::string key_;        // of the path, while coverage is cached
     Vec2 start_, at_;        // of the open part of the path
     bool open_ = false;
 };

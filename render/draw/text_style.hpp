@@ -1,4 +1,4 @@
-// How a text stands: on a picture (Canvas) in pixels, on a sheet of paper (figure::PageCanvas) in points.
+// Style and alignment of a text: on pictures (Canvas) in pixels, on pages (figure::PageCanvas) in points.
 #pragma once
 
 #include <optional>
@@ -15,7 +15,7 @@ enum class VAlign {
     top,
     middle,
     bottom
-};  // what of the text stands at the point; ink of digits and capitals
+};  // which part of the text is at the point; digits and capitals count
 
 struct TextStyle {
     double size = 16;
@@ -23,9 +23,9 @@ struct TextStyle {
     Weight weight = Weight::regular;
     HAlign align = HAlign::left;
     VAlign valign = VAlign::baseline;
-    double max_width = 0;            // of pictures, > 0: cut with an ellipsis there
-    std::optional<Color> halo = {};  // of pictures: outline that keeps the text legible over drawings
-    double turned = 0;               // on paper: counter-clockwise [rad]
+    double max_width = 0;            // pictures only; > 0: truncated with an ellipsis
+    std::optional<Color> halo = {};  // pictures only: outline that keeps the text readable over drawings
+    double turned = 0;               // pages only: rotation, counter-clockwise [rad]
 };
 
 }  // namespace beamcam::render

@@ -7,7 +7,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kMean = 1.0 / 3;  // over which what is followed is averaged [s of the film]
+constexpr double kMean = 1.0 / 3;  // duration over which positions are averaged [s of the film]
 
 double eased(Ease ease, double x) {
     switch (ease) {
@@ -23,14 +23,14 @@ double eased(Ease ease, double x) {
     return x;
 }
 
-// Hann's weights over `half` frames to either side; the film's ends have fewer.
+// Hann window of `half` frames to either side, shorter at the ends of the film.
 std::vector<Followed> averaged(const std::vector<Followed>& all, int half) {
     std::vector<Followed> out;
     const auto count = static_cast<int>(all.size());
     for (int k = 0; k < count; ++k) {
         Followed sum;
         double weights = 0;
-        const int reach = std::min({half, k, count - 1 - k});  // symmetric, so that a steady motion is not delayed
+        const int reach = std::min({half, k, count - 1 - k});  // symmetric, so that uniform motion is not delayed
         for (int i = -reach; i <= reach; ++i) {
             const double weight = 1 + std::cos(std::numbers::pi * i / (reach + 1));
             const Followed& one = all[static_cast<std::size_t>(k + i)];
@@ -42,7 +42,7 @@ std::vector<Followed> averaged(const std::vector<Followed>& all, int half) {
     return out;
 }
 
-// What a camera comes to: a shot, with its middle where it is at the frame.
+// A shot evaluated at one frame.
 struct Seen {
     double zoom, yaw, pitch;
     Vec2 middle;  // [m]
@@ -50,7 +50,7 @@ struct Seen {
 
 Seen between(const Seen& a, const Seen& b, double share) {
     const double zoom = a.zoom * std::pow(b.zoom / a.zoom, share);
-    // The middle in proportion to the width that is seen; at one width evenly.
+    // The centre moves in proportion to the visible width; linearly if the width is constant.
     const double widths = 1 / b.zoom - 1 / a.zoom;
     const double way = std::abs(widths) * a.zoom < 1e-6 ? share : (1 / zoom - 1 / a.zoom) / widths;
     return {zoom, a.yaw + (b.yaw - a.yaw) * share, a.pitch + (b.pitch - a.pitch) * share,

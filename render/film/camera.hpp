@@ -1,7 +1,7 @@
-// Where the camera of a mechanism looks over a film: at all of it, or nearer, at a place or after what moves.
+// The moving camera of a mechanism panel: zoom, a fixed point or a part to follow, and keyframes.
 //
-// Moves between two views keep a point of the picture in its place, as a lens does that zooms in on it: the middle
-// moves in proportion to the width that is seen, and the zoom geometrically.
+// Between two keyframes the zoom changes geometrically and the centre in proportion to the visible width; so one point
+// of the picture stays fixed, as with a zoom lens.
 #pragma once
 
 #include <vector>
@@ -10,35 +10,35 @@
 
 namespace beamcam::render {
 
-// A part of the mechanism, or a place of its plane.
+// A part of the mechanism, or a fixed point.
 struct Anchor {
     enum class Kind { all, tip, contact, cam, hub, place };
-    Kind kind = Kind::all;  // all: the middle of what the whole film shows; contact: where beam and cam are nearest
+    Kind kind = Kind::all;  // all: the centre of the full view; contact: the point nearest to both beam and cam
     Vec2 place = {};        // [m]
     bool operator==(const Anchor&) const = default;
 };
 
-// What the camera shows.
+// Settings of the camera.
 struct Shot {
-    double zoom = 1;      // against the camera that shows all, > 0
-    Anchor follow = {};   // stands in the middle
-    double yaw = 0.42;    // of the solid view: positive from the right of the plane of motion [rad], within ±1.2
-    double pitch = 0.20;  // of the solid view: positive from above [rad], within ±1.2
+    double zoom = 1;      // relative to the camera that shows everything, > 0
+    Anchor follow = {};   // at the centre
+    double yaw = 0.42;    // solid view: positive from the right of the plane of motion [rad], within ±1.2
+    double pitch = 0.20;  // solid view: positive from above [rad], within ±1.2
     bool operator==(const Shot&) const = default;
 };
 
 enum class Ease { smooth, linear, in, out };
 
-// On the way to another shot.
+// A keyframe: the move to another shot.
 struct CameraMove {
-    double arrives = 0;  // at this frame, counted from the film's first
-    double lasts = 0;    // so many frames; from where the move before has arrived at the earliest
+    double arrives = 0;  // frame at which the shot is reached, counted from the film's first
+    double lasts = 0;    // number of frames; the move starts when the previous one has arrived at the earliest
     Ease ease = Ease::smooth;
     Shot shot;
     bool operator==(const CameraMove&) const = default;
 };
 
-// Where everything is that a camera can follow, at one frame [m].
+// Positions at one frame of the parts that a camera can follow [m].
 struct Followed {
     Vec2 tip, contact, cam;
 };
@@ -52,8 +52,8 @@ struct CameraFrame {
     }
 };
 
-// Of every frame, in the mechanism's box; `whole`: the camera that shows all. What vibrates is followed by its mean
-// over a third of a second of the film.
+// The camera of every frame, for the mechanism's box. `whole`: the camera that shows everything. Followed parts are
+// averaged over a third of a second, so that the camera does not vibrate with them.
 std::vector<CameraFrame> camera_frames(const Shot& first, const std::vector<CameraMove>& moves, const Camera& whole,
                                        const Box& box, const std::vector<Followed>& followed, double fps);
 

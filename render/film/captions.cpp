@@ -1,5 +1,4 @@
-#include "render/film/captions.hpp"
-
+// Captions: the texts of events in boxes, with leader lines to their anchors.
 #include <algorithm>
 #include <map>
 #include <numbers>
@@ -14,11 +13,11 @@ namespace {
 
 using std::numbers::pi;
 constexpr std::size_t kCaptionLines = 6;
-constexpr double kNearContact = 2e-3;  // of the beam's length: what looks like touching
-constexpr double kCaptionLine = 29;    // from line to line [design px]
-constexpr double kFreeBelow = 40;      // that stays free below captions [design px]
+constexpr double kNearContact = 2e-3;  // of the beam's length: a gap that looks like contact
+constexpr double kCaptionLine = 29;    // distance between lines [design px]
+constexpr double kFreeBelow = 40;      // free space below captions [design px]
 constexpr double kBetweenPlates = 8;   // [design px]
-constexpr double kFromAnchor = 46;     // from what a caption is anchored to [design px]
+constexpr double kFromAnchor = 46;     // distance of a caption from its anchor [design px]
 
 struct Caption {
     std::vector<std::string> lines;
@@ -40,7 +39,7 @@ class Captions {
 
     void draw() const {
         lead_to_contact();
-        double free = box.bottom() - kFreeBelow * u;  // above it, for captions of the whole picture
+        double free = box.bottom() - kFreeBelow * u;  // lower limit of captions of the whole picture
         for (const Callout& c : s.at.context.setup->callouts) {
             if (!c.shown(s.frame)) continue;
             const Anchor::Kind kind = c.anchor.value_or(Anchor{Anchor::Kind::contact, {}}).kind;
@@ -54,8 +53,8 @@ class Captions {
     }
 
   private:
-    Caption caption_of(const Callout& words, Vec2 at) const {
-        Caption out{wrapped_lines(s.canvas, words.text, style, kCaptionLines), {}, {}, words.opacity(s.frame)};
+    Caption caption_of(const Callout& callout, Vec2 at) const {
+        Caption out{wrapped_lines(s.canvas, callout.text, style, kCaptionLines), {}, {}, callout.opacity(s.frame)};
         double widest = 0;
         for (const std::string& line : out.lines) {
             const Box ink = s.canvas.measure(line, style);
@@ -72,13 +71,13 @@ class Captions {
         plate.y = std::clamp(plate.y, box.y, std::max(box.y, box.bottom() - plate.h - kFreeBelow * u));
     }
 
-    // The first of the mechanism's labels that it would hide; null: none.
+    // The first label of the mechanism that the box would hide; null: none.
     const Box* hidden(const Box& plate) const {
         const auto found = std::ranges::find_if(labels, [&](const Box& label) { return plate.overlaps(label); });
         return found == labels.end() ? nullptr : &*found;
     }
 
-    // Off the labels: below, else above.
+    // Moves the box off the labels: below them, otherwise above.
     void place(Box& plate) const {
         keep_inside(plate);
         if (const Box* label = hidden(plate)) plate.y = label->bottom() + 12 * u;
@@ -95,7 +94,7 @@ class Captions {
         return false;
     }
 
-    // The rim of the disc as it is seen, a little inside.
+    // The projected rim of the disc, slightly reduced.
     std::vector<Vec2> disc() const {
         std::vector<Vec2> rim;
         for (int i = 0; s.shape.disc && i < 48; ++i)
@@ -114,8 +113,8 @@ class Captions {
         return false;
     }
 
-    // Where a line to the contact bends so that it runs beside the disc: on the tangent there, on the caption's side.
-    // Nothing where it need not, or nowhere does.
+    // The corner of a leader line to the contact that would otherwise cross the disc: a point of the tangent at the
+    // contact, on the caption's side. None if the straight line is clear, or no corner makes it so.
     std::optional<Vec2> bend(Vec2 from, Vec2 to) const {
         const std::vector<Vec2> rim = disc();
         if (!crosses(rim, from, to)) return std::nullopt;
@@ -128,7 +127,7 @@ class Captions {
         return std::nullopt;
     }
 
-    // Begins below the plate, which is drawn over it, at a place from where it meets no label.
+    // Draws a leader line that starts under the box, at a point from which it crosses no label.
     void lead(const Box& plate, Vec2 from, Vec2 to, double opacity, std::optional<Vec2> by = {}) const {
         const Vec2 end = to;
         to = by.value_or(to);
@@ -141,7 +140,7 @@ class Captions {
         s.canvas.line_to(to);
         if (by) s.canvas.line_to(end);
         s.canvas.stroke({s.at.palette.ink.faded(opacity), 1.6 * u});
-        if (crossed && s.at.labels->speed) draw_cam_speed(s);  // its halo keeps the line off
+        if (crossed && s.at.labels->speed) draw_cam_speed(s);  // again, so that its halo covers the line
     }
 
     void draw(const Caption& caption) const {
@@ -159,9 +158,9 @@ class Captions {
         }
     }
 
-    // One above the other at the lower edge.
-    double draw_below(const Callout& words, double free) const {
-        Caption caption = caption_of(words, {});
+    // Stacks captions upwards from the lower edge. Returns the new lower limit.
+    double draw_below(const Callout& callout, double free) const {
+        Caption caption = caption_of(callout, {});
         caption.plate.x = box.centre().x - caption.plate.w / 2, caption.plate.y = free - caption.plate.h;
         keep_inside(caption.plate);
         if (const Box* label = hidden(caption.plate)) caption.plate.y = label->y - 12 * u - caption.plate.h;
@@ -185,18 +184,18 @@ class Captions {
         return s.px(anchor.place);
     }
 
-    // Above what it belongs to, where the cam does not come; where there is no room, below. What does not move has its
-    // words below it.
-    void draw_anchored(const Callout& words) const {
-        const Vec2 foot = foot_of(*words.anchor);
-        Caption caption = caption_of(words, {foot.x + kFromAnchor * u, foot.y});
+    // Above the anchor, away from the cam, or below it if there is no space above. Captions of fixed parts are below
+    // them.
+    void draw_anchored(const Callout& callout) const {
+        const Vec2 foot = foot_of(*callout.anchor);
+        Caption caption = caption_of(callout, {foot.x + kFromAnchor * u, foot.y});
         Box& plate = caption.plate;
         if (plate.right() > box.right()) plate.x = foot.x - kFromAnchor * u - plate.w;
         plate.y = foot.y - kFromAnchor * u - plate.h;
         if (plate.y < box.y) plate.y = foot.y + kFromAnchor * u;
-        if (words.anchor->kind == Anchor::Kind::hub) {
+        if (callout.anchor->kind == Anchor::Kind::hub) {
             plate.x = foot.x - plate.w / 2, plate.y = foot.y + support_reach(s.at.hub(), s.at.marks) + 14 * u;
-        } else if (const auto& cam = s.at.problem().cam; cam && words.anchor->kind == Anchor::Kind::cam) {
+        } else if (const auto& cam = s.at.problem().cam; cam && callout.anchor->kind == Anchor::Kind::cam) {
             const double swept = (cam->radius + cam->eccentricity) * s.at.look.camera.scale;
             plate.x = foot.x - 0.8 * plate.w, plate.y = foot.y + swept + 30 * u;
         }
@@ -205,20 +204,19 @@ class Captions {
         draw(caption);
     }
 
-    // Captions at the contact stand where the first of them stands, below it or above it. Each keeps its place while
-    // others come and go: it depends on those that are shown when it comes. Where that leaves no room, a later caption
-    // takes the place of earlier ones.
-    void draw_at_contact(const Callout& words) const {
-        Caption caption = caption_of(words, {});
-        caption.plate = contact_plate(words);
+    // Captions at the contact are stacked. Each keeps its place while others appear and disappear; it depends only on
+    // those that are visible when it appears. Without space, a later caption replaces earlier ones.
+    void draw_at_contact(const Callout& callout) const {
+        Caption caption = caption_of(callout, {});
+        caption.plate = contact_plate(callout);
         for (const Callout& other : s.at.context.setup->callouts)
-            if (is_at_contact(other) && other.shown(s.frame) && comes_before(words, other) &&
+            if (is_at_contact(other) && other.shown(s.frame) && comes_before(callout, other) &&
                 caption.plate.overlaps(contact_plate(other)))
                 return;
         draw(caption);
     }
 
-    // From the latest caption to the contact while there is one; without a cam to the tip.
+    // Leader line from the latest caption to the contact while there is one; without a cam to the tip.
     void lead_to_contact() const {
         const Callout* latest = nullptr;
         for (const Callout& c : s.at.context.setup->callouts)
@@ -240,41 +238,42 @@ class Captions {
         return one.first < other.first || (one.first == other.first && &one < &other);
     }
 
-    Box contact_plate(const Callout& words) const {
-        if (const auto found = plates.find(&words); found != plates.end()) return found->second;
+    Box contact_plate(const Callout& callout) const {
+        if (const auto found = plates.find(&callout); found != plates.end()) return found->second;
         std::vector<Box> taken;
         for (const Callout& other : s.at.context.setup->callouts)
-            if (is_at_contact(other) && comes_before(other, words) && other.last >= words.first)
+            if (is_at_contact(other) && comes_before(other, callout) && other.last >= callout.first)
                 taken.push_back(contact_plate(other));
-        const Box first = first_plate(words), found = free_plate(first, taken).value_or(first);
-        plates.emplace(&words, found);
+        const Box first = first_plate(callout), found = free_plate(first, taken).value_or(first);
+        plates.emplace(&callout, found);
         return found;
     }
 
-    // To the right of the cam, below the horizontal, where neither the beam nor the force comes, with room below for
-    // those that come while it is shown.
-    Box first_plate(const Callout& words) const {
+    // To the right of the cam, below the horizontal, where neither beam nor force arrow come, with space below for
+    // captions that appear while it is visible.
+    Box first_plate(const Callout& callout) const {
         const auto& cam = s.at.problem().cam;
         const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
         const Vec2 from = cam ? s.px(s.pose.cam_centre) : contact_foot();
-        const Caption caption = caption_of(words, {from.x + swept + 60 * u, from.y + 26 * u});
+        const Caption caption = caption_of(callout, {from.x + swept + 60 * u, from.y + 26 * u});
         Box whole = caption.plate;
-        whole.h += room_for_later(words);
+        whole.h += space_for_later(callout);
         if (whole.h > box.h / 2) whole.h = caption.plate.h;
         place(whole);
         return {whole.x, whole.y, caption.plate.w, caption.plate.h};
     }
 
-    double room_for_later(const Callout& words) const {
+    double space_for_later(const Callout& callout) const {
         double most = 0;
-        const auto comes_meanwhile = [&](const Callout& c) {
-            return is_at_contact(c) && comes_before(words, c) && c.first <= words.last;
+        const auto appears_meanwhile = [&](const Callout& c) {
+            return is_at_contact(c) && comes_before(callout, c) && c.first <= callout.last;
         };
         for (const Callout& latest : s.at.context.setup->callouts) {
-            if (!comes_meanwhile(latest)) continue;
+            if (!appears_meanwhile(latest)) continue;
             double all = 0;
             for (const Callout& c : s.at.context.setup->callouts)
-                if (comes_meanwhile(c) && c.shown(latest.first)) all += kBetweenPlates * u + caption_of(c, {}).plate.h;
+                if (appears_meanwhile(c) && c.shown(latest.first))
+                    all += kBetweenPlates * u + caption_of(c, {}).plate.h;
             most = std::max(most, all);
         }
         return most;
@@ -302,8 +301,8 @@ class Captions {
     const double u;
     const Box& box;
     TextStyle style;
-    std::vector<Box> labels;                       // of the mechanism, which captions keep off; the cam's speed first
-    mutable std::map<const Callout*, Box> plates;  // found so far, of captions at the contact
+    std::vector<Box> labels;                       // labels that captions must not hide; the cam's speed first
+    mutable std::map<const Callout*, Box> plates;  // cached boxes of captions at the contact
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// A panel that is one chart: what has been is kept, column by column.
+// A panel that is one chart. Its past is accumulated column by column.
 #pragma once
 
 #include <utility>
@@ -11,8 +11,8 @@ namespace beamcam::render {
 
 inline ChartStyle chart_style(const FilmContext& context) { return {*context.palette, context.unit, context.tick}; }
 
-// Shows what has been as far as this column; `shown`: the first column that does not show it yet.
-inline void show_past(Canvas& kept, const Chart& chart, const Image& past, double until, double& shown) {
+// Copies the columns of the past up to `until`; `shown`: the first column that is not copied yet.
+inline void copy_past(Canvas& kept, const Chart& chart, const Image& past, double until, double& shown) {
     const Box at = chart.past_box();
     until = std::max(until, shown);
     kept.image_part(past, static_cast<int>(at.x), static_cast<int>(at.y), {shown - at.x, 0, until - shown, at.h});
@@ -21,7 +21,7 @@ inline void show_past(Canvas& kept, const Chart& chart, const Image& past, doubl
 
 class ChartPanel : public FilmPanel {
     struct Shown final : State {
-        double until = 0;  // the picture's first column that shows no past
+        double until = 0;  // first column of the picture without past
     };
 
   public:
@@ -33,12 +33,11 @@ class ChartPanel : public FilmPanel {
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
     Box accumulated_box() const override { return chart_.windowed() ? Box{} : chart_.past_box(); }
     std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
-    // What has been, column by column.
     void accumulate(Canvas& kept, const Image&, int frame, bool restart, State* state) const override {
         if (chart_.windowed()) return;
         double& shown = static_cast<Shown*>(state)->until;
         if (restart) shown = chart_.past_box().x;
-        show_past(kept, chart_, past_, chart_.past_column(context_.at(0, frame)), shown);
+        copy_past(kept, chart_, past_, chart_.past_column(context_.at(0, frame)), shown);
     }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
         chart_.draw_moving(canvas, context_.at(0, frame), readings(frame));

@@ -1,6 +1,6 @@
-// The contact close up, in the frame of its tangent (to the right) and normal (up): the undeformed faces of beam and
-// cam, true, not exaggerated, heights in micrometres against widths in millimetres. Where they overlap is what the
-// contact law calls penetration.
+// The contact close-up, in the frame of its tangent (to the right) and normal (up): the undeformed faces of beam and
+// cam, not exaggerated, heights in micrometres against widths in millimetres. Their overlap is the penetration of the
+// contact law.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kBelow = 1.35, kAbove = 1.9;  // heights shown, in largest penetrations
+constexpr double kBelow = 1.35, kAbove = 1.9;  // displayed heights, relative to the largest penetration
 
 class CloseUpPanel final : public FilmPanel {
   public:
@@ -27,9 +27,9 @@ class CloseUpPanel final : public FilmPanel {
             if (const auto near = context.pose(member_, k).nearest) depth_ = std::max(depth_, -near->gap);
         if (!motion().problem.cam) return;
         const double radius = motion().problem.cam->radius;
-        // An impulsive contact does not penetrate: a millionth of the radius keeps a scale.
+        // An impulsive contact does not penetrate: its scale is a ten-thousandth of the radius.
         if (!(depth_ > 1e-9 * radius)) depth_ = 1e-4 * radius;
-        // The cam falls to the lower edge at the sides.
+        // The rim of the cam reaches the lower edge at the sides.
         half_width_ = std::min(std::sqrt(2 * radius * 1.2 * depth_), 0.9 * radius);
         shown_ = {-kBelow * depth_, kAbove * depth_};
         if (shown_.high < 2e-6 || shown_.high > 5e-3) unit_ = prefix_for(shown_.high);
@@ -38,18 +38,18 @@ class CloseUpPanel final : public FilmPanel {
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const Palette& p = *context_.palette;
-        const TextStyle bold{.size = 21 * u, .weight = Weight::semibold},
-            plain{.size = 21 * u, .weight = Weight::medium};
-        const double room = plot_.w - canvas.measure(context_.say("penetration 000\u00A0µm"), plain).w - 16 * u;
-        const std::string whose = of_motion(context_, member_);
-        const std::string whole = context_.say("Contact close-up"), brief = context_.say("Contact");
-        // The reading stands beside it.
+        const TextStyle bold{.size = context_.heading(), .weight = Weight::semibold},
+            plain{.size = context_.heading(), .weight = Weight::medium};
+        const double room = plot_.w - canvas.measure(context_.translate("penetration 000\u00A0µm"), plain).w - 16 * u;
+        const std::string whose = motion_suffix(context_, member_);
+        const std::string whole = context_.translate("Contact close-up"), brief = context_.translate("Contact");
+        // The reading is beside the heading.
         draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {whole + whose, brief + whose, brief, ""}, bold, room));
         canvas.rectangle(plot_);
         canvas.fill(p.tint(p.grid, 0.35));
         if (!motion().problem.cam) return;
-        // One mark tells no scale: two at least, however low the panel.
+        // At least two marks, since one does not show a scale.
         Ticks marks;
         for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
             marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
@@ -61,7 +61,7 @@ class CloseUpPanel final : public FilmPanel {
         }
         const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
         const std::string how =
-            context_.say(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
+            context_.translate(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
         TextStyle note{.size = 16.0 / 17 * context_.tick, .color = p.muted};
         const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
         const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
@@ -74,7 +74,7 @@ class CloseUpPanel final : public FilmPanel {
         canvas.text({x1, y + 3 * u + context_.tick}, length,
                     {.size = 16.0 / 17 * context_.tick, .color = p.muted, .align = HAlign::right});
         const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
-        const std::string brief_how = context_.say(fmt::format("heights in {}m", unit_.symbol));
+        const std::string brief_how = context_.translate(fmt::format("heights in {}m", unit_.symbol));
         canvas.text({plot_.x, y - 3 * u + context_.tick},
                     first_that_fits(canvas, {how, brief_how, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
     }
@@ -122,27 +122,27 @@ class CloseUpPanel final : public FilmPanel {
         canvas.stroke({p.steel_edge, 2 * context_.unit});
     }
 
-    // The touching face beside the contact, from the true centre line: heights above the contact's tangent.
+    // The touching face near the contact, from the true centre line: heights above the tangent at the contact.
     std::vector<Vec2> face(const sim::Pose& pose) const {
         const sim::Nearest& near = *pose.nearest;
         const Vec2 n = near.normal, t{n.y, -n.x};
         const double offset = sim::contact_offset(motion().problem);
         const std::vector<Vec2>& line = pose.centreline;
         const double spacing = motion().problem.beam.length / static_cast<double>(line.size() - 1);
-        // Curvature of the centre line at the contact, by the three stations around it.
+        // Curvature of the centre line at the contact, by three stations.
         const double station = std::clamp(near.x / spacing, 1.0, static_cast<double>(line.size() - 2));
         const auto i = static_cast<std::size_t>(std::lround(station));
         const Vec2 bend = (line[i + 1] - line[i] * 2 + line[i - 1]) * (1 / (spacing * spacing));
         const double curvature = dot(bend, n);
         std::vector<Vec2> out;
-        // At an end of the beam the face stops there.
+        // The face ends at the end of the beam.
         const double forward = dot(line[i + 1] - line[i - 1], t) >= 0 ? 1 : -1;
         const double before = near.x, after = motion().problem.beam.length - near.x;
         const double left = std::min(half_width_ * 1.02, forward > 0 ? before : after),
                      right = std::min(half_width_ * 1.02, forward > 0 ? after : before);
         for (int k = 0; k <= 60; ++k) {
             const double x = -left + (left + right) * k / 60.0;
-            const double reach = 1 + offset * curvature;  // the face's curvature is the centre line's, offset
+            const double reach = 1 + offset * curvature;  // curvature of a curve parallel to the centre line
             out.push_back({x, near.gap + 0.5 * curvature * x * x / reach});
         }
         return out;
@@ -151,10 +151,10 @@ class CloseUpPanel final : public FilmPanel {
     void draw_beam(Canvas& canvas, const sim::Pose& pose) const {
         const Palette& p = *context_.palette;
         const double u = context_.unit;
-        if (pose.nearest->gap > shown_.high) {  // above the picture: an arrow says where
+        if (pose.nearest->gap > shown_.high) {  // above the plot: an arrow points to it
             const double x = plot_.x + 20 * u;
             canvas.arrow({x, plot_.y + 40 * u}, {x, plot_.y + 10 * u}, {p.motion, 2.4 * u}, {14 * u});
-            canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.say("beam"),
+            canvas.text({x + 14 * u, plot_.y + 31 * u}, context_.translate("beam"),
                         {.size = context_.tick, .color = p.motion, .weight = Weight::medium});
             return;
         }
@@ -166,7 +166,7 @@ class CloseUpPanel final : public FilmPanel {
         canvas.line_to({edge.front().x, plot_.y - 4});
         canvas.close();
         canvas.fill(p.motion.faded(0.30));
-        // The lens where both claim the room.
+        // The overlap.
         std::vector<Vec2> over, under;
         for (Vec2 h : heights)
             if (h.y < cam_height(h.x)) over.push_back(at(h.x, cam_height(h.x))), under.push_back(at(h.x, h.y));
@@ -175,7 +175,7 @@ class CloseUpPanel final : public FilmPanel {
             canvas.polyline(over);
             canvas.close();
             canvas.fill(p.tint(p.contact, 0.55));
-            canvas.polyline(rim());  // seen through
+            canvas.polyline(rim());  // visible through the beam
             canvas.stroke({p.steel_edge, 2 * u});
         }
         canvas.polyline(edge);
@@ -183,9 +183,9 @@ class CloseUpPanel final : public FilmPanel {
         const TextStyle name{.size = context_.tick, .color = p.motion, .weight = Weight::medium};
         const double top = std::max(edge.front().y, plot_.y + 30 * u);
         if (top - plot_.y > 24 * u)
-            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.say("beam"), name);
-        if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the lens
-            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.say("cam"),
+            canvas.text({plot_.x + 12 * u, std::min(plot_.y + 24 * u, top - 6 * u)}, context_.translate("beam"), name);
+        if (at(0, std::min(0.0, pose.nearest->gap)).y < plot_.bottom() - 32 * u)  // below the overlap
+            canvas.text({plot_.x + plot_.w / 2 - 14 * u, plot_.bottom() - 12 * u}, context_.translate("cam"),
                         {.size = context_.tick, .color = mix(p.steel_edge, p.steel, 0.25), .weight = Weight::medium});
         forces(canvas, *pose.nearest);
     }
@@ -195,7 +195,7 @@ class CloseUpPanel final : public FilmPanel {
         const Palette& p = *context_.palette;
         const double u = context_.unit, longest = 0.55 * plot_.h;
         const Vec2 foot = at(0, near.gap / 2);
-        // One scale for both, from zero; what is too short for an arrow is told in numbers alone.
+        // Both forces have the same scale; those too short for an arrow are shown only as numbers.
         const auto arrow = [&](double force, Vec2 way) {
             const double length = longest * std::min(1.0, force / context_.force_scale);
             if (length > 5 * u)
@@ -215,40 +215,41 @@ class CloseUpPanel final : public FilmPanel {
         const std::string amount = unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                    : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                                  : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-        told(canvas, {plot_.right(), box_.y + 26 * u}, context_.say(deep ? "penetration" : "gap"), amount,
-             "00.0\u00A0mm", {.size = 21 * u, .color = deep ? p.contact : p.motion, .weight = Weight::medium});
-        // Up to three lines in the upper right corner. The face may pass behind them: the halo is the colour of most of
-        // it.
+        draw_reading(canvas, {plot_.right(), box_.y + 26 * u}, context_.translate(deep ? "penetration" : "gap"), amount,
+                     "00.0\u00A0mm",
+                     {.size = context_.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+        // Up to three lines in the upper right corner, with a halo in the colour of most of their background.
         const Color background = p.tint(p.grid, 0.35);
         const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
         const Color behind = over_beam ? mix(background, p.motion, 0.30) : background;
-        const std::string count = counted(pose.t);
-        const double room = plot_.w - canvas.measure(context_.say("beam"), {.size = context_.tick}).w - 40 * u;
+        const std::string count = collision_counter(pose.t);
+        const auto line = [&](int k) { return plot_.y + 2 * u + (1.1 + 1.3 * k) * context_.tick; };
+        const double room = plot_.w - canvas.measure(context_.translate("beam"), {.size = context_.tick}).w - 40 * u;
         TextStyle style{.size = context_.tick, .color = p.ink, .align = HAlign::right, .halo = behind};
         if (!count.empty() && canvas.measure(count, style).w < room)
-            canvas.text({plot_.right() - 10 * u, plot_.y + 24 * u}, count, style);
+            canvas.text({plot_.right() - 10 * u, line(0)}, count, style);
         if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
         const char* widest = "00.0\u00A0mN";
         style.weight = Weight::medium;
-        if (canvas.measure(context_.say("friction "), style).w + canvas.measure(widest, style).w > room) return;
-        told(canvas, {plot_.right() - 10 * u, plot_.y + 47 * u}, context_.say("force"), quantity(near.force, "N"),
-             widest, style);
+        if (canvas.measure(context_.translate("friction "), style).w + canvas.measure(widest, style).w > room) return;
+        draw_reading(canvas, {plot_.right() - 10 * u, line(1)}, context_.translate("force"), quantity(near.force, "N"),
+                     widest, style);
         if (near.friction != 0)
-            told(canvas, {plot_.right() - 10 * u, plot_.y + 70 * u}, context_.say("friction"),
-                 quantity(std::abs(near.friction), "N"), widest, style);
+            draw_reading(canvas, {plot_.right() - 10 * u, line(2)}, context_.translate("friction"),
+                         quantity(std::abs(near.friction), "N"), widest, style);
     }
 
-    // A word and a number that ends at `right`; the word stays where it is however long the number.
-    static void told(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number, const char* widest,
-                     TextStyle style) {
+    // Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
+    static void draw_reading(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number,
+                             const char* widest, TextStyle style) {
         style.align = HAlign::right;
         canvas.text(right, number, style);
         const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
         canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);
     }
 
-    // "collision 2 · impact 3 of 5", from the first touch of a collision until a little after its last.
-    std::string counted(double t) const {
+    // "collision 2 · impact 3 of 5", from the first touch of a collision until shortly after its last.
+    std::string collision_counter(double t) const {
         const std::vector<sim::Impact>& all = motion().impacts;
         const auto after = std::ranges::upper_bound(all, t, {}, &sim::Impact::t_start);
         if (after == all.begin()) return {};
@@ -262,7 +263,7 @@ class CloseUpPanel final : public FilmPanel {
             end = i.t_end.value_or(t);
         }
         if (t > end + sim::collision_gap(motion().problem)) return {};
-        return context_.say(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
+        return context_.translate(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
     }
 
     const FilmContext& context_;
@@ -270,13 +271,17 @@ class CloseUpPanel final : public FilmPanel {
     Box box_, plot_;
     double depth_ = 0, half_width_ = 1;  // [m]
     Range shown_;                        // heights [m]
-    Prefix unit_{"µ", 1e-6};             // of the heights: µm unless they are far from that
+    Prefix unit_{"µ", 1e-6};             // unit of heights: µm unless they are much larger or smaller
 };
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_close_up_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<CloseUpPanel>(context, slot);
+PanelType close_up_panel() {
+    return {.kind = PanelKind::close_up,
+            .name = "close-up",
+            .smallest = {240, 170},
+            .make = make_panel<CloseUpPanel>,
+            .needs_cam = true};
 }
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// The energy ledger as stacked bands.
+// The terms of the energy balance as stacked bands.
 #include <algorithm>
 #include <cmath>
 
@@ -10,8 +10,8 @@ namespace {
 
 using sim::ChannelKind;
 
-// T + (V − least V) + U + U_c + losses, one upon the other: together they are the energy of the start plus all
-// work done by cam and drive, so the outline of the stack is what was supplied.
+// T + (V − least V) + U + U_c + losses, stacked: their sum is the initial energy plus the work done by cam and drive,
+// so the outline of the stack is the supplied energy.
 class EnergyPanel final : public ChartPanel {
   public:
     EnergyPanel(const FilmContext& context, const PanelSlot& slot)
@@ -25,13 +25,13 @@ class EnergyPanel final : public ChartPanel {
     }
     void draw(Canvas& canvas, int frame, Style style, State* state) const override {
         ChartPanel::draw(canvas, frame, style, state);
-        whose(canvas);
+        draw_member(canvas);
     }
 
   private:
     struct Part {
         std::string label;
-        std::string symbol;  // where words find no room
+        std::string symbol;  // used if there is no space for the label
         std::vector<ChannelKind> channels;
         Color color;
     };
@@ -40,7 +40,7 @@ class EnergyPanel final : public ChartPanel {
         using K = ChannelKind;
         const auto part = [&](const char* label, std::string symbol, std::vector<K> channels) {
             const Color color = *energy_color(p, channels.front());
-            return Part{context.say(label), std::move(symbol), std::move(channels), color};
+            return Part{context.translate(label), std::move(symbol), std::move(channels), color};
         };
         return {part("potential", math("V"), {K::energy_potential}), part("kinetic", math("T"), {K::energy_kinetic}),
                 part("bending", math("U"), {K::energy_elastic}),
@@ -53,7 +53,7 @@ class EnergyPanel final : public ChartPanel {
         const int member = std::min(spec.member, context.members() - 1);
         ChartContent c = blank_content(context, spec, member);
         if (is_wide(context, slot.box))
-            c.words = context.say("Energy ");  // else the legend alone stands beside the symbol
+            c.words = context.translate("Energy ");  // otherwise only the symbol and the legend fit
         c.symbol = math("E");
         c.unit = "J";
         const sim::Table& table = context.motion(member).chart;
@@ -68,7 +68,7 @@ class EnergyPanel final : public ChartPanel {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
                 const double zero = zero_of(table, {kind, 0});
-                // Without a cam nothing is lost in a contact: its channels are empty.
+                // Without a cam the channels of contact are empty.
                 for (std::size_t i = 0; i < base.size(); ++i)
                     if (!std::isnan((*v)[i])) band.high[i] += std::max((*v)[i] - zero, 0.0);
             }
@@ -83,16 +83,16 @@ class EnergyPanel final : public ChartPanel {
 
     static bool is_wide(const FilmContext& context, const Box& box) { return box.w > 600 * context.unit; }
 
-    // Beside the heading, closer and smaller where it would not find room; below it, whose energy this is.
+    // The legend beside the heading, closer and smaller if there is little space.
     void legend(Canvas& canvas) const {
         const double u = context_.unit;
         const Box plot = plot_area(box_, u, context_.tick);
         std::vector<Part> shown = parts(context_);
-        std::erase_if(shown, [&](const Part& part) { return !is_there(part); });
+        std::erase_if(shown, [&](const Part& part) { return !occurs(part); });
         const double first = plot.x +
                              canvas
-                                 .measure(context_.say(is_wide(context_, box_) ? "Energy E / mJ" : "E / mJ"),
-                                          {.size = 21 * u, .weight = Weight::semibold})
+                                 .measure(context_.translate(is_wide(context_, box_) ? "Energy E / mJ" : "E / mJ"),
+                                          {.size = context_.heading(), .weight = Weight::semibold})
                                  .w +
                              20 * u;
         struct Step {
@@ -100,7 +100,14 @@ class EnergyPanel final : public ChartPanel {
             bool in_symbols = false;
         } chosen{};
         const auto words = [&](const Part& part) { return chosen.in_symbols ? part.symbol : std::string(part.label); };
-        for (const Step step : {Step{16, 19, 16}, {16, 18, 9}, {14, 15, 8}, {16, 19, 12, true}, {16, 17, 6, true}}) {
+        const double full = 16.0 / 17 * context_.tick / u;
+        for (const Step step : {Step{full, full + 3, 16},
+                                {full, full + 2, 9},
+                                {16, 19, 16},
+                                {16, 18, 9},
+                                {14, 15, 8},
+                                {16, 19, 12, true},
+                                {16, 17, 6, true}}) {
             chosen = step;
             double end = first - step.gap * u;
             for (const Part& part : shown)
@@ -119,8 +126,8 @@ class EnergyPanel final : public ChartPanel {
             x += w + (chosen.swatch + chosen.gap) * u;
         }
     }
-    // A rigid beam does not bend, impulses store nothing: a colour that is nowhere needs no name.
-    bool is_there(const Part& part) const {
+    // Terms that are zero throughout are not in the legend, such as the bending energy of a rigid beam.
+    bool occurs(const Part& part) const {
         const sim::Table& table = context_.motion(member_).chart;
         return std::ranges::any_of(part.channels, [&](ChannelKind kind) {
             const auto* v = column(table, {kind, 0});
@@ -128,8 +135,8 @@ class EnergyPanel final : public ChartPanel {
             return v && std::ranges::any_of(*v, [&](double value) { return value > zero; });
         });
     }
-    // Over the bands, which grow beneath it.
-    void whose(Canvas& canvas) const {
+    // The motion's label, over the bands.
+    void draw_member(Canvas& canvas) const {
         if (context_.members() == 1) return;
         const double u = context_.unit;
         const Box plot = plot_area(box_, u, context_.tick);
@@ -147,8 +154,15 @@ class EnergyPanel final : public ChartPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_energy_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<EnergyPanel>(context, slot);
+PanelType energy_panel() {
+    using enum ChannelKind;
+    return {.kind = PanelKind::energy,
+            .name = "energy",
+            .smallest = {300, 150},
+            .make = make_panel<EnergyPanel>,
+            .channels = {energy_kinetic, energy_potential, energy_elastic, energy_contact, loss_structural,
+                         loss_contact, loss_friction, work_cam, work_drive},
+            .takes_window = true};
 }
 
 }  // namespace beamcam::render

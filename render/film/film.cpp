@@ -16,15 +16,15 @@
 
 namespace beamcam::render {
 
-// ---- prepared once for a film ----------------------------------------------------------------
+// ---- data prepared once for a film -------------------------------------------------------------
 
 struct Film::Prepared {
     FilmContext context;
-    std::vector<std::unique_ptr<FilmPanel>> panels;  // of the layer
-    const MechanismPanel* mechanism = nullptr;       // the first
+    std::vector<std::unique_ptr<FilmPanel>> panels;  // in the drawn layer
+    const MechanismPanel* mechanism = nullptr;       // the first mechanism panel
     Image background;                                // everything that never changes
     std::vector<Box> background_texts;
-    std::string widest_speed;  // of all frames
+    std::string widest_speed;  // widest text of all frames
     bool steady = true;        // one speed throughout
     bool title_cut = false;
 
@@ -36,24 +36,24 @@ struct Film::Prepared {
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
         draw_background();
-        widest_speed = context.say(widest_speed_text(context.setup->speeds));
+        widest_speed = context.translate(widest_speed_text(context.setup->speeds));
         steady = steady_speed(context.setup->speeds);
         for (std::size_t i = 0; i < panels.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (panels[i]->accumulated_box().overlaps(panels[k]->accumulated_box())) accumulate_apart = false;
         context.fonts.reset();
-        context.extent = {};  // nobody asks any more
+        context.extent = {};  // not needed for drawing
     }
 
     bool shows(LayerOf layer) const {
-        const LayerOf wanted = context.setup->view.layer;
-        return wanted == LayerOf::all || wanted == layer;
+        const LayerOf drawn = context.setup->view.layer;
+        return drawn == LayerOf::all || drawn == layer;
     }
     void draw_clock(Canvas& canvas, int frame) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
     std::vector<int> layer_epochs(int frame) const;
-    bool accumulate_apart = true;  // no two panels add to the same pixels
+    bool accumulate_apart = true;  // accumulated boxes of panels do not overlap
 
   private:
     void draw_background();
@@ -74,10 +74,10 @@ struct Film::FrameRenderer {
         for (const auto& panel : p.panels) states.push_back(panel->make_state());
     }
 
-    // Brings the kept layer to a frame.
-    void keep(const Prepared& p, int wanted) {
-        std::vector<int> now = p.layer_epochs(wanted);
-        const bool restart = kept_frame < 0 || wanted < kept_frame || now != layer_epochs || !p.accumulate_apart;
+    // Advances the accumulated layer to a frame.
+    void accumulate_to(const Prepared& p, int target) {
+        std::vector<int> now = p.layer_epochs(target);
+        const bool restart = kept_frame < 0 || target < kept_frame || now != layer_epochs || !p.accumulate_apart;
         kept_frame = -1;
         if (restart) {
             kept = p.background;
@@ -87,9 +87,9 @@ struct Film::FrameRenderer {
         canvas.outline = p.context.outline();
         canvas.touched = &grown;
         for (std::size_t i = 0; i < p.panels.size(); ++i)
-            p.panels[i]->accumulate(canvas, p.background, wanted, restart, states[i].get());
+            p.panels[i]->accumulate(canvas, p.background, target, restart, states[i].get());
         layer_epochs = std::move(now);
-        kept_frame = wanted;
+        kept_frame = target;
     }
 
     Fonts fonts;
@@ -98,11 +98,11 @@ struct Film::FrameRenderer {
     int kept_frame = -1;            // < 0: none
     std::vector<int> layer_epochs;  // of that frame
     Image picture;
-    int frame = -1;  // that the picture shows; < 0: none
+    int frame = -1;  // in the picture; < 0: none
     CoverageCache coverage_cache;
-    DirtyTiles grown;    // where `kept` changed since the picture was drawn
-    DirtyTiles moved;    // where the picture may differ from `kept` as it was then
-    DirtyTiles changed;  // where the picture may differ from the one before
+    DirtyTiles grown;    // changes of `kept` since the picture was drawn
+    DirtyTiles moved;    // where the picture may differ from `kept` at that time
+    DirtyTiles changed;  // where the picture may differ from the previous one
 };
 
 // ---- the background --------------------------------------------------------------------------
@@ -132,12 +132,12 @@ void Film::Prepared::draw_header(Canvas& canvas) {
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
     std::vector<std::string> pieces = common_pieces(problems, setup.units.rpm);
-    for (std::string& piece : pieces) piece = context.say(std::move(piece));
+    for (std::string& piece : pieces) piece = context.translate(std::move(piece));
     const ParameterLine line = parameter_line(canvas, places, setup.title, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escape(context.say(setup.accuracy_note)),
+        canvas.text({b->right(), b->y + 19 * u}, escape(context.translate(setup.accuracy_note)),
                     {.size = 17 * u + 0.4 * (context.tick - 17 * u),
                      .color = context.palette->muted,
                      .align = HAlign::right,
@@ -151,13 +151,19 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
     const Box& b = *context.places.scales;
     const TextStyle small{
         .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
-    const auto bar = [&](double right, const std::string& name, const auto& color, std::array<std::string, 3> marks) {
-        const Box strip{std::round(right - 250 * u), std::round(b.y + 22 * u), std::round(250 * u), std::round(10 * u)};
+    const std::string moment_title = context.translate("bending moment"),
+                      trace_title = context.translate(context.setup->view.trace == TraceColor::force
+                                                          ? "contact force, trace (√ scale)"
+                                                          : "age of the trace");
+    const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
+                                             context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));
+    const auto bar = [&](double right, const std::string& title, const auto& color, std::array<std::string, 3> marks) {
+        const Box strip{std::round(right - wide), std::round(b.y + 22 * u), wide, std::round(10 * u)};
         for (int i = 0; i < static_cast<int>(strip.w); ++i) {
             canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
             canvas.fill(color((i + 0.5) / strip.w));
         }
-        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, context.say(name), small);
+        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, title, small);
         for (std::size_t i = 0; i < 3; ++i) {
             TextStyle style = small;
             style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
@@ -170,31 +176,30 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
         const std::string top = quantity(context.force_scale, "N"),
                           quarter = quantity(context.force_scale / 4, prefix_for(context.force_scale), "N");
         if (context.setup->view.trace == TraceColor::force) {
-            bar(right, "contact force, trace (√ scale)", [&](double s) { return force_color(palette, s); },
-                {"0", quarter, top});
+            bar(right, trace_title, [&](double s) { return force_color(palette, s); }, {"0", quarter, top});
         } else {
             const double half_life = trace_half_life(context.span), oldest = 4 * half_life;
-            bar(right, "age of the trace", [&](double s) { return age_color(palette, s * oldest, half_life); },
+            bar(right, trace_title, [&](double s) { return age_color(palette, s * oldest, half_life); },
                 {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)});
         }
-        right -= 300 * u;
+        right -= wide + 50 * u;
     }
     if (context.moment_scale > 0) {
         const std::string top = quantity(context.moment_scale, "N\u2009m");
-        bar(right, "bending moment", [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
+        bar(right, moment_title, [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
     }
 }
 
-// ---- what moves ------------------------------------------------------------------------------
+// ---- moving parts ------------------------------------------------------------------------------
 
-// "×5" of "deflection ×5", "1/50" of "1/50 speed".
-static std::string short_of(std::string words) {
+// Short forms: "×5" of "deflection ×5", "1/50" of "1/50 speed".
+static std::string short_form(std::string words) {
     for (const std::string_view dispensable : {"deflection ", " speed", "挠度 ", " 倍速"})
         if (const auto at = words.find(dispensable); at != std::string::npos) words.erase(at, dispensable.size());
     return words;
 }
 
-// The clock, and beside it how the picture differs from what an eye would see.
+// The clock, and beside it exaggeration and playback speed.
 void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     if (!context.places.clock || !shows(LayerOf::charts)) return;
     const Box& b = *context.places.clock;
@@ -212,13 +217,13 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     };
     std::vector<Pill> pills;
     if (setup.view.show.legend && context.factor > 1 && context.places.first(PanelKind::mechanism)) {
-        const std::string words = context.say("deflection ×") + power_text(context.factor);
+        const std::string words = context.translate("deflection ×") + power_text(context.factor);
         pills.push_back({words, words, context.palette->motion});
     }
     if (setup.view.show.legend && !setup.speeds.empty())
-        pills.push_back({context.say(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)), widest_speed,
-                         context.palette->contact});
-    const bool clear = setup.view.transparent;  // its words are read on whatever it is laid upon
+        pills.push_back({context.translate(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)),
+                         widest_speed, context.palette->contact});
+    const bool clear = setup.view.transparent;  // unknown background: opaque pills
     const auto style_of = [&](const Pill& p) {
         return TextStyle{.size = 20 * u,
                          .color = clear ? context.palette->paper : p.color,
@@ -230,10 +235,10 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 34 * u;
     };
     const double first = b.x + (setup.view.show.clock ? widest + 36 * u : 0), gap = 14 * u;
-    double all = first - gap;  // the same in all frames
+    double all = first - gap;  // the same for all frames
     for (const Pill& p : pills) all += gap + 38 * u + canvas.measure(p.widest, style_of(p)).w;
     if (all > b.right())
-        for (Pill& p : pills) p.words = short_of(p.words), p.widest = short_of(p.widest);
+        for (Pill& p : pills) p.words = short_form(p.words), p.widest = short_form(p.widest);
     double x = first;
     for (const Pill& p : pills) {
         const Box box{x, b.y + 6 * u, width(p), 36 * u};
@@ -254,17 +259,17 @@ Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
 Film& Film::operator=(Film&&) noexcept = default;
 
-Film Film::another() const { return Film(prepared_); }
+Film Film::for_thread() const { return Film(prepared_); }
 int Film::frames() const { return prepared_->context.frames(); }
 double Film::exaggeration() const { return prepared_->context.factor; }
-bool Film::yields() const {
+bool Film::exaggeration_reduced() const {
     const FilmContext& context = prepared_->context;
     bool flexible = false;
     for (int m = 0; m < context.members(); ++m)
         flexible = flexible || context.motion(m).problem.beam.model != sim::ModelKind::rigid;
     return flexible && context.factor < context.setup->view.exaggeration.value_or(1);
 }
-bool Film::cuts_title() const { return prepared_->title_cut; }
+bool Film::title_truncated() const { return prepared_->title_cut; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->context.counts; }
 
@@ -279,8 +284,8 @@ bool Film::repeats(int frame) const {
     const FilmSetup& setup = *prepared_->context.setup;
     const auto now = static_cast<std::size_t>(frame), before = now - 1;
     if (!setup.speeds.empty() && setup.speeds[now] != setup.speeds[before]) return false;
-    for (const Callout& words : setup.callouts)
-        if (words.opacity(frame) != words.opacity(frame - 1)) return false;
+    for (const Callout& callout : setup.callouts)
+        if (callout.opacity(frame) != callout.opacity(frame - 1)) return false;
     if (std::ranges::any_of(prepared_->panels, [&](const auto& panel) { return panel->animates_while_paused(frame); }))
         return false;
     const auto still = [&](const Motion& motion) { return motion.time(now) == motion.time(before); };
@@ -293,7 +298,7 @@ void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
     draw_clock(canvas, frame);
 }
 
-// Made when first needed: the film that others are made from may never draw.
+// Created on first use: a film that is only copied never draws.
 Film::FrameRenderer& Film::renderer_for(int frame) {
     if (frame < 0 || frame >= frames()) throw std::out_of_range(fmt::format("frame {} of {}", frame, frames()));
     if (!renderer_) renderer_ = std::make_unique<FrameRenderer>(*prepared_);
@@ -304,8 +309,8 @@ const Image& Film::draw(int frame) {
     FrameRenderer& t = renderer_for(frame);
     t.changed.clear();
     if (t.frame == frame) return t.picture;
-    if (std::exchange(t.frame, -1) < 0) t.moved.add_all();  // the first, or the last one failed halfway
-    t.keep(*prepared_, frame);
+    if (std::exchange(t.frame, -1) < 0) t.moved.add_all();  // the first picture, or the last one failed
+    t.accumulate_to(*prepared_, frame);
     t.changed.add(t.moved);
     t.changed.add(t.grown);
     copy(t.kept, t.picture, t.changed);
@@ -333,7 +338,7 @@ FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
     FrameRenderer& t = renderer_for(frame);
     FrameGeometry out{p.context.places, {}, p.context.factor, {}, p.background_texts, {}, {}};
-    t.keep(p, frame);
+    t.accumulate_to(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
     canvas.outline = p.context.outline();
@@ -342,7 +347,7 @@ FrameGeometry Film::geometry(int frame) {
     if (p.mechanism) {
         out.camera = p.mechanism->camera(frame);
         out.beam = p.mechanism->beam(frame);
-        out.words = p.mechanism->words();
+        out.legend = p.mechanism->legend();
         canvas.record = nullptr;
         out.labels = p.mechanism->labels(canvas, frame);
     }

@@ -7,8 +7,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kRing = 0.4;             // an impact's ring fades within so much of the film [s]
-constexpr std::ptrdiff_t kMostRings = 6;  // more at once would be a heap
+constexpr double kRing = 0.4;             // lifetime of a ring [s]
+constexpr std::ptrdiff_t kMostRings = 6;  // at once
 
 }  // namespace
 
@@ -33,13 +33,13 @@ void ImpactRings::find(const MechanismView& at) {
     }
 }
 
-bool ImpactRings::play(int frame) const {
+bool ImpactRings::change(int frame) const {
     return std::ranges::any_of(rings_, [&](const Ring& r) {
-        return frame >= r.frame && frame < r.frame + frames_ + 1;  // gone with the last
+        return frame >= r.frame && frame < r.frame + frames_ + 1;  // including the frame without it
     });
 }
 
-// Carried along by the disc.
+// Rings move with the disc.
 void ImpactRings::draw(const MechanismScene& s) const {
     if (!s.at.problem().cam) return;
     const auto later = std::ranges::upper_bound(rings_, s.frame, {}, &Ring::frame);
@@ -59,7 +59,7 @@ std::optional<ForceArrow> ImpactRings::peak(int frame) const {
     const Ring* latest = nullptr;
     for (const Ring& r : rings_) {
         if (frame < r.frame || frame >= r.frame + frames_) continue;
-        // Brief contacts of one frame are seen as the hardest of them; one that lasts shows its own force from then on.
+        // Several short contacts in one frame show the largest force; a longer contact shows its own force.
         const bool lasts = !(r.peak.force > 0);
         if (!latest || lasts || r.frame > latest->frame || r.peak.force > latest->peak.force) latest = &r;
     }

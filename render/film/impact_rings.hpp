@@ -1,4 +1,4 @@
-// Rings that open and fade where impacts began, and the largest force of those that are too brief for the frames.
+// Rings that expand and fade at the places of impacts, and the peak force of impacts that are too short for the frames.
 #pragma once
 
 #include <optional>
@@ -10,21 +10,21 @@ namespace beamcam::render {
 
 class ImpactRings {
   public:
-    void find(const MechanismView& at);  // of a motion's frames
+    void find(const MechanismView& at);  // collects the impacts of the motion
     void draw(const MechanismScene& s) const;
-    // Of the latest contact that less than two frames show, while its ring is there: its largest force, where it was.
+    // Peak force of the latest contact shorter than two frames, as long as its ring is visible.
     std::optional<ForceArrow> peak(int frame) const;
-    bool play(int frame) const;  // one changes from the frame before to this one
+    bool change(int frame) const;  // a ring changes between the previous frame and this one
 
   private:
     struct Ring {
-        int frame = 0;              // the first that shows it
+        int frame = 0;              // the first frame that shows it
         double material_angle = 0;  // on the disc, from its mark [rad]
-        ForceArrow peak = {};       // of a brief contact; of others no force
+        ForceArrow peak = {};       // of a short contact; force 0 for others
     };
     std::vector<Ring> rings_;
-    double frames_ = 1;      // that a ring lasts
-    bool labelled_ = false;  // what is a peak is said to be one
+    double frames_ = 1;      // lifetime of a ring
+    bool labelled_ = false;  // peaks are shown, because their label says that they are peaks
 };
 
 }  // namespace beamcam::render

@@ -6,16 +6,16 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px: the least that reads
-// Letters at axes and scales: readable from the back of a room, where they have a fiftieth of the picture's height.
-constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 26;  // of the lesser side; [design px]
+constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px, the smallest readable size
+// Size of axis labels: a fiftieth of the picture's height is readable from the back of a lecture room.
+constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 26;  // of the shorter side; [design px]
 
 Box whole(const Box& b) {
     const double x = std::round(b.x), y = std::round(b.y);
     return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
 }
 
-// Stacks the panels into `area`, as many as keep a readable height, each at most so high [design px].
+// Stacks as many panels into `area` as keep a readable height, each at most `highest` [design px].
 void stack(Layout& out, const std::vector<PanelSpec>& specs, const Box& area, double highest = 440) {
     const double u = out.unit, gap = 14 * u;
     const auto room = static_cast<std::size_t>(std::max(0.0, (area.h + gap) / (215 * u + gap)));
@@ -26,7 +26,7 @@ void stack(Layout& out, const std::vector<PanelSpec>& specs, const Box& area, do
     }
 }
 
-// Side by side, as many as keep a readable width.
+// Places as many panels side by side as keep a readable width.
 void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     const double u = out.unit, gap = 30 * u;
     const auto room = static_cast<std::size_t>(std::max(0.0, (area.w + gap) / (400 * u + gap)));
@@ -37,21 +37,22 @@ void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     }
 }
 
-constexpr double kPanelColumn = 540;  // width of panels beside the mechanism [design px]
+constexpr double kPanelColumn = 540;  // width of the column of panels beside the mechanism [design px]
 bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
-// How much wider the column may become where the mechanism does not need the room [px].
+// The most by which the column may grow if the mechanism does not need the space [px].
 double widening(double w, double u) {
-    return std::clamp(w - 1600 * u, 0.0, 200 * u) + 0.6 * std::max(0.0, w - 2200 * u);  // very wide: charts, not paper
+    return std::clamp(w - 1600 * u, 0.0, 200 * u) +
+           0.6 * std::max(0.0, w - 2200 * u);  // very wide pictures: wide charts instead of empty space
 }
 
-// What stands around the panels, and the room that is left for them.
+// The parts around the panels, and the space that is left for the panels.
 struct Frame {
     Layout out;
     double margin = 0, top = 0, bottom = 0, right = 0;
     bool wide = true;
 };
 
-// `beside`: panels may stand beside the header, whose lines have to leave them their room.
+// `beside`: panels may stand beside the header, whose lines must be short enough.
 Frame frame(int width, int height, bool beside, const Shown& shown) {
     Frame f;
     Layout& out = f.out;
@@ -80,7 +81,7 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
         out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
         f.bottom -= 34 * u;
     }
-    const bool apart = has_scales && !f.wide;  // beside the clock they would leave it too little
+    const bool apart = has_scales && !f.wide;  // beside the clock there is not enough space
     if (apart) {
         out.scales = Box{w - margin - 600 * u, f.bottom - 56 * u, 600 * u, 56 * u};
         f.bottom -= 64 * u;
@@ -100,9 +101,9 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
 
 void place_grid(Layout& out, const LayoutNode& node, const Box& box);
 
-// The children of a grid without those that would be too small to read, the last of them first: the others share
-// their room.
-std::vector<LayoutNode> those_that_fit(double unit, const LayoutNode& node, const Box& box) {
+// The children of a grid without those that are too small to read, removed from the last on; the others share the
+// space.
+std::vector<LayoutNode> children_that_fit(double unit, const LayoutNode& node, const Box& box) {
     const bool rows = node.kind == LayoutNode::Kind::rows;
     std::vector<LayoutNode> children = node.children;
     for (;;) {
@@ -129,7 +130,7 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
         return;
     }
     const bool rows = node.kind == LayoutNode::Kind::rows;
-    const std::vector<LayoutNode> children = those_that_fit(out.unit, node, box);
+    const std::vector<LayoutNode> children = children_that_fit(out.unit, node, box);
     const double gap = (rows ? 14 : 30) * out.unit, n = static_cast<double>(children.size());
     const double room = (rows ? box.h : box.w) - gap * (n - 1);
     if (!(room > 0)) return;
@@ -142,13 +143,13 @@ void place_grid(Layout& out, const LayoutNode& node, const Box& box) {
     }
 }
 
-// ---- the standard arrangement ------------------------------------------------------------------
+// ---- the standard layout -----------------------------------------------------------------------
 
 // Equal cells for mechanisms beside and above each other.
 struct CellGrid {
     int columns = 1, rows = 1;
     double w = 0, h = 0;                               // whole pixels
-    static constexpr double kAcross = 30, kDown = 14;  // between them [design px]
+    static constexpr double kAcross = 30, kDown = 14;  // gaps [design px]
 };
 
 CellGrid cells(const Box& box, int count, int columns, double u) {
@@ -162,7 +163,7 @@ double scale_in(const CellGrid& c, const ViewExtent& extent, double u) {
     return extent.camera({0, 0, c.w, c.h}, u).scale;
 }
 
-// As many as have room, in the rows and columns that give them the largest scale.
+// The grid of at most `count` cells that gives mechanisms the largest scale; reduces `count` to what fits.
 CellGrid best_cells(const Box& box, int& count, const ViewExtent& extent, double u) {
     const Vec2 least = type_of(PanelKind::mechanism).smallest * u;
     for (; count > 1; --count) {
@@ -194,20 +195,20 @@ void place_mechanisms(Layout& out, const Box& box, int members, const ViewExtent
     out.panels.insert(out.panels.begin(), slots.begin(), slots.end());
 }
 
-// What the mechanisms leave of their box at the scale that it gives them [px].
+// Width and height of the box that the mechanisms do not need [px].
 Vec2 spare(const Box& box, int members, const ViewExtent& extent, double u) {
     const CellGrid c = best_cells(box, members, extent, u);
     const Vec2 used = extent.room({0, 0, c.w, c.h}, u);
     return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
 }
 
-// So many mechanisms need the width of a picture below their title, and keep this share of the scale that they would
-// have without charts.
+// From this number on mechanisms get the whole width below the title, and at least this share of the scale that they
+// would have without charts.
 constexpr int kSeveral = 3;
 constexpr double kKept = 0.6;
 
-// Some of it stays, for words and arrows around the mechanism.
-double given(double spare, double most) { return std::min(0.6 * spare, most); }
+// The part of the unused space that panels get; the rest is for labels and arrows around the mechanism.
+double for_panels(double spare, double most) { return std::min(0.6 * spare, most); }
 
 }  // namespace
 
@@ -228,7 +229,7 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
     Layout& out = f.out;
     const double u = out.unit, w = width, h = height;
     Box room{f.margin, f.top, f.right - f.margin, f.bottom - f.top};
-    const double lower = std::min(0.62 * room.h, 3 * 330 * u);  // of a stack
+    const double lower = std::min(0.62 * room.h, 3 * 330 * u);  // height of a stack
     switch (how) {
         case Arrangement::alone:
             break;
@@ -236,8 +237,8 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             if (!has_column(w, h, u)) return {};
             Box left = room;
             left.w -= kPanelColumn * u + 40 * u;
-            const double column = kPanelColumn * u + given(spare(left, members, extent, u).x, widening(w, u));
-            // Beside the title, too, where height is what lacks.
+            const double column = kPanelColumn * u + for_panels(spare(left, members, extent, u).x, widening(w, u));
+            // In wide pictures, which lack height, the column starts beside the title.
             const double top = f.wide && beside ? f.margin * 0.8 : f.top;
             stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, f.wide ? 440 : 660);
             room.w -= column + 40 * u;
@@ -248,7 +249,7 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             if (w < 420 * u || room.h < 620 * u) return {};
             Box above = room;
             above.h -= 320 * u;
-            const double row = 300 * u + given(spare(above, members, extent, u).y, 140 * u);
+            const double row = 300 * u + for_panels(spare(above, members, extent, u).y, 140 * u);
             spread(out, side, {room.x, room.bottom() - row, room.w, row});
             room.h -= row + 20 * u;
             break;
@@ -257,12 +258,13 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
             if (w < 420 * u || room.h < 620 * u) return {};
             stack(out, side, {room.x, room.bottom() - lower, room.w, lower});
             if (out.panels.empty()) return {};
-            // As high as their number asks for, and what the mechanisms leave.
+            // As high as the number of panels needs, plus space that the mechanisms do not need.
             const double n = static_cast<double>(out.panels.size());
             double used = out.panels.back().box.bottom() - out.panels.front().box.y;
             Box above = room;
             above.h -= used + 20 * u;
-            used += given(spare(above, members, extent, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
+            used +=
+                for_panels(spare(above, members, extent, u).y, std::max(0.0, n * 440 * u + (n - 1) * 14 * u - used));
             const std::vector<PanelSpec> fitting(side.begin(), side.begin() + static_cast<std::ptrdiff_t>(n));
             out.panels.clear();
             stack(out, fitting, {room.x, room.bottom() - used, room.w, used});
@@ -303,19 +305,19 @@ Layout layout(int width, int height, const std::vector<PanelSpec>& side, int mem
     return best ? *std::move(best) : without;
 }
 
-Layout layout(int width, int height, const LayoutNode& wanted, const Shown& shown) {
+Layout layout(int width, int height, const LayoutNode& user_grid, const Shown& shown) {
     Frame f = frame(width, height, false, shown);
-    LayoutNode grid = wanted;
-    // What stands side by side in a wide picture stands one below the other in a tall one.
+    LayoutNode grid = user_grid;
+    // Columns of a wide picture become rows in a portrait one.
     if (grid.kind == LayoutNode::Kind::columns && height > 1.35 * width) {
         grid.kind = LayoutNode::Kind::rows;
-        // Three panels above each other need more of the height than of the width.
+        // A stack of three panels needs a larger share of the height than of the width.
         for (LayoutNode& child : grid.children)
             if (child.kind == LayoutNode::Kind::rows)
                 child.share *= std::max(1.0, 0.7 * static_cast<double>(child.children.size()));
     }
     place_grid(f.out, grid, {f.margin, f.top, f.right - f.margin, f.bottom - f.top});
-    // A picture too small for its grid shows what it can: the mechanism.
+    // A picture too small for any panel of the grid shows the mechanism.
     if (f.out.panels.empty()) return layout(width, height, std::vector<PanelSpec>{}, 1, {}, shown);
     return std::move(f.out);
 }
@@ -328,9 +330,9 @@ std::vector<PanelSpec> panels_of(const LayoutNode& grid) {
     return out;
 }
 
-std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted, const Shown& shown) {
-    std::vector<PanelSpec> out = panels_of(wanted);
-    for (const PanelSlot& slot : layout(width, height, wanted, shown).panels)
+std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& user_grid, const Shown& shown) {
+    std::vector<PanelSpec> out = panels_of(user_grid);
+    for (const PanelSlot& slot : layout(width, height, user_grid, shown).panels)
         if (const auto placed = std::ranges::find(out, slot.spec); placed != out.end()) out.erase(placed);
     return out;
 }

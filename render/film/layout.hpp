@@ -1,7 +1,7 @@
-// Where things stand in a film's frame, for any size: wide, square, tall, odd, tiny.
+// The layout of a frame of any size: wide, square, portrait, odd or tiny.
 //
-// Type and spacing scale with the frame but never below half of their full-size value, where text stops being
-// readable; what then no longer fits is left out (panels first, then the lines of text) rather than overlapped.
+// Letters and spacing scale with the frame down to half of their full size, below which text is not readable. Parts
+// that do not fit then are left out (panels first, then lines of text); nothing overlaps.
 #pragma once
 
 #include <memory>
@@ -14,49 +14,54 @@
 
 namespace beamcam::render {
 
-// Each has a row in panel_types.cpp.
-enum class PanelKind { mechanism, strip, phase, energy, close_up, traces };
+// The kinds of panels, in the order of the reference. A new panel is a name in this list and one file, which defines
+// its PanelType in a function of this name with "_panel" behind it.
+#define BEAMCAM_PANELS(entry) entry(mechanism) entry(phase) entry(energy) entry(close_up) entry(traces) entry(strip)
+
+#define BEAMCAM_PANEL_KIND(name) name,
+enum class PanelKind { BEAMCAM_PANELS(BEAMCAM_PANEL_KIND) };
+#undef BEAMCAM_PANEL_KIND
 
 struct PanelSpec {
     PanelKind kind = PanelKind::mechanism;
-    std::vector<sim::Channel> channels = {};  // of a strip: at least one, all of one unit
-    std::optional<double> window = {};        // of a strip or the ledger: this much time [s]; absent: the whole film
-    bool by_collision = false;                // of a strip: the time of one collision after the other
-    int member = 0;                           // of the mechanism, the close-up, the ledger, the traces: which motion
+    std::vector<sim::Channel> channels = {};  // strip: at least one, all of one unit
+    std::optional<double> window = {};        // strip, energy: duration of a moving window [s]; absent: the whole film
+    bool by_collision = false;                // strip: show one collision after the other
+    int member = 0;                           // mechanism, close-up, energy, traces: index of the motion
     bool operator==(const PanelSpec&) const = default;
 };
 
-// A grid: a panel, or rows or columns of smaller grids that divide the room by their shares.
+// A grid: a panel, or rows or columns of smaller grids that divide the space by their shares.
 struct LayoutNode {
     enum class Kind { panel, rows, columns };
     Kind kind = Kind::panel;
-    double share = 1;  // > 0, relative to its neighbours'
+    double share = 1;  // > 0, relative to its siblings
     PanelSpec panel = {};
     std::vector<LayoutNode> children = {};
 };
 
-// What stands around the panels, and the words within the mechanism. What is not shown leaves its room to the panels.
+// Visible parts around the panels and within the mechanism. The panels take the space of hidden parts.
 struct Shown {
     bool title = true, parameters = true, clock = true;
-    bool legend = true;    // colour scales; what the picture exaggerates, how fast it runs
-    bool accuracy = true;  // the line in the corner
+    bool legend = true;    // colour scales, exaggeration, playback speed
+    bool accuracy = true;  // the note in the corner
     bool labels = true;    // angle, speed, force, scale bar
-    bool logo = false;     // a picture in the clock's line
-    double size = 1;       // of words, lines and marks, against those that suit the picture
+    bool logo = false;     // an image in the clock's line
+    double size = 1;       // scale factor of letters, lines and marks
     bool operator==(const Shown&) const = default;
 };
 
 struct PanelSlot {
     PanelSpec spec;
-    Box box;  // title, labels and all; whole pixels
+    Box box;  // heading and axis labels included; whole pixels
 };
 
 struct Layout {
     double unit = 1;           // [px] of one design pixel (1920×1080)
     double tick = 17;          // size of letters at axes and scales [px]
-    std::optional<Box> title;  // line boxes; text stands on `baseline(box)`
+    std::optional<Box> title;  // boxes of lines of text
     std::optional<Box> parameters;
-    std::optional<Box> clock;   // with the pills; with these alone where the time is not shown
+    std::optional<Box> clock;   // and exaggeration and speed beside it
     std::optional<Box> scales;  // colour bars
     std::optional<Box> note;    // accuracy
     std::optional<Box> logo;    // beside the clock
@@ -65,30 +70,30 @@ struct Layout {
     const PanelSlot* first(PanelKind kind) const;
 };
 
-// Where the side panels of the standard arrangement stand: one above the other at the right, side by side below, or
-// one above the other below.
+// Position of the side panels in the standard layout: stacked at the right, side by side below the mechanism, or
+// stacked below it.
 enum class Arrangement { alone, column, row, stack };
 
-// width, height >= 1. The standard arrangement: the mechanisms (one for each of `members` motions, or a single one
-// with ghosts), and beside or below them as many of the `side` panels, the most important first, as stay readable:
-// where that leaves the mechanisms the larger scale for their `extent`. Room that they do not need goes to the panels.
-// The box of the parameters depends on size and `members` alone, so that what it holds is known before there is a
-// motion.
+// The standard layout of a picture, width, height >= 1: the mechanisms (one for each of `members` motions, or a single
+// one with ghosts), and as many `side` panels, the most important first, as stay readable. It chooses the arrangement
+// that gives the mechanisms the largest scale for their `extent`; panels get the space that is left. The box of the
+// parameters depends on size and `members` only, so that its content is known before the simulation.
 Layout layout(int width, int height, const std::vector<PanelSpec>& side, int members = 1, const ViewExtent& extent = {},
               const Shown& shown = {});
-// One of them; none where the picture is too small for it.
+// The standard layout with this arrangement; none if the picture is too small for it.
 std::optional<Layout> arranged(Arrangement how, int width, int height, const std::vector<PanelSpec>& side, int members,
                                const ViewExtent& extent, const Shown& shown = {});
-// Of the smallest mechanism [px/m]; 0 without one.
+// Scale of the smallest mechanism; 0 without one [px/m].
 double scale_of(const Layout& layout, const ViewExtent& extent);
-// The user's own grid; panels that come out too small to read are left out. In a tall picture the outermost columns
-// become rows.
-Layout layout(int width, int height, const LayoutNode& wanted, const Shown& shown = {});
-// The panels of a grid in reading order; and those which come out too small.
+// The layout of a user's grid, without the panels that are too small to read. In a portrait picture the outermost
+// columns become rows.
+Layout layout(int width, int height, const LayoutNode& user_grid, const Shown& shown = {});
+// All panels of a grid in reading order; those that are too small to read.
 std::vector<PanelSpec> panels_of(const LayoutNode& grid);
-std::vector<PanelSpec> left_out(int width, int height, const LayoutNode& wanted, const Shown& shown = {});
+std::vector<PanelSpec> omitted_panels(int width, int height, const LayoutNode& user_grid, const Shown& shown = {});
 
-// The axes within a plot's box: room for a heading, labels of size `tick` and the name of the time; whole pixels.
+// The rectangle of the axes in a panel's box, which leaves space for heading and axis labels of size `tick`; whole
+// pixels.
 Box plot_area(const Box& box, double unit, double tick);
 
 // ---- kinds of panels ---------------------------------------------------------------------------
@@ -96,17 +101,17 @@ Box plot_area(const Box& box, double unit, double tick);
 class FilmPanel;
 struct FilmContext;
 
-// All that layouts, scenes and films know of a kind of panel.
+// Everything that layouts, scenes and films need to know about a kind of panel.
 struct PanelType {
     PanelKind kind;
-    const char* name;  // as scenes write it
-    Vec2 smallest;     // room that it can use [design px]
+    const char* name;  // in scenes
+    Vec2 smallest;     // smallest useful size [design px]
     std::unique_ptr<FilmPanel> (*make)(const FilmContext& context, const PanelSlot& slot);
-    std::vector<sim::ChannelKind> channels = {};  // of the chart, beside those that scenes name
-    bool draws_curve = false;                     // the second of `channels` over the first
-    bool takes_channels = false;                  // scenes name them
-    bool takes_window = false;                    // of time
-    bool takes_collisions = false;                // instead of a window
+    std::vector<sim::ChannelKind> channels = {};  // that it reads from Motion::chart, beside those that scenes name
+    bool draws_curve = false;                     // plots the second of `channels` against the first
+    bool takes_channels = false;                  // accepts the keys "channels", …
+    bool takes_window = false;                    // … "window" with a duration, …
+    bool takes_collisions = false;                // … or with "collision"
     bool needs_cam = false;
 };
 const std::vector<PanelType>& panel_types();

@@ -41,7 +41,7 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
     return scene;
 }
 
-// Tiles that a round can touch in a picture of this height.
+// Adds the tiles that a disc intersects in a picture of this height.
 void add_round(DirtyTiles& tiles, int height, Vec2 centre, double radius) {
     constexpr double kRow = DirtyTiles::kHeight;
     const double from = std::min<double>(height, std::max(0.0, centre.y - radius)),
@@ -54,7 +54,7 @@ void add_round(DirtyTiles& tiles, int height, Vec2 centre, double radius) {
     }
 }
 
-// What the scene, whose corner is at `origin`, can touch, shadows included: beyond it the lit picture is transparent.
+// The tiles that the scene, whose corner is at `origin`, can cover, shadows included.
 DirtyTiles lit_tiles(const LitScene& scene, Vec2 origin, int width, int height) {
     DirtyTiles tiles(width, height);
     const double around = 26 * scene.unit + 4;

@@ -1,4 +1,4 @@
-// The mechanism drawn through OpenGL: what a thread keeps of it from one frame to the next.
+// Draws the mechanism with OpenGL. Each thread keeps one between frames.
 #pragma once
 
 #include <memory>
@@ -11,18 +11,18 @@ namespace beamcam::render {
 
 class LitMechanism {
   public:
-    // `within`: what the lit mechanism ever covers, shadows included; whole pixels.
+    // `within` contains the lit mechanism at all frames, shadows included; whole pixels.
     void draw(Canvas& canvas, const MechanismShape& shape, const MechanismView& at, const Box& within);
     void draw_solid(const MechanismScene& s, const std::vector<Color>& rim);
 
   private:
-    std::unique_ptr<LitRenderer> renderer_;  // made when first needed
+    std::unique_ptr<LitRenderer> renderer_;  // created on first use
     Image image_;
-    std::optional<MechanismShape> shape_;  // what the image shows
-    DirtyTiles tiles_;                     // where it does
+    std::optional<MechanismShape> shape_;  // the shape in the image
+    DirtyTiles tiles_;                     // its tiles
 };
 
-// A box with room for shadows around these shapes, in whole pixels, cut to the mechanism's.
+// The box of the shapes enlarged by their shadows, clipped to `within`, in whole pixels.
 Box lit_box(const Box& shapes, const Box& within, double unit);
 
 }  // namespace beamcam::render

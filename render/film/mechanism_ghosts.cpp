@@ -1,9 +1,10 @@
-#include "render/film/mechanism_ghosts.hpp"
-
+// Other motions in the panel of the first one, and beams at measured angles.
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <vector>
+
+#include "render/film/mechanism_marks.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -14,14 +15,14 @@ struct Outline {
     std::vector<Vec2> edge, foot;  // [px]
 };
 
-// Out along the face and back, from where the beam leaves the hub; `foot`: along the hub, which stays in front.
+// `edge`: along the face and back, from where the beam leaves the hub; `foot`: along the hub, which is in front.
 Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
     const auto outside = [&](const auto& point) {
         std::vector<Vec2> line;
         for (std::size_t i = 0; i < beam.line.size(); ++i) {
             const Vec2 p = s.at.px(point(i));
             if (norm(p - s.shape.hinge) < s.shape.hub) continue;
-            if (line.empty() && i > 0) {  // where it crosses the hub's edge
+            if (line.empty() && i > 0) {  // intersection with the hub's edge
                 Vec2 in = s.at.px(point(i - 1)), out = p;
                 for (int pass = 0; pass < 40; ++pass) {
                     const Vec2 middle = (in + out) * 0.5;
@@ -52,7 +53,7 @@ Outline ghost_outline(const MechanismScene& s, const DrawnBeam& beam) {
 
 }  // namespace
 
-// The other motions: outlines of their beams, and of their discs where those stand elsewhere.
+// Discs are drawn only where they differ from the first motion's.
 void draw_ghost_outlines(const MechanismScene& s) {
     for (int m = 0; m < s.at.context.members(); ++m) {
         if (m == s.at.member) continue;
@@ -69,7 +70,6 @@ void draw_ghost_outlines(const MechanismScene& s) {
     }
 }
 
-// Under the first motion's beam, whose colours mean something.
 void draw_ghost_bodies(const MechanismScene& s) {
     for (int m = 0; m < s.at.context.members(); ++m) {
         if (m == s.at.member) continue;
@@ -94,7 +94,7 @@ void draw_measured_beams(const MechanismScene& s) {
             pose.centreline[i] = sim::unit(angle) * (problem.hub.radius + problem.beam.length * static_cast<double>(i) /
                                                                               static_cast<double>(last));
         DrawnBeam beam = drawn_beam(problem, pose, 1, s.at.look.depth);
-        beam.side = s.beam.side, beam.low = s.beam.low, beam.high = s.beam.high;  // the section lies as the beam's
+        beam.side = s.beam.side, beam.low = s.beam.low, beam.high = s.beam.high;  // placed as the beam's section
         s.canvas.polyline(ghost_outline(s, beam).edge);
         s.canvas.stroke({s.at.context.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
     }

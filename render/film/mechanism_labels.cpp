@@ -13,18 +13,20 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kLabelFade = 0.2;           // how long a label without a free place takes to go or come [s]
-constexpr double kFarthestLetter = 90;       // of the angle from its arc [design px of the letter]
-constexpr std::size_t kMeasuredPushes = 60;  // whose numbers tell how wide the label of the force becomes
+constexpr double kLabelFade = 0.2;           // duration of fading a label without a free place [s]
+constexpr double kFarthestLetter = 90;       // largest distance of θ from its arc [design px of the letter]
+constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
 
 Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
 
 }  // namespace
 
 double least_letter(const MechanismView& at) {
-    constexpr double kOfTicks = 0.66;  // a single letter is found more easily than a number is read
+    constexpr double kOfTicks = 0.66;  // a single letter is recognized more easily than a number
     return std::max(kReadable, kOfTicks * at.context.tick);
 }
+
+double label_size(const MechanismView& at) { return std::max(21 * at.unit, at.context.tick); }
 
 double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
 
@@ -35,11 +37,11 @@ std::string speed_label(const MechanismView& at) {
 
 std::string force_label(const MechanismView& at, const ForceArrow& arrow) {
     const bool chinese = at.context.setup->view.lang == Lang::zh;
-    const std::string peak_of = at.context.say("peak") + "\u00A0" + (chinese ? apart() : std::string());
+    const std::string peak_of = at.context.translate("peak") + "\u00A0" + (chinese ? script_break() : std::string());
     return (arrow.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + reading(arrow.force, "N");
 }
 
-// ---- what moves --------------------------------------------------------------------------------
+// ---- the swept region --------------------------------------------------------------------------
 
 SweptRegion::SweptRegion(const MechanismView& at, const Box& area, double cell) : room(area, cell), at_(at) {
     const View& view = at.context.setup->view;
@@ -54,7 +56,7 @@ SweptRegion::SweptRegion(const MechanismView& at, const Box& area, double cell) 
     }
 }
 
-// In pieces of a few stations, which the curve leaves by less than a pixel.
+// In quadrilaterals of a few stations, from which the curve deviates by less than a pixel.
 void SweptRegion::add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back) {
     const std::size_t step = face.size() > 40 ? 4 : 1;
     for (std::size_t i = 0; i + 1 < face.size(); i += step) {
@@ -63,8 +65,8 @@ void SweptRegion::add_beam(const std::vector<Vec2>& face, const std::vector<Vec2
     }
 }
 
-// Between two instants the pieces move straight.
-void SweptRegion::add_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
+// Points of the edge move on straight lines between two frames.
+void SweptRegion::add_motion(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
     const std::size_t step = from.size() > 40 ? 4 : 1;
     if (from.size() != to.size()) return;
     for (std::size_t i = 0; i + 1 < from.size(); i += step) {
@@ -116,14 +118,14 @@ class LabelPlacer {
   public:
     LabelPlacer(const MechanismView& view, const LabelNeeds& all) : at(view), u(view.unit), needs(all) {}
 
-    // The arc is as large as its letter wants to stand beside it, within reason and short of the cam.
+    // Radius at which the letter fits beside the arc, limited by the cam and the panel.
     double arc_radius() const {
         const double letter = angle_letter(at), depth = at.look.depth * at.look.camera.scale;
-        const double wanted = 17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3);
-        return std::min(std::clamp(wanted, 92 * at.marks, 150 * at.marks), needs.arc_room);
+        const double preferred = 17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3);
+        return std::min(std::clamp(preferred, 92 * at.marks, 150 * at.marks), needs.arc_room);
     }
 
-    // In the middle of what the beam leaves free of the arc's inside.
+    // The letter goes to the middle of the sector below the lowest position of the beam.
     std::optional<LabelPlace> angle(OccupancyGrid room, double radius) const {
         const double letter = angle_letter(at);
         if (radius <= at.hub() + 34 * letter) return std::nullopt;
@@ -141,29 +143,29 @@ class LabelPlacer {
         return out;
     }
 
-    // Beside its arrow, which takes the first side that the beams leave to both.
+    // The label is beside its arrow; the arrow goes to the first side with space for both.
     LabelPlace speed(const OccupancyGrid& room, double width, double& way) const {
         double least = std::numeric_limits<double>::infinity();
         for (const double each : {-0.30 * pi, -0.70 * pi, 0.30 * pi, 0.70 * pi, -0.5 * pi, 0.5 * pi, 0.0, pi}) {
             double cost = room.covered(speed_box(each, width));
-            each_of_arrow(each, [&](const Box& box) { cost += room.covered(box); });
+            for_each_arrow_box(each, [&](const Box& box) { cost += room.covered(box); });
             if (cost < least) least = cost, way = each;
         }
         OccupancyGrid taken = room;
-        each_of_arrow(way, [&](const Box& box) { taken.cover(box, 1); });
+        for_each_arrow_box(way, [&](const Box& box) { taken.cover(box, 1); });
         const double edge = speed_radius(at) - speed_gap(at);
         return place(taken, speed_box(way, width), at.px(at.problem().cam->centre) + down(way) * edge);
     }
 
     template <class Visit>
-    void each_of_arrow(double way, const Visit& visit) const {
+    void for_each_arrow_box(double way, const Visit& visit) const {
         if (at.problem().cam->speed == 0) return;
         const double radius = speed_radius(at), half = speed_span(at) / 2;
         for (int i = -2; i <= 2; ++i)
             visit(about(at.px(at.problem().cam->centre) + down(way + half * i / 2) * radius, Vec2{8, 8} * u));
     }
 
-    // Beside the tip of the strongest arrow and clear of the beam's back.
+    // Beside the tip of the longest arrow, clear of the beam.
     LabelPlace force(const OccupancyGrid& room, Canvas& canvas) const {
         const ForceArrow& most = *std::ranges::max_element(needs.arrows, {}, &ForceArrow::force);
         double width = 0;
@@ -176,9 +178,10 @@ class LabelPlacer {
         const Vec2 n{most.normal.x, -most.normal.y};
         const double clear = force_label_distance(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
         const Vec2 tip = at.px(most.foot) + n * clear;
-        const bool right = n.x > 0.5;  // such an arrow's other side is the beam's
-        const double gap = 14 * u + shrunk(width);
-        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - 14 * u, width, 28 * u}, at.px(most.foot));
+        const bool right = n.x > 0.5;  // on its left is the beam
+        const double gap = 14 * u + shrunk(width), size = label_size(at);
+        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - size * 2 / 3, width, size * 4 / 3},
+                     at.px(most.foot));
     }
 
   private:
@@ -190,16 +193,17 @@ class LabelPlacer {
         const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
         const double base = std::min(to.y + 12 * u, at.box.bottom() - 34 * u);  // above the scale bar
         const double gap = 8 * u + shrunk(width);
-        return {to.x + (right ? gap : -gap - width), base - 17.72 * u, width, 22 * u};
+        const double size = label_size(at);
+        return {to.x + (right ? gap : -gap - width), base - 0.844 * size, width, 1.048 * size};
     }
 
-    // The solid view is drawn smaller than the flat one, its words are not: so much they come nearer to their arrows.
+    // Labels move towards their arrows in the solid view, where the mechanism is smaller than in the flat view.
     double shrunk(double width) const { return at.context.setup->view.style == Style::solid ? 0.07 * width : 0; }
 
-    LabelPlace place(const OccupancyGrid& room, const Box& wanted, Vec2 base) const {
-        const Box found = room.nearest_free(wanted.inset(-u - shrunk(wanted.w)));
+    LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base) const {
+        const Box found = room.nearest_free(preferred.inset(-u - shrunk(preferred.w)));
         const Camera& camera = at.look.camera;
-        LabelPlace out{camera.to_world(found.centre()), {wanted.w, wanted.h}, camera.to_world(base), {}};
+        LabelPlace out{camera.to_world(found.centre()), {preferred.w, preferred.h}, camera.to_world(base), {}};
         if (room.covered(found) > 0) fade_where_met(out);
         return out;
     }
@@ -234,7 +238,7 @@ class LabelPlacer {
 }  // namespace
 
 MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, SweptRegion& swept,
-                             SweptRegion& pressed) {
+                             SweptRegion& in_contact) {
     MechanismLabels out;
     const LabelPlacer placer(at, needs);
     out.arc_radius = placer.arc_radius();
@@ -242,18 +246,19 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
     Image scratch(1, 1);
     Canvas canvas(scratch, *at.context.fonts);
     const auto take = [&](const LabelPlace& label) {
-        for (SweptRegion* each : {&swept, &pressed}) each->room.cover(at.label_box(label, nullptr), 1);
+        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(at.label_box(label, nullptr), 1);
     };
     if (at.problem().cam) {
-        out.speed = placer.speed(swept.room, canvas.measure(speed_label(at), {.size = 21 * at.unit}).w, out.speed_way);
+        out.speed =
+            placer.speed(swept.room, canvas.measure(speed_label(at), {.size = label_size(at)}).w, out.speed_way);
         take(*out.speed);
-        for (SweptRegion* each : {&swept, &pressed})
-            placer.each_of_arrow(out.speed_way, [&](const Box& box) { each->room.cover(box, 1); });
+        for (SweptRegion* each : {&swept, &in_contact})
+            placer.for_each_arrow_box(out.speed_way, [&](const Box& box) { each->room.cover(box, 1); });
     }
     if (at.context.setup->view.style != Style::solid) out.angle = placer.angle(swept.room, out.arc_radius);
     if (out.angle) take(*out.angle);
     if (!needs.arrows.empty()) {
-        out.force = placer.force(pressed.room, canvas);
+        out.force = placer.force(in_contact.room, canvas);
         take(*out.force);
     }
     return out;

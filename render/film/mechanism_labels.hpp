@@ -1,6 +1,6 @@
-// Where the letters and numbers of a mechanism stand: each keeps one place over the whole film, the nearest to what it
-// belongs to that nothing moving ever meets. One that stands far off gets a line to what it belongs to, unless it is
-// the letter of the angle, which is left out; where no place is free, it fades while something moves through it.
+// Places of the labels of a mechanism. Each label keeps one place over the whole film: the nearest to its owner that no
+// moving part ever meets. A label far from its owner gets a leader line; the letter of the angle is left out instead. A
+// label without a free place fades out while a part moves through it.
 #pragma once
 
 #include <array>
@@ -17,37 +17,38 @@ namespace beamcam::render {
 
 struct MechanismView;
 
-// An arrow of force.
+// A contact force as it is drawn.
 struct ForceArrow {
-    Vec2 foot, normal;  // [m]
-    double force = 0;   // [N]
-    bool is_peak = false;
+    Vec2 foot, normal;     // [m]
+    double force = 0;      // [N]
+    bool is_peak = false;  // the largest force of a contact that is shorter than two frames
 };
 
 struct LabelPlace {
-    Vec2 middle, size;           // [m], [px]; where a camera that shows all has it
-    Vec2 base;                   // what it stands beside, at the same distance in pixels however near the camera is [m]
+    Vec2 middle, size;  // [m], [px]; in the view of the camera that shows everything
+    Vec2 base;  // the point beside which it is placed, at a distance in pixels that does not depend on the zoom [m]
     std::vector<float> opacity;  // of each frame; empty: always 1
 
     double opacity_at(int frame) const { return opacity.empty() ? 1 : opacity[static_cast<std::size_t>(frame)]; }
 };
 
 struct MechanismLabels {
-    double speed_way = -0.30 * std::numbers::pi;  // from the cam's axis to its arrow [rad]
-    double arc_radius = 0;                        // of the angle's arc [px]
+    double speed_way = -0.30 * std::numbers::pi;  // direction from the cam's axis to the arrow of its speed [rad]
+    double arc_radius = 0;                        // radius of the arc of θ [px]
     std::optional<LabelPlace> angle, speed, force;
 };
 
-// What of the mechanism moves, as the film shows it: its cells have weight 1.
+// The part of the panel that moving parts cover at some frame, as cells of weight 1.
 class SweptRegion {
   public:
     SweptRegion(const MechanismView& at, const Box& area, double cell);
 
     void add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back);  // edges of a section [px]
-    void add_way(const std::vector<Vec2>& from, const std::vector<Vec2>& to);     // of one of the edges
-    void add_disc(Vec2 centre, double radius);                                    // [px]
+    void add_motion(const std::vector<Vec2>& from,
+                    const std::vector<Vec2>& to);  // swept by one of the edges between two frames
+    void add_disc(Vec2 centre, double radius);     // [px]
     void add_arrow(const ForceArrow& arrow);
-    void add_fixed();  // hubs, supports, the horizontal, and the discs wherever they turn
+    void add_fixed();  // hubs, supports, the horizontal, and the circles that discs sweep
 
     OccupancyGrid room;
 
@@ -55,25 +56,28 @@ class SweptRegion {
     void add_piece(const std::array<Vec2, 4>& corners);
 
     const MechanismView& at_;
-    std::vector<Vec2> shifts_;  // from the front of a body to the rest of it as the solid view shows it [px]
+    std::vector<Vec2> shifts_;  // displacements from the front of a body to its depth in the solid view [px]
 };
 
 struct LabelNeeds {
-    Range angles;                    // over the film, as the arc shows them [rad]
-    double arc_room = 0;             // largest radius of the arc that fits [px]
-    std::vector<ForceArrow> arrows;  // of every frame that has one
+    Range angles;                    // range of θ over the film, as drawn [rad]
+    double arc_room = 0;             // largest radius of the arc of θ that fits [px]
+    std::vector<ForceArrow> arrows;  // of every frame with a force
 };
 
-// Places the labels, and covers them in `swept`. `pressed`: what stands in the frames that show a force.
+// Places the labels and covers their boxes in both regions. `in_contact`: the region swept in frames that show a force,
+// which is all that the label of the force has to avoid.
 MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, SweptRegion& swept,
-                             SweptRegion& pressed);
+                             SweptRegion& in_contact);
 
-// As they are written.
+// Texts of the labels.
 std::string speed_label(const MechanismView& at);
 std::string force_label(const MechanismView& at, const ForceArrow& arrow);
-// The least size of the letters on a mechanism [px].
+// Size of the letters of the cam's speed and of the force [px].
+double label_size(const MechanismView& at);
+// Smallest size of single letters on a mechanism [px].
 double least_letter(const MechanismView& at);
-// Of a design pixel of the angle's letter [px].
+// Size of a design pixel of the letter θ [px].
 double angle_letter(const MechanismView& at);
 
 }  // namespace beamcam::render

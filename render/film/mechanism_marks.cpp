@@ -12,9 +12,9 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFarLabel = 60, kFarLetter = 26;  // from there on a label has a line to its owner [design px]
+constexpr double kFarLabel = 60, kFarLetter = 26;  // distance from which a label has a leader line [design px]
 
-// Whether the straight line meets the box.
+// Whether the line intersects the box.
 bool meets(const Box& box, Vec2 from, Vec2 to) {
     constexpr int kPieces = 32;
     for (int i = 0; i <= kPieces; ++i)
@@ -23,7 +23,8 @@ bool meets(const Box& box, Vec2 from, Vec2 to) {
     return false;
 }
 
-// The label of the force. Where the view's edge pushes it upon its arrow, it stands on the arrow's other side.
+// The place of the force's label. If the edge of the view moves it onto its arrow, it goes to the other side of the
+// arrow.
 LabelPlace beside_arrow(const MechanismScene& s, const ForceArrow& arrow, Vec2 foot, Vec2 tip) {
     LabelPlace label = *s.at.labels->force;
     const auto is_clear = [&] { return !meets(s.at.label_box(label, s.view, arrow.foot), foot, tip); };
@@ -34,15 +35,15 @@ LabelPlace beside_arrow(const MechanismScene& s, const ForceArrow& arrow, Vec2 f
     return is_clear() ? label : usual;
 }
 
-// One of the labels that keep their place, with a line to its owner where that is far. A moving camera shows those
-// whose base it sees.
+// Draws a label, with a leader line if its owner is far. A moving camera shows labels whose base is in view.
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 owner,
                 Vec2 base, double far = kFarLabel) {
     const double opacity = label.opacity_at(s.frame);
     const Box box = s.at.label_box(label, s.view, base);
     if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
-    if (!s.view) style.halo = s.at.palette.paper.faded(opacity);  // over a soft shadow it would only glow
+    if (!s.view)
+        style.halo = s.at.palette.paper.faded(opacity);  // in the solid view a halo over soft shadows would glow
     const Vec2 to = owner;
     const Vec2 edge{std::clamp(to.x, box.x, box.right()), std::clamp(to.y, box.y, box.bottom())};
     if (const double way = norm(to - edge); way > far * s.at.unit) {
@@ -73,7 +74,7 @@ double arrow_length(const MechanismView& at, const ForceArrow& arrow) {
 }
 
 TextStyle force_style(const MechanismView& at) {
-    return {.size = 22 * at.unit, .color = at.palette.contact, .weight = Weight::medium};
+    return {.size = 22.0 / 21 * label_size(at), .color = at.palette.contact, .weight = Weight::medium};
 }
 
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
@@ -103,7 +104,7 @@ void draw_angle_arc(const MechanismScene& s) {
         s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     }
     if (!s.at.labels->angle) return;
-    // Within the angle the letter needs no line; elsewhere one leads to where the arc begins.
+    // A letter outside the sector of the angle gets a leader line to the start of the arc.
     const Vec2 letter = s.at.px(s.at.labels->angle->middle) - o;
     const double sense = angle < 0 ? -1 : 1, way = std::atan2(-letter.y, letter.x) * sense;
     const double turned = way < 0 ? way + 2 * pi : way;
@@ -113,7 +114,7 @@ void draw_angle_arc(const MechanismScene& s) {
                s.on(o + down(foot) * radius), s.at.labels->angle->base, kFarLetter);
 }
 
-// Outside the circle that the disc sweeps, on a side away from the beam; positive speed turns clockwise.
+// Outside the circle that the disc sweeps, on a side away from the beam. Positive speed is clockwise.
 void draw_cam_speed(const MechanismScene& s) {
     if (!s.at.problem().cam || !s.at.labelled()) return;
     const sim::Cam& cam = *s.at.problem().cam;
@@ -129,25 +130,25 @@ void draw_cam_speed(const MechanismScene& s) {
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
-    draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = 21 * s.at.unit, .color = s.at.palette.muted},
+    draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted},
                s.on(axis + down(middle) * radius), s.at.labels->speed->base);
 }
 
-// The straight line that deflection is drawn about.
+// The base line of the exaggerated deflection.
 void draw_base_line(const MechanismScene& s) {
     const bool led = sim::is_prescribed(s.at.problem().hub.drive);
     const Vec2 base = sim::unit(s.at.look.factor == 1 && led ? s.pose.theta : s.beam.base_angle);
-    // True deflection is seen against the direction of a led hub, unless the horizontal is drawn there already.
+    // Without exaggeration, the direction of a prescribed hub, unless it coincides with the horizontal.
     if (s.at.look.factor == 1 && !(led && std::abs(base.y) > 0.01)) return;
     const double clear = 4 * s.at.unit / s.at.look.camera.scale;
-    constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // breaks the line
-    std::vector<Vec2> line;  // only where it runs clear of the section: dashes along an edge would be noise
+    constexpr double kGap = std::numeric_limits<double>::quiet_NaN();  // interrupts the line
+    std::vector<Vec2> line;  // only outside the section: dashes along its edge would be confusing
     for (Vec2 p : s.beam.line) {
         const double below = -cross(base, p);  // the base line's offset from the centre line
         const bool covered = below > s.beam.low - clear && below < s.beam.high + clear;
         line.push_back(covered ? Vec2{kGap, kGap} : s.px(base * dot(base, p)));
     }
-    s.canvas.clip(s.at.box, [&] {  // the straight line may be longer than what the camera was fitted to
+    s.canvas.clip(s.at.box, [&] {  // the base line may extend beyond the extent of the camera
         s.canvas.polyline(line);
         s.canvas.stroke({s.at.palette.faint, 1.5 * s.at.unit, {6 * s.at.unit, 7 * s.at.unit}, Cap::butt});
     });
@@ -160,24 +161,24 @@ static Color ink_on_disc(const MechanismScene& s) {
     return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
 }
 
-// B and C beyond the ends of the line between them, so that they keep off it at any angle, and within the disc.
+// B and C are beyond the ends of the line between them, so that they never overlap it, and inside the disc.
 void draw_disc_letters(const MechanismScene& s) {
     if (!s.shape.disc) return;
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
     const double usual = 22 * s.at.marks;
     if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.context.setup->view.show.labels) return;
-    // On a small disc they stay readable, and as far from what they name as they are large.
+    // On a small disc they keep a readable size.
     const double size = std::max(usual, std::min(least_letter(s.at), 0.45 * d.radius)), letter = size / 22;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
     TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
-    // The outlines of other discs run through them; what keeps these off stays off the pin.
+    // A halo covers the outlines of other discs; it must not cover the pin.
     if (s.at.ghosts) style.halo = s.at.palette.steel;
     s.canvas.text(s.on(d.centre + along * (4 * s.at.marks + (s.at.ghosts ? 21 : 16) * letter)) + Vec2{0, 7 * letter},
                   math("B"), style);
-    // The shaft that stands out in the solid view needs more room. Far out, C would come upon the rim, where contacts
-    // and their rings are: it stands beside, a little inwards.
+    // The shaft in the solid view needs more space. If C would come near the rim, where contacts and their rings are,
+    // it goes to the side.
     const double off = d.bore + (s.view ? 24 : 16) * letter;
     const Vec2 way =
         apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + Vec2{along.y, -along.x} * 0.8;
@@ -250,7 +251,7 @@ void draw_force(const MechanismScene& s) {
     const Vec2 flat = s.at.px(arrow.foot), foot = s.on(flat), n{arrow.normal.x, -arrow.normal.y};
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
-    // Where the force is too small for an arrow, the dot and the number tell of it.
+    // A force too small for an arrow is shown by the dot and the number.
     const double length = arrow_length(s.at, arrow);
     const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)

@@ -1,4 +1,5 @@
-// What is written on a mechanism: angle, speed of the cam, traces, force, words.
+// Everything that is drawn on a mechanism: angle, speed of the cam, traces, force, captions, and the motions that it is
+// compared with.
 #pragma once
 
 #include <optional>
@@ -9,27 +10,36 @@
 
 namespace beamcam::render {
 
-inline constexpr double kReadable = 9;  // the least size of letters in any picture [px]
+inline constexpr double kReadable = 9;  // smallest size of letters in any picture [px]
 
-// As its arc shows it: in the sense in which the hub has turned, without whole turns [rad].
+// Hub angle as its arc shows it, without whole turns [rad].
 double drawn_angle(const sim::Pose& pose);
 void draw_angle_arc(const MechanismScene& s);
 void draw_cam_speed(const MechanismScene& s);
 void draw_base_line(const MechanismScene& s);
-void draw_disc_marks(const MechanismScene& s, const Trace& trace);  // of a flat or lit disc
+void draw_disc_marks(const MechanismScene& s, const Trace& trace);  // on a flat or lit disc
 void draw_disc_letters(const MechanismScene& s);
 void draw_beam_trace(const MechanismScene& s, const Trace& trace);
-// Of the arc about the disc that tells its speed: its radius [px] and its angle [rad].
+// The arc of the cam's speed: its radius [px] and its angle [rad].
 double speed_radius(const MechanismView& at);
-double speed_gap(const MechanismView& at);  // between the circle that the disc sweeps and the arc [px]
+double speed_gap(const MechanismView& at);  // between the arc and the circle that the disc sweeps [px]
 double speed_span(const MechanismView& at);
 double arrow_length(const MechanismView& at, const ForceArrow& arrow);  // [px]
 TextStyle force_style(const MechanismView& at);
-// The force of this instant; in place of none, or of one that does not last, that of a contact just over.
+// The force to draw: `peak` of a contact that just ended, or else the current force.
 std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
                                          const std::optional<ForceArrow>& peak);
 void draw_force(const MechanismScene& s);
-// A colour for each place around the disc, none where it was never touched.
+// A colour for each bin around the disc, alpha 0 if it was never touched.
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);
+
+// captions.cpp: the texts of events in boxes, with leader lines to their anchors.
+void draw_captions(const MechanismScene& s);
+
+// mechanism_ghosts.cpp: other motions drawn into the panel of the first one. Bodies are drawn under its beam, whose
+// colours show bending, outlines over it.
+void draw_ghost_bodies(const MechanismScene& s);
+void draw_ghost_outlines(const MechanismScene& s);
+void draw_measured_beams(const MechanismScene& s);  // straight beams at measured angles
 
 }  // namespace beamcam::render

@@ -7,8 +7,6 @@
 #include <numbers>
 #include <ranges>
 
-#include "render/film/captions.hpp"
-#include "render/film/mechanism_ghosts.hpp"
 #include "render/film/offscreen.hpp"
 #include "render/plot/ticks.hpp"
 
@@ -38,19 +36,19 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
     AccumulatedLayer path;
     Trace trace;
     LitMechanism lit;
-    Offscreen seen, exposed;  // what a moving camera sees; one of several exposures
+    Offscreen seen, exposed;  // view of a moving camera; one of several exposures
 };
 
-MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot) : at_(context, slot), words_(at_) {
+MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot) : at_(context, slot), legend_(at_) {
     at_.labels = &labels_;
     rings_.find(at_);
     const double cell = std::max(1.5, 2 * at_.unit);
-    SweptRegion swept(at_, at_.box, cell), pressed = swept;
-    note_survey(swept);
-    pressed.add_fixed(), swept.add_fixed();
-    const LabelNeeds needs = note_frames(swept, pressed);
-    labels_ = place_labels(at_, needs, swept, pressed);
-    words_.place(std::move(swept.room));
+    SweptRegion swept(at_, at_.box, cell), in_contact = swept;
+    add_survey(swept);
+    in_contact.add_fixed(), swept.add_fixed();
+    const LabelNeeds needs = add_frames(swept, in_contact);
+    labels_ = place_labels(at_, needs, swept, in_contact);
+    legend_.place(std::move(swept.room));
     find_shots();
 }
 
@@ -58,7 +56,7 @@ std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
     return std::make_unique<ThreadState>(at_.context, at_.member, at_.look.camera.scale, at_.box);
 }
 
-// How large an arc about `centre` over these angles can be within the box.
+// The largest radius of an arc about `centre` over these angles that stays inside the box.
 static double arc_room(Range angles, Vec2 centre, const Box& box) {
     Bounds reach;  // of the unit arc [px]
     constexpr int kSteps = 64;
@@ -70,8 +68,8 @@ static double arc_room(Range angles, Vec2 centre, const Box& box) {
                      fits(centre.y - box.y, -reach.y0), fits(box.bottom() - centre.y, reach.y1)});
 }
 
-// What the survey of all motions tells: the same for mechanisms that stand beside each other.
-void MechanismPanel::note_survey(SweptRegion& swept) const {
+// The survey covers all motions, so that labels of several mechanisms have the same places.
+void MechanismPanel::add_survey(SweptRegion& swept) const {
     for (const std::vector<Vec2>& strip : at_.context.extent.strips) {
         std::vector<Vec2> face, back;
         for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
@@ -82,7 +80,7 @@ void MechanismPanel::note_survey(SweptRegion& swept) const {
         swept.add_arrow({arrow.foot, arrow.normal, arrow.share * at_.context.arrow_scale});
 }
 
-LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed) {
+LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact) {
     LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}};
     Bounds seen;
     std::vector<Vec2> before;
@@ -98,10 +96,10 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
                              drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
                              at_.problem().cam ? pose.cam_centre : Vec2{}});
         const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k));
-        for (SweptRegion* each : {&swept, &pressed}) {
-            if (each == &pressed && !arrow) continue;
+        for (SweptRegion* each : {&swept, &in_contact}) {
+            if (each == &in_contact && !arrow) continue;
             each->add_beam(shape.face, shape.back);
-            each->add_way(before, shape.face);
+            each->add_motion(before, shape.face);
             if (arrow) each->add_arrow(*arrow);
         }
         if (arrow) needs.arrows.push_back(*arrow);
@@ -116,7 +114,7 @@ LabelNeeds MechanismPanel::note_frames(SweptRegion& swept, SweptRegion& pressed)
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
     for (int k = 0; k + 1 < at_.context.frames(); ++k)
-        for (SweptRegion* each : {&swept, &pressed})
+        for (SweptRegion* each : {&swept, &in_contact})
             each->room.cover(tip_path_.piece(at_, static_cast<std::size_t>(k)), 1);  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
@@ -132,7 +130,7 @@ void MechanismPanel::find_shots() {
     shots_ = camera_frames(first, setup.moves, at_.look.camera, at_.box, followed_, setup.fps);
 }
 
-// The solid view is judged as if it were seen from the front.
+// For the solid view this is an estimate: it is evaluated as if seen from the front.
 int MechanismPanel::empty_frames() const {
     int count = 0;
     for (int k = 0; !shots_.empty() && k < at_.context.frames(); ++k) {
@@ -162,20 +160,21 @@ int MechanismPanel::empty_frames() const {
 void MechanismPanel::draw_background(Canvas& canvas) const {
     if (!shots_.empty()) return;
     draw_still(canvas, at_);
-    words_.draw(canvas, at_);
+    legend_.draw(canvas, at_);
 }
 
 void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
-    if (at.context.setup->view.style == Style::solid) return;  // all is seen from moving places
+    if (at.context.setup->view.style == Style::solid) return;  // the camera may move: there is no fixed background
     const Vec2 o = at.px({0, 0});
     canvas.line({at.box.x, o.y}, {at.box.right(), o.y},
                 {at.palette.faint, 1.5 * at.unit, {10 * at.unit, 8 * at.unit}, Cap::butt});
     draw_support(canvas, o, at.hub(), at.marks * at.zoom(), at.marks, at.palette);
 }
 
-// ---- what moves ------------------------------------------------------------------------------
+// ---- moving parts ----------------------------------------------------------------------------
 
-// Far enough for a mild perspective, and a little smaller than the flat view, so that what comes nearer stays within.
+// The distance gives a mild perspective; the scale is a little smaller than in the flat view, so that nearer parts stay
+// inside.
 Perspective MechanismPanel::view_of(const MechanismView& at, int frame) const {
     const View& view = at.context.setup->view;
     const double turn = 2 * pi * frame / std::max(1, at.context.frames());
@@ -208,7 +207,7 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
         draw_still(inside, at);
         draw_moving(inside, at, frame, style, threads);
-        words_.draw(inside, at);
+        legend_.draw(inside, at);
     });
 }
 
@@ -217,7 +216,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const Pose pose = at.context.pose(at.member, frame);
     const DrawnBeam drawn = at.drawn(at.member, pose);
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
-    threads.trace.show_until(pose.t);
+    threads.trace.advance_to(pose.t);
     const Perspective perspective = view_of(at, frame);
     const Perspective* view = style == Style::solid ? &perspective : nullptr;
     const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame));
@@ -241,7 +240,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
-    draw_disc_letters(s);  // which a ring would make hard to read
+    draw_disc_letters(s);  // over the rings, which would make them hard to read
     draw_force(s);
     if (at.member == 0) draw_captions(s);
 }
@@ -260,7 +259,7 @@ void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadSta
     if (s.shape.disc) draw_disc_marks(s, threads.trace);
 }
 
-// The mean of all exposures, or those of the strobe one by one: the older, the fainter.
+// Motion blur draws the mean of all exposures; the strobe draws them one by one, older ones fainter.
 void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const {
     const std::size_t count = s.at.motion().exposures;
     const auto draw_one = [&](Canvas& canvas, const Pose& pose) {
@@ -277,14 +276,14 @@ void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Thread
                                         [&](Canvas& canvas, std::size_t which) { draw_one(canvas, pose_of(which)); });
     for (std::size_t k = 1; k < count; ++k) {
         const Pose pose = pose_of(k);
-        if (pose.t >= s.pose.t) continue;  // there was no flash yet
+        if (pose.t >= s.pose.t) continue;  // before the first flash
         const double age = static_cast<double>(count - k) / static_cast<double>(count);
         threads.exposed.put(
             s.canvas, s.at.box, [&](Canvas& canvas) { draw_one(canvas, pose); }, 0.5 - 0.38 * age);
     }
 }
 
-// All of the tip's path, where it is not drawn already, or the last of it.
+// The whole path of the tip, unless it is on the accumulated layer, or its last part.
 void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
     if (whole_path()) return;
     if (at_.context.setup->view.tip_path && s.at.moved && !s.view)
@@ -293,7 +292,7 @@ void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
         tip_path_.draw_trail(s, at_);
 }
 
-// The camera, and the rings of impacts.
+// The camera, fading labels and the rings of impacts change while time is frozen.
 bool MechanismPanel::animates_while_paused(int frame) const {
     const View& view = at_.context.setup->view;
     const auto now = static_cast<std::size_t>(frame);
@@ -301,7 +300,7 @@ bool MechanismPanel::animates_while_paused(int frame) const {
     if (!shots_.empty() && !(shots_[now] == shots_[now - 1])) return true;
     for (const auto* label : {&labels_.angle, &labels_.speed, &labels_.force})
         if (*label && (*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1)) return true;
-    return rings_.play(frame);
+    return rings_.change(frame);
 }
 
 std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
@@ -312,8 +311,9 @@ std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
     return out;
 }
 
-std::unique_ptr<FilmPanel> make_mechanism_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<MechanismPanel>(context, slot);
+PanelType mechanism_panel() {
+    return {
+        .kind = PanelKind::mechanism, .name = "mechanism", .smallest = {16, 16}, .make = make_panel<MechanismPanel>};
 }
 
 }  // namespace beamcam::render

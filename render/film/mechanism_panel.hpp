@@ -1,4 +1,4 @@
-// The mechanism in its plane: support, cam, beam, and what is written on them (mechanism_marks.hpp).
+// The panel of the mechanism: support, cam, beam, and their marks and labels (mechanism_marks.hpp).
 #pragma once
 
 #include <memory>
@@ -6,7 +6,7 @@
 
 #include "render/film/impact_rings.hpp"
 #include "render/film/lit_mechanism.hpp"
-#include "render/film/mechanism_words.hpp"
+#include "render/film/mechanism_legend.hpp"
 #include "render/film/tip_path.hpp"
 #include "render/plot/placement.hpp"
 
@@ -23,18 +23,18 @@ class MechanismPanel final : public FilmPanel {
     bool animates_while_paused(int frame) const override;
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
-    // Of what stands beside the mechanism without moving: which motion it is, the scale bar [px].
-    std::vector<Box> words() const { return words_.boxes(); }
-    // Where the angle, the speed and the force are written in a frame of the flat view, which is drawn for it [px].
+    // Boxes of the legend and the scale bar [px].
+    std::vector<Box> legend() const { return legend_.boxes(); }
+    // Boxes of the labels of angle, speed and force in a frame, by drawing its flat view [px].
     std::vector<Box> labels(Canvas& canvas, int frame) const;
     const Camera& camera(int frame) const {
         return shots_.empty() ? at_.look.camera : shots_[static_cast<std::size_t>(frame)].camera;
     }
-    int empty_frames() const;  // in which the camera sees no part of the mechanism
+    int empty_frames() const;  // frames in which no part of the mechanism is in the camera's view
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:
-    struct ThreadState;  // State
+    struct ThreadState;  // a FilmPanel::State
     Perspective view_of(const MechanismView& at, int frame) const;
     void find_shots();
     void draw_still(Canvas& canvas, const MechanismView& at) const;
@@ -43,21 +43,21 @@ class MechanismPanel final : public FilmPanel {
     void draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads,
                      std::vector<Box>* labels = nullptr) const;
 
-    void note_survey(SweptRegion& swept) const;
-    LabelNeeds note_frames(SweptRegion& swept, SweptRegion& pressed);
+    void add_survey(SweptRegion& swept) const;
+    LabelNeeds add_frames(SweptRegion& swept, SweptRegion& in_contact);
 
     bool view_strobes() const { return at_.context.setup->view.strobe; }
-    bool whole_path() const;  // of the tip, instead of a trail, on a layer of its own
+    bool whole_path() const;  // draw all of the tip's path on an accumulated layer, instead of a trail
     void draw_tip_path(const MechanismScene& s) const;
 
     MechanismView at_;
-    MechanismWords words_;
-    Box lit_box_;  // what the lit mechanism ever covers, shadows included; whole pixels
+    MechanismLegend legend_;
+    Box lit_box_;  // contains the lit mechanism at all frames, shadows included; whole pixels
     MechanismLabels labels_;
     TipPath tip_path_;
     ImpactRings rings_;
     std::vector<Followed> followed_;  // of every frame
-    std::vector<CameraFrame> shots_;  // of every frame; empty: always all of it
+    std::vector<CameraFrame> shots_;  // of every frame; empty: the camera always shows everything
 };
 
 }  // namespace beamcam::render

@@ -12,7 +12,7 @@ MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
       ghosts(all.members() > 1 && all.setup->comparison == Comparison::ghosts),
       unit(all.unit),
       small(is_small(slot.box, all.unit)) {
-    // Mechanisms beside each other share one camera's scale, so that they can be compared.
+    // Several mechanisms have the same scale, so that they can be compared.
     look.unit = unit;
     look.factor = all.factor;
     look.moment_scale = all.moment_scale;
@@ -20,18 +20,18 @@ MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
     wide = std::clamp(0.06 * problem().beam.length * look.camera.scale, 18 * unit, 80 * unit);
 }
 
-// The camera shows whatever is drawn at any frame, the disc wherever it turns, and the support.
+// The camera shows the beam of every frame, the circle that the disc sweeps, and the support.
 void MechanismView::place_camera() {
-    // A beam thinner than a line gets the weight of one; it grows away from the cam.
+    // A beam thinner than a line is drawn with the width of a line, which it gains on the side away from the cam.
     const auto as_deep_as = [&](const ViewExtent& extent) {
-        // Labels of mechanisms beside each other stand above them, all in one line.
+        // Labels of several mechanisms are above them, in one line.
         const double label = context.members() > 1 && !ghosts && box.h > 200 * unit ? 38 * unit : 0;
         look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label}, unit);
         look.depth = std::max(problem().beam.depth, 7 * unit / look.camera.scale);
     };
     as_deep_as(context.extent);
     if (look.depth > problem().beam.depth) as_deep_as(view_extent_of(context, look.depth));
-    marks = unit;  // the same for mechanisms beside each other
+    marks = unit;  // the same for all mechanisms
     for (const sim::Problem* p : context.extent.problems) marks = std::min(marks, mark_unit(*p, look.camera, unit));
 }
 
@@ -53,7 +53,7 @@ Vec2 MechanismView::seen(Vec2 flat, const Perspective* view) const {
 DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
     const sim::Problem& its = context.motion(whose).problem;
     const double factor = its.beam.model == sim::ModelKind::rigid ? 1 : look.factor;
-    return drawn_beam(its, pose, factor, look.depth, context.with(whose));
+    return drawn_beam(its, pose, factor, look.depth, context.section_reference(whose));
 }
 
 Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base) const {

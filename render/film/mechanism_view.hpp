@@ -1,4 +1,4 @@
-// Where and how large a mechanism is drawn in a film, and one frame of it as it is being drawn.
+// Position and scale of a mechanism in a film, and the state of drawing one frame of it.
 #pragma once
 
 #include <optional>
@@ -18,15 +18,15 @@ struct MechanismView {
     const Palette& palette;
     Box box;
     int member;
-    bool ghosts;  // the other motions are drawn here as outlines
-    double unit,
-        marks = 1;  // [px] of a design pixel: of lines and words; of what is drawn on the mechanism (mark_unit)
+    bool ghosts;       // the other motions are drawn in this panel as outlines
+    double unit;       // size of a design pixel of lines and letters [px]
+    double marks = 1;  // the same for marks on the mechanism (mark_unit) [px]
     bool small;
     bool labelled() const { return !small && context.setup->view.show.labels; }
     MechanismLook look;
-    double wide;  // of the beam across the plane of motion, in the solid view [px]
+    double wide;  // width of the beam across the plane of motion, in the solid view [px]
 
-    // The same with the camera elsewhere: what is drawn grows with the zoom, lines and letters do not.
+    // The same view with another camera: shapes grow with the zoom; lines and letters do not.
     MechanismView with_camera(const CameraFrame& frame_camera) const;
     double zoom() const { return look.unit / unit; }
     bool shows(Vec2 px) const {
@@ -34,24 +34,24 @@ struct MechanismView {
     }
     double hub() const { return hub_radius(problem(), look.camera, look.unit); }
     const MechanismLabels* labels = nullptr;  // null: not yet placed
-    bool moved = false;                       // the camera does not show all
+    bool moved = false;                       // the camera is not the one that shows everything
 
     const Motion& motion() const { return context.motion(member); }
     const sim::Problem& problem() const { return motion().problem; }
     Vec2 px(Vec2 world) const { return look.camera.to_pixels(world); }
-    // Where a point of the plane of motion [px of the flat view] is seen; null: as it is.
+    // Projects a point of the plane of motion [px of the flat view]; unchanged if `view` is null.
     Vec2 seen(Vec2 flat, const Perspective* view) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, context.pose(whose, frame)); }
-    // Where a label is written. A moving camera keeps it as near to its base, or to this one [m], as the camera that
-    // shows all does, and within the view; in perspective, the end of it that is nearest to its base keeps its place.
+    // Box of a label in this view. A moving camera keeps its distance from its base, or from `base` [m], in pixels, and
+    // keeps it inside the view; in perspective the end nearest to its base keeps its place.
     Box label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base = {}) const;
 
   private:
     void place_camera();
 };
 
-// One frame as it is being drawn.
+// State of drawing one frame.
 struct MechanismScene {
     Canvas& canvas;
     int frame;
@@ -59,9 +59,9 @@ struct MechanismScene {
     const DrawnBeam& beam;
     const MechanismShape& shape;
     const MechanismView& at;
-    const Perspective* view;               // of the solid view; null: as it is
-    std::optional<ForceArrow> arrow = {};  // the arrow of force that it shows
-    std::vector<Box>* labels = nullptr;    // where each label was drawn is added here
+    const Perspective* view;               // of the solid view; null: flat or lit
+    std::optional<ForceArrow> arrow = {};  // the displayed force
+    std::vector<Box>* labels = nullptr;    // collects the boxes of drawn labels
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }

@@ -21,12 +21,13 @@ static_assert(std::endian::native == std::endian::little, "glTF's numbers are li
 
 constexpr std::size_t kJoints = 25;  // along the beam
 constexpr int kSides = 96;           // of a disc
-constexpr double kLargestTurn = 1;   // of the cam between two keys [rad]; beyond π a track would turn back
-constexpr double kThinnest = 0.008, kWide = 0.06;  // of the beam as drawn, and across the plane, by its length
+constexpr double kLargestTurn =
+    1;  // rotation of the cam between two keys [rad]; beyond π interpolation would go backwards
+constexpr double kThinnest = 0.008, kWide = 0.06;  // depth and width of the drawn beam relative to its length
 
 struct Shape {
     std::vector<float> places, normals;
-    std::vector<std::uint8_t> joints;  // four a vertex, of the beam alone
+    std::vector<std::uint8_t> joints;  // four per vertex, only for the beam
     std::vector<float> weights;
     std::vector<std::uint32_t> corners;
 
@@ -76,7 +77,7 @@ struct Shape {
     }
 };
 
-// The file's arrays, and what JSON says of them.
+// The binary arrays of the file and their JSON descriptions.
 class Arrays {
   public:
     template <class Number>
@@ -201,7 +202,7 @@ class Model {
         channels_.push_back(
             fmt::format(R"({{"sampler":{},"target":{{"node":{},"path":"{}"}}}})", samplers_.size() - 1, node, path));
     }
-    // About z; of half the angle, so that it never jumps.
+    // A quaternion about z; continuous, because it depends on half the angle.
     static void add_turn(std::vector<float>& track, double angle) {
         for (const double v : {0.0, 0.0, std::sin(angle / 2), std::cos(angle / 2)})
             track.push_back(static_cast<float>(v));
@@ -255,7 +256,7 @@ class Model {
         add_track(node, "rotation", arrays_.floats(times, "SCALAR", 1, true), turns);
     }
 
-    // Rings of four corners, each twice or thrice for its normals; a ring keeps to its joint.
+    // Rings of four corners, with two or three normals each; every ring belongs to one joint.
     void add_beam() {
         const std::size_t last = beams_.front().line.size() - 1, count = std::min(kJoints, last + 1);
         const DrawnBeam& beam = beams_.front();

@@ -1,6 +1,6 @@
-// A motion as a binary glTF 2.0 model (.glb), which Blender, slides and browsers play: the beam is a mesh of constant
-// vertices on a chain of joints, one for each station, that translate and rotate; hub and cam rotate. Metres, Y up, the
-// motion in the plane z = 0. Deflection is exaggerated as in films; extras of the asset tell the factor.
+// A motion as a binary glTF 2.0 model (.glb) for Blender, slides and browsers: the beam is a skinned mesh with joints
+// along it, hub and cam are rotating nodes. Metres, Y up, motion in the plane z = 0. Deflection is exaggerated as in
+// films; the extras of the asset contain the factor.
 #pragma once
 
 #include <string>
@@ -9,8 +9,8 @@
 
 namespace beamcam::render {
 
-// The setup's frames are the keys of all tracks but the cam's, whose rotation is even. The same setup gives the same
-// bytes.
+// The setup's frames are the keys of all tracks except the cam's, whose rotation is uniform. The result depends only on
+// the setup.
 std::string glb_model(const FilmSetup& setup);
 
 }  // namespace beamcam::render

@@ -1,5 +1,4 @@
-// A drawing apart from the picture, of which the picture takes a box: cut off at its edges, faint, or as the mean of
-// several.
+// An off-screen image: draws a box of it into the picture, clipped, with opacity, or as the mean of several drawings.
 #pragma once
 
 #include <cstdint>
@@ -14,9 +13,9 @@ class Offscreen {
   public:
     using Draw = std::function<void(Canvas&)>;
 
-    // Whole pixels of the box; `opacity` 0…1.
+    // Draws off screen and blends the box, whole pixels; `opacity` 0…1.
     void put(Canvas& onto, const Box& box, const Draw& draw, double opacity = 1);
-    // The mean of `count` drawings.
+    // Blends the mean of `count` drawings.
     void put_mean(Canvas& onto, const Box& box, std::size_t count,
                   const std::function<void(Canvas&, std::size_t which)>& draw);
 
@@ -25,7 +24,7 @@ class Offscreen {
     template <class Visit>
     void each_byte(const Box& box, const Visit& visit);
 
-    Image image_;  // of the picture's size, clear within the box before it is drawn
+    Image image_;  // of the picture's size; the box is cleared before drawing
     std::vector<std::uint16_t> sums_;
 };
 

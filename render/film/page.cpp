@@ -13,7 +13,6 @@
 #include <optional>
 
 #include "render/film/panel.hpp"
-#include "render/film/player.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/user_text.hpp"
 
@@ -22,13 +21,13 @@ namespace {
 
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
-constexpr std::size_t kStations = 25;  // of the polyline
+constexpr std::size_t kStations = 25;  // of the stored polyline
 constexpr double kTurns = std::numbers::pi * 2;
 
-// What the page knows of one instant.
+// The stored data of one instant.
 struct Instant {
     double t = 0, theta = 0, cam_angle = 0, force = 0;
-    std::vector<Vec2> points;  // the drawn section's middle, root to tip; then the point of the disc nearest to it
+    std::vector<Vec2> points;  // centre of the drawn section, root to tip; then the nearest point of the disc
 };
 
 Instant instant_of(const FilmContext& context, int frame, double depth, double& thickness) {
@@ -45,7 +44,7 @@ Instant instant_of(const FilmContext& context, int frame, double depth, double& 
     return out;
 }
 
-// Where contacts begin and end the force is zero: lines from pose to pose would show some before and after.
+// Adds instants of zero force at the ends of contacts; interpolation between poses would show force outside contacts.
 void add_ends_of_contacts(const FilmContext& context, std::vector<Instant>& all) {
     for (const sim::Impact& impact : context.motion(0).impacts)
         for (const std::optional<double> t : {std::optional(impact.t_start), impact.t_end}) {
@@ -60,8 +59,8 @@ void add_ends_of_contacts(const FilmContext& context, std::vector<Instant>& all)
         }
 }
 
-// Whether the line from `a` to `b` tells what is between.
-bool tells(const Instant& a, const Instant& b, const Instant& between, double length) {
+// Whether linear interpolation from `a` to `b` reproduces `between`.
+bool reproduces(const Instant& a, const Instant& b, const Instant& between, double length) {
     const double share = (between.t - a.t) / (b.t - a.t);
     const auto off = [&](double x, double y, double z) { return std::abs(x + (y - x) * share - z); };
     if (off(a.theta, b.theta, between.theta) > kPageTolerance) return false;
@@ -73,15 +72,15 @@ bool tells(const Instant& a, const Instant& b, const Instant& between, double le
     return true;
 }
 
-// The longest steps that tell all between them, one after the other.
-std::vector<Instant> telling(std::vector<Instant> all, double length) {
+// The instants to store: greedily the longest steps that reproduce all instants between.
+std::vector<Instant> thinned_instants(std::vector<Instant> all, double length) {
     constexpr std::size_t kLongest = 200;
     std::vector<Instant> out{all.front()};
     for (std::size_t from = 0; from + 1 < all.size();) {
         std::size_t to = from + 1;
         const auto fits = [&](std::size_t end) {
             for (std::size_t i = from + 1; i < end; ++i)
-                if (!tells(all[from], all[end], all[i], length)) return false;
+                if (!reproduces(all[from], all[end], all[i], length)) return false;
             return true;
         };
         while (to + 1 < all.size() && to - from < kLongest && fits(to + 1)) ++to;
@@ -101,7 +100,7 @@ std::string base64(const std::vector<Number>& numbers) {
 
 std::string css(const Color& c) { return '"' + hex(c) + '"'; }
 
-// Where the disc was touched first, and how hard: one for each degree.
+// For each degree of the disc: time of the first touch, and colour of the largest force.
 std::string trace_json(const FilmContext& context, double radius) {
     struct Place {
         double t = 0, angle = 0, force = 0;
@@ -190,7 +189,7 @@ std::string html_page(const FilmSetup& setup) {
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
         json_text(plain_text(setup.title)), context.factor, kPageTolerance * length, length, thickness,
         problem.hub.radius, context.arrow_scale, setup.units.degrees, colors, cam_json(context), impacts_json(context),
-        numbers_json(telling(std::move(all), length)));
+        numbers_json(thinned_instants(std::move(all), length)));
     std::string page(player_html());
     for (const auto& [mark, text] : {std::pair<std::string, std::string>{
                                          "@TITLE@", setup.title.empty() ? "beamcam" : escape(plain_text(setup.title))},

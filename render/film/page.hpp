@@ -1,5 +1,5 @@
-// One self-contained HTML page that plays a motion: the beam as films draw it, the cam, the contact and its trace, on a
-// canvas that fits any window; without network, fonts or other files. Its program is player.html.
+// A self-contained HTML page that plays a motion: beam, cam, contact and trace on a canvas that fits any window,
+// without network access or other files. Its script is player.html.
 #pragma once
 
 #include <string>
@@ -9,12 +9,14 @@
 
 namespace beamcam::render {
 
-// The setup's frames are the instants looked at, increasing. Those are left out that a straight line between kept ones
-// tells to within `kPageTolerance` of the beam's length for every point and the same angle [rad]. The same setup gives
-// the same bytes.
+// The setup's frames are the instants, increasing. Instants are omitted if linear interpolation between the stored ones
+// reproduces every point within `kPageTolerance` of the beam's length and every angle within the same number [rad]. The
+// result depends only on the setup.
 constexpr double kPageTolerance = 1e-3;
 std::string html_page(const FilmSetup& setup);
 
-std::string json_text(std::string_view text);  // as JSON, which may stand in HTML
+std::string json_text(std::string_view text);  // as a JSON string that may be embedded in HTML
+
+std::string_view player_html();  // the text of player.html, compiled in by CMake
 
 }  // namespace beamcam::render

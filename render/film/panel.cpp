@@ -20,7 +20,7 @@ using sim::Channel;
 using sim::ChannelKind;
 using sim::Pose;
 
-// Contact is an impulse, and nothing is pressed after it: the force is zero but for instants.
+// False if contacts are impulses and no lasting contact follows.
 bool has_force(const Motion& motion) {
     if (!motion.problem.cam || motion.problem.contact.model != sim::ContactModel::restitution) return true;
     const auto* force = column(motion.chart, {ChannelKind::contact_force, 0});
@@ -28,7 +28,7 @@ bool has_force(const Motion& motion) {
 }
 
 std::vector<PanelSpec> standard(const FilmSetup& setup) {
-    const Motion* shown = &setup;  // one with a cam, if there is one
+    const Motion* shown = &setup;  // a motion with a cam, if there is one
     bool force = has_force(setup);
     for (const Motion& other : setup.others) {
         if (!shown->problem.cam) shown = &other;
@@ -36,7 +36,7 @@ std::vector<PanelSpec> standard(const FilmSetup& setup) {
     }
     std::vector<PanelSpec> specs = standard_panels(shown->problem, setup.slow_motion);
     const bool impulsive = shown->problem.contact.model == sim::ContactModel::restitution;
-    // What the film has no data for is no panel.
+    // Panels without data are removed.
     std::erase_if(specs, [&](const PanelSpec& s) {
         if (s.kind != PanelKind::strip) return false;
         const ChannelKind kind = s.channels.front().kind;
@@ -68,6 +68,21 @@ std::vector<Channel> chart_channels(const std::vector<PanelSpec>& panels) {
     }
     return out;
 }
+
+// ---- the registry of panels ----------------------------------------------------------------------
+
+#define BEAMCAM_PANEL_TYPE(name) PanelType name##_panel();
+BEAMCAM_PANELS(BEAMCAM_PANEL_TYPE)
+#undef BEAMCAM_PANEL_TYPE
+
+const std::vector<PanelType>& panel_types() {
+#define BEAMCAM_PANEL_TYPE(name) name##_panel(),
+    static const std::vector<PanelType> types{BEAMCAM_PANELS(BEAMCAM_PANEL_TYPE)};
+#undef BEAMCAM_PANEL_TYPE
+    return types;
+}
+
+const PanelType& type_of(PanelKind kind) { return *std::ranges::find(panel_types(), kind, &PanelType::kind); }
 
 // ---- what panels share -------------------------------------------------------------------------
 
@@ -109,10 +124,10 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
         span.low = std::min(span.low, *std::ranges::min_element(*t));
         span.high = std::max(span.high, *std::ranges::max_element(*t));
     }
-    if (!(span.high > span.low)) span.high = span.low + time.unit;  // a still of one instant
+    if (!(span.high > span.low)) span.high = span.low + time.unit;  // a single instant
 }
 
-// As high as the clock's line, and at most a third as wide; in the picture's corner, where the colour scales make room.
+// As high as the clock's line and at most a third as wide, in the corner; the colour scales move to the left.
 void FilmContext::place_logo() {
     if (!places.clock) return;
     Box& line = *places.clock;
@@ -144,7 +159,7 @@ double FilmContext::measured_angle(std::size_t k, double t) const {
     return theta ? value_at(data.t, *theta, t) : kNan;
 }
 
-const sim::Problem* FilmContext::with(int member) const {
+const sim::Problem* FilmContext::section_reference(int member) const {
     if (motion(member).problem.cam) return nullptr;
     for (int m = 0; m < members(); ++m)
         if (motion(m).problem.cam) return &motion(m).problem;
@@ -175,12 +190,12 @@ void FilmContext::choose_scales() {
     for (int m = 0; m < members(); ++m) {
         const Motion& one = motion(m);
         const bool flexible = one.problem.beam.model != sim::ModelKind::rigid;
-        // A rigid beam beside flexible ones has nothing to exaggerate and does not hold them back.
+        // A rigid beam among flexible ones does not limit their exaggeration.
         if (flexible || members() == 1) {
             factor = std::min(factor, film_factor(
                                           one.problem, one.surveyed(), [&](std::size_t k) { return one.surveyed(k); },
                                           setup->view.exaggeration));
-            // The survey may have missed an instant at which the factor has to yield; what is drawn must not.
+            // The survey may miss an instant that requires a smaller factor; frames must not.
             if (one.survey)
                 factor = clear_factor(
                     one.problem, one.frames(), [&](std::size_t k) { return one.pose(k); }, factor);
@@ -191,7 +206,7 @@ void FilmContext::choose_scales() {
             for (double value : p.moment) largest = std::max(largest, std::abs(value));
             if (p.nearest) force = std::max(force, p.nearest->force);
         }
-        // What bends the beam by less than a billionth of its length is rounding, not a moment to be coloured.
+        // A moment that bends the beam by less than a billionth of its length is a rounding error.
         const double negligible = 1e-9 * one.problem.beam.bending_stiffness() / one.problem.beam.length;
         if (flexible && largest > negligible) moment = std::max(moment, largest);
     }
@@ -220,14 +235,14 @@ double value_at(const std::vector<double>& times, const std::vector<double>& val
     return values[i] * (1 - share) + values[i + 1] * share;
 }
 
-std::string of_motion(const FilmContext& context, int member) {
+std::string motion_suffix(const FilmContext& context, int member) {
     return context.members() > 1 ? ", " + context.labels[static_cast<std::size_t>(member)] : std::string();
 }
 
 void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup) {
-    const double u = context.unit;
-    canvas.text({box.x, box.y + 26 * u}, markup,
-                {.size = 21 * u, .color = context.palette->ink, .weight = Weight::semibold, .max_width = box.w});
+    canvas.text(
+        {box.x, box.y + 26 * context.unit}, markup,
+        {.size = context.heading(), .color = context.palette->ink, .weight = Weight::semibold, .max_width = box.w});
 }
 
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,

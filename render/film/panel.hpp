@@ -12,12 +12,13 @@
 #include "render/draw/canvas.hpp"
 #include "render/film/film.hpp"
 #include "render/mechanism/trace.hpp"
+#include "render/plot/chart_axes.hpp"
 #include "render/plot/labels.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 
-// What all panels of a film share.
+// Everything that the panels of a film share. Created once, constant while frames are drawn.
 struct FilmContext {
     explicit FilmContext(std::shared_ptr<const FilmSetup> setup);
     FilmContext(const FilmContext&) = delete;
@@ -25,45 +26,48 @@ struct FilmContext {
 
     std::shared_ptr<const FilmSetup> setup;
     Palette colors;
-    const Palette* palette = nullptr;  // of these
-    bool cjk = false;
+    const Palette* palette = nullptr;  // points to `colors`
+    bool cjk = false;                  // some text needs the Chinese font
     Layout places;
-    double unit = 1;   // [px] of one design pixel
-    double tick = 17;  // size of letters at axes and scales [px]
+    double unit = 1;                                             // [px] of one design pixel
+    double tick = 17;                                            // size of letters at axes and scales [px]
+    double heading() const { return heading_size(unit, tick); }  // size of letters of headings and readings [px]
     TimeFormat time;
-    double factor = 1;                              // of exaggeration, the same for all motions
-    double force_scale = 0;                         // largest force of the film, rounded up [N]; 0: none
-    double arrow_scale = 0;                         // largest force of a frame [N]
-    double moment_scale = 0;                        // colour scale ±[N m]; 0: no colouring
+    double factor = 1;                              // exaggeration of deflection, the same for all motions
+    double force_scale = 0;                         // largest force of the film, rounded up; 0: no force [N]
+    double arrow_scale = 0;                         // largest force of all frames [N]
+    double moment_scale = 0;                        // end of the colour scale; 0: no colouring [N m]
     ViewExtent extent;                              // of all mechanisms
-    Range span;                                     // first and last instant of frames and charts [s]
-    std::vector<std::vector<TraceSample>> samples;  // of each motion
+    Range span;                                     // time from the first to the last instant of frames and charts [s]
+    std::vector<std::vector<TraceSample>> samples;  // for each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
-    std::vector<std::string> labels;  // of the motions, as markup
+    std::vector<std::string> labels;  // labels of the motions, markup
     std::vector<std::string> data_labels;
-    std::unique_ptr<const Fonts> fonts;  // while the film is being prepared
+    std::unique_ptr<const Fonts> fonts;  // only while the film is being prepared
 
-    std::string say(std::string english) const { return in(setup->view.lang, std::move(english)); }
+    std::string translate(std::string english) const { return in(setup->view.lang, std::move(english)); }
     int frames() const { return static_cast<int>(setup->frames()); }
     int members() const { return 1 + static_cast<int>(setup->others.size()); }
     const Motion& motion(int member) const {
         return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
     }
     sim::Pose pose(int member, int frame) const { return motion(member).pose(static_cast<std::size_t>(frame)); }
-    // A motion with a cam, to one without: their sections lie alike. Else null.
-    const sim::Problem* with(int member) const;
+    // For a motion without a cam: one that has a cam, whose section position the drawing takes over. Otherwise null.
+    const sim::Problem* section_reference(int member) const;
     double at(int member, int frame) const { return motion(member).time(static_cast<std::size_t>(frame)); }  // [s]
-    // What values of a channel are multiplied with to be shown, and their unit then.
+    // Factor from SI to the unit in which a channel is displayed, and that unit.
     double shown_factor(sim::Channel channel) const;
     std::string shown_unit(sim::Channel channel) const;
-    // Of a motion among several: its own; else the palette's for motion.
+    // Colour of a motion: the first one has the palette's colour of motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
-    // Without a paper texts are outlined in its colour, and are readable on any background.
+    // Films without paper outline their text in the paper's colour, so that it is readable on any background.
     std::optional<Color> outline() const {
         return setup->view.transparent ? std::optional(palette->paper.faded(0.8)) : std::nullopt;
     }
-    Color data_color(std::size_t k) const { return series_color(*palette, 7 - k % 3); }  // far from the motions'
-    // The angle of the hub by these data at a frame of the first motion; NaN: they do not say.
+    Color data_color(std::size_t k) const {
+        return series_color(*palette, 7 - k % 3);
+    }  // far from the colours of motions
+    // Hub angle in data set k at time t, by linear interpolation; NaN where it has none [rad].
     double measured_angle(std::size_t k, double t) const;
 
   private:
@@ -74,7 +78,7 @@ struct FilmContext {
 
 using sim::kNan;
 
-// The time after which a trace coloured by its age is half as strong [s].
+// Half-life of the colour of a trace that is coloured by age [s].
 inline double trace_half_life(Range span) { return 0.3 * std::max(span.high - span.low, 1e-12); }
 
 class FilmPanel {
@@ -99,20 +103,25 @@ class FilmPanel {
     // The panel changes between the previous frame and this one even if both show the same instant.
     virtual bool animates_while_paused(int) const { return false; }
 
-    // What moves. `style` may be flatter than the view's.
+    // Draws the moving parts. `style` may be simpler than the view's.
     virtual void draw(Canvas& canvas, int frame, Style style, State* state) const = 0;
 };
 
-// ---- small things that panels share ------------------------------------------------------------
+template <class Panel>
+std::unique_ptr<FilmPanel> make_panel(const FilmContext& context, const PanelSlot& slot) {
+    return std::make_unique<Panel>(context, slot);
+}
 
-// The column of a channel; null when the table has none.
+// ---- helpers that panels share ------------------------------------------------------------------
+
+// The column of a channel; null if the table has none.
 const std::vector<double>* column(const sim::Table& table, sim::Channel channel);
-// Value at `t` between the rows of an increasing column; NaN outside and beside undefined rows.
+// Linear interpolation in an increasing column of times; NaN outside and beside undefined rows.
 double value_at(const std::vector<double>& times, const std::vector<double>& values, double t);
-// Of a panel of one motion among several: ", " and its label, as markup.
-std::string of_motion(const FilmContext& context, int member);
+// Suffix of a panel's heading if the film has several motions: ", " and the motion's label (markup).
+std::string motion_suffix(const FilmContext& context, int member);
 void draw_heading(Canvas& canvas, const FilmContext& context, const Box& box, const std::string& markup);
-// Places with a force, as short strokes; strong over weak. `path(i)` adds the stroke of place i.
+// Strokes every bin with a force in the colour of its force, strong over weak. `path(i)` adds the path of bin i.
 void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector<float>& places, double width,
                    const std::function<void(std::size_t)>& path);
 inline Vec2 down(double angle) { return {std::cos(angle), -std::sin(angle)}; }  // unit vector in pixels

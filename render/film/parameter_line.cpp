@@ -15,7 +15,7 @@ struct Row {
     double x = 0, right = 0, y = 0;
 };
 
-// As many of the pieces, in their order, as fit into the rows one after the other.
+// Positions of as many pieces, in order, as fit into the rows.
 std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces, const TextStyle& style, double gap,
                          const std::vector<Row>& rows) {
     std::vector<Vec2> out;
@@ -32,8 +32,8 @@ std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces,
     return out;
 }
 
-// Tall formulas: lines go up as far as the picture's margin allows, so that they keep off each other and off what is
-// below; then they become smaller.
+// Lines with tall formulas move up into the margin so that they overlap neither each other nor the line below; if that
+// is not enough, the letters shrink.
 void keep_apart(Canvas& canvas, const Box& box, double u, FittedTitle& title) {
     const double most_up = 20 * u, air = 2 * u;
     for (int round = 0; round < 12; ++round, title.style.size *= 0.9) {
@@ -68,7 +68,7 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
         TextStyle within = out.style;
         within.max_width = box.w;
         std::vector<std::string> lines = wrapped_lines(canvas, title, within, 2);
-        // Lines of about one length read better than a word alone.
+        // Lines of similar length are easier to read than a single word on the second line.
         while (lines.size() == 2 && width(lines[1]) < 0.6 * width(lines[0])) {
             within.max_width *= 0.95;
             std::vector<std::string> narrower = wrapped_lines(canvas, title, within, 2);
@@ -97,7 +97,7 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
                              const std::vector<std::string>& pieces) {
     ParameterLine out;
     if (!places.parameters) {
-        out.without_room = pieces;
+        out.omitted = pieces;
         return out;
     }
     const double u = places.unit;
@@ -124,7 +124,7 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
         }
         choose(rows);
     }
-    out.without_room.assign(pieces.begin() + static_cast<std::ptrdiff_t>(out.pieces.size()), pieces.end());
+    out.omitted.assign(pieces.begin() + static_cast<std::ptrdiff_t>(out.pieces.size()), pieces.end());
     return out;
 }
 
@@ -145,7 +145,7 @@ std::string plain(const std::string& markup) {
     return out;
 }
 
-std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& grid, int members,
+std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& grid, int members,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
                                       const Shown& asked, bool rpm) {
     Shown shown = asked;
@@ -163,7 +163,7 @@ std::vector<std::string> without_room(int width, int height, const std::optional
         Canvas canvas(scratch, fonts);
         if (titled && fitted_title(canvas, title, *places.title, places.unit).cut)
             out.emplace_back("the end of the title");
-        missing = parameter_line(canvas, places, title, missing).without_room;
+        missing = parameter_line(canvas, places, title, missing).omitted;
     }
     for (const std::string& piece : missing) out.push_back(plain(piece));
     const bool colored = std::ranges::any_of(

@@ -1,7 +1,7 @@
-// The line below the title that says what is filmed: whole pieces, the most important first.
+// The line of parameters below the title: whole items, the most important first.
 //
-// Where they do not fit they stand closer, then smaller; then the rest of them beside the title, where it leaves room;
-// then the least important are left out, and can be named before anything is drawn.
+// If they do not fit, gaps shrink, then letters; then the rest goes beside the title if there is space; then the least
+// important items are omitted. The omitted ones are known before anything is drawn.
 #pragma once
 
 #include <string>
@@ -18,19 +18,19 @@ struct ParameterLine {
         std::string markup;
         Vec2 baseline;  // left [px]
     };
-    double size = 0;  // of the letters [px]
+    double size = 0;  // size of the letters [px]
     std::vector<Piece> pieces;
-    std::vector<std::string> without_room;  // markup
+    std::vector<std::string> omitted;  // markup
 };
 
-// `canvas` measures only. `title`: plain text.
+// `canvas` is only used for measuring. `title`: plain text.
 ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::string& title,
                              const std::vector<std::string>& pieces);
 
-// The title as it is drawn at full size.
+// Style of the title at full size.
 TextStyle title_style(double unit, Color color = {});
-// A long title (plain text) becomes smaller, down to two thirds; then it fills two lines; then it is cut where the
-// second ends.
+// A long title (plain text) gets smaller letters, down to two thirds; then two lines; then it is truncated at the end
+// of the second line.
 struct FittedTitle {
     struct Line {
         std::string markup;
@@ -42,14 +42,14 @@ struct FittedTitle {
 };
 FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double unit, Color color = {});
 
-// What of these a picture of this size, with this layout or the standard one of `members` mechanisms, has no room for,
-// in plain words: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no
-// room for title and parameters. Throws FontError.
-std::vector<std::string> without_room(int width, int height, const std::optional<LayoutNode>& layout, int members,
+// The texts for which a picture of this size, with this layout or the standard one of `members` mechanisms, has no
+// space: "the title" or "the end of the title", parameters, "colour scales". Loads fonts, unless there is no space for
+// title and parameters. Throws FontError.
+std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& layout, int members,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
                                       const Shown& shown = {}, bool rpm = false);
 
-// Markup as people type it: "K = 10^8 N m^−1.5".
+// Markup as plain text: "K = 10^8 N m^−1.5".
 std::string plain(const std::string& markup);
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// The phase portrait: hub speed against hub angle, the path so far and the point of now.
+// The phase portrait: hub speed against hub angle, with the path so far and the current point.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -53,7 +53,7 @@ class PhasePanel final : public FilmPanel {
         const double u = context_.unit;
         const std::string name = y_->name(),
                           words = label_of(ChannelKind::theta_dot).heading(context_.setup->view.lang) + name;
-        const TextStyle heading{.size = 21 * u, .weight = Weight::semibold};
+        const TextStyle heading{.size = context_.heading(), .weight = Weight::semibold};
         draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {words, name}, heading, plot_.w));
         draw_levels(canvas, chart_style(context_), *y_, plot_);
@@ -78,11 +78,11 @@ class PhasePanel final : public FilmPanel {
                                                   {color(m), 1.3 * context_.unit}));
         if (restart && !layers.empty()) changed = {layers.front().whole()};
         const Box at = accumulated_box();
-        for (const Box& box : changed) lay_down(kept, background, layers, box, at);
+        for (const Box& box : changed) composite(kept, background, layers, box, at);
     }
-    // The paths lie upon each other: where one grew, all are laid down again.
-    static void lay_down(Canvas& kept, const Image& background, const std::vector<AccumulatedLayer>& layers,
-                         const Box& part, const Box& at) {
+    // Paths overlap: where one changed, all are composited again.
+    static void composite(Canvas& kept, const Image& background, const std::vector<AccumulatedLayer>& layers,
+                          const Box& part, const Box& at) {
         if (part.empty()) return;
         kept.replace_part(background, 0, 0, {part.x + at.x, part.y + at.y, part.w, part.h});
         for (const AccumulatedLayer& layer : layers)
@@ -120,7 +120,7 @@ class PhasePanel final : public FilmPanel {
             points.push_back(to_pixels((*x)[i], (*y)[i]) - Vec2{plot_.x - 8, plot_.y - 8});
         return smooth(thinned(*t, points, 0.7));
     }
-    // The rows follow the motion, so that the curve between them is a spline.
+    // Rows are dense enough for a spline between them.
     static TimedPath smooth(const TimedPath& path) {
         constexpr double kStep = 3;  // [px]
         TimedPath out;
@@ -138,14 +138,19 @@ class PhasePanel final : public FilmPanel {
     const FilmContext& context_;
     Box box_, plot_;
     std::optional<AxisMap> x_, y_;
-    double factor_ = 1;  // of what is shown
+    double factor_ = 1;  // from SI to displayed units
     std::vector<TimedPath> paths_;
 };
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_phase_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<PhasePanel>(context, slot);
+PanelType phase_panel() {
+    return {.kind = PanelKind::phase,
+            .name = "phase",
+            .smallest = {240, 170},
+            .make = make_panel<PhasePanel>,
+            .channels = {ChannelKind::theta, ChannelKind::theta_dot},
+            .draws_curve = true};
 }
 
 }  // namespace beamcam::render

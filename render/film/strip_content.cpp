@@ -24,7 +24,7 @@ std::string symbol_of(Channel channel) {
     return below.empty() ? text : text + "<sub>" + below + "</sub>";
 }
 
-// The symbol in its curve's colour: a legend that needs no room.
+// The symbol in the colour of its curve, which replaces a legend.
 std::string colored(const std::string& markup, Color color) {
     return fmt::format("<span foreground='{}'>{}</span>", hex(color), markup);
 }
@@ -33,20 +33,20 @@ bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
 
 using ForceRow = std::array<double, 2>;  // instant, force
 
-// Where a force between rows is largest: at the vertex of the parabola through the highest row and its neighbours.
+// Instant of the maximum between rows: the vertex of the parabola through the highest row and its neighbours.
 double instant_of_peak(const ForceRow& before, const ForceRow& highest, const ForceRow& after) {
     const double left = highest[0] - before[0], right = after[0] - highest[0];
     const double rise = (highest[1] - before[1]) / left, fall = (after[1] - highest[1]) / right;  // rise >= 0 >= fall
     const double lean = rise - fall > 0 ? (rise * right + fall * left) / (rise - fall) : 0;
     const double least = 0.01 * std::min(left, right);
     double shift = 0.5 * lean;
-    if (std::abs(shift) < least) shift = lean < 0 ? -least : least;  // the row itself keeps its own value
+    if (std::abs(shift) < least) shift = lean < 0 ? -least : least;  // not at the row, which keeps its value
     return highest[0] + std::clamp(shift, -0.9 * left, 0.9 * right);
 }
 
-// The force from the tables of chart and trace, and the peaks that their rows miss, each beside the row that is nearest
-// it; an impact that no row meets is a triangle. Rows keep their values: they are those of the frames' instants. An
-// impact that is not over within the rows has no peak yet.
+// The force from the tables of chart and trace, plus the peaks between rows, each beside its nearest row; an impact
+// between two rows becomes a triangle. Rows keep their values, because they are at the instants of frames. An impact
+// that does not end within the rows gets no peak.
 void force_rows(const FilmContext& context, int member, ChartCurve& curve) {
     const Motion& one = context.motion(member);
     std::vector<ForceRow> rows;
@@ -100,14 +100,14 @@ Range range_of(const FilmContext& context, const std::vector<ChartCurve>& curves
     for (const ChartCurve& curve : curves) all.add(curve.v);
     for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
         const Motion& one = context.motion(m);
-        const bool still = context.frames() == 1;  // it shows its past alone, which is the chart's
+        const bool still = context.frames() == 1;  // a still shows only its past, which the chart contains
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
             see(context.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
     }
     const auto& [any, low, high] = all;
     if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
     if (!any) return {0, 1};
-    // A constant still needs an axis: a twentieth of it either way, or of one unit.
+    // The axis of a constant: ± a twentieth of it, or of one unit.
     const double least = channel.kind == ChannelKind::theta ? 1e-9 : 1e-12 * std::max(std::abs(low), std::abs(high));
     if (high - low <= least) {
         const double half = channel.kind == ChannelKind::theta || low == 0 ? 0.05 : 0.05 * std::abs(low);
@@ -116,10 +116,22 @@ Range range_of(const FilmContext& context, const std::vector<ChartCurve>& curves
     return {low, high};
 }
 
-// What curves of several channels, or motions, are told apart by.
+// Colours distinguish several channels, or several motions.
 Color curve_color(const FilmContext& context, Channel channel, std::size_t i, int member) {
     if (context.members() > 1) return context.member_color(member);
     return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
+}
+
+// The places of impulsive impacts, which last no time and have no force that could color them.
+void add_impulses(const FilmContext& context, int member, ChartContent& c, Extent& places) {
+    if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
+    const Palette& p = *context.palette;
+    const Color color = context.members() > 1 ? context.member_color(member) : p.contact;
+    for (const sim::Impact& impact : context.motion(member).impacts) {
+        if (impact.t_start < c.time.low || impact.t_start > c.time.high) continue;
+        places.add({&impact.x, 1});
+        c.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
+    }
 }
 
 // The places of contact as dots.
@@ -136,6 +148,7 @@ void add_places(const FilmContext& context, ChartContent& c) {
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.dots.push_back({s.t, s.x, color, faint});
         }
+    for (int m = 0; m < context.members(); ++m) add_impulses(context, m, c, places);
     const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 1e-3 * length);
     c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
@@ -236,6 +249,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
     c.words = single ? label_of(first.kind).heading(context.setup->view.lang) : "";
+    if (c.words.starts_with("Contact point on")) c.short_words = "Contact point ";
     c.unit = context.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);
@@ -252,7 +266,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
                 curve.label = context.labels[static_cast<std::size_t>(m)] + ":";  // "ω = 0: 12"
             else if (!single)
                 curve.label = symbol_of(spec.channels[i]);
-            // Colour alone does not tell curves apart for everybody.
+            // Dashes distinguish curves for viewers with a colour deficiency.
             const std::size_t dashes = context.members() > 1 ? static_cast<std::size_t>(m) : i;
             if (dashes % 3 == 1) curve.dash = {9, 4};
             if (dashes % 3 == 2) curve.dash = {3, 3};
@@ -271,7 +285,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
     if (of_contact && c.dots.empty() &&
         std::ranges::none_of(c.curves, [&](const ChartCurve& curve) { return std::ranges::any_of(curve.v, is_value); }))
-        c.instead = context.say("no contact"), c.unit.clear(), c.value = {0, 1};
+        c.instead = context.translate("no contact"), c.unit.clear(), c.value = {0, 1};
     return c;
 }
 

@@ -1,4 +1,4 @@
-// What strips and the energy panel show: names, units and colours of channels, and their curves as a chart's content.
+// The content of strips and of the energy panel: names, units and colours of channels, and their curves.
 #pragma once
 
 #include <optional>
@@ -10,18 +10,18 @@
 
 namespace beamcam::render {
 
-// Energies have one colour in strips and in the ledger; nothing for other channels.
+// Colour of an energy, the same in strips and in the energy panel; none for other channels.
 std::optional<Color> energy_color(const Palette& palette, sim::ChannelKind kind);
-// Only differences of potential energy mean anything: its least value is the zero.
+// The zero of the displayed values: the minimum for potential energy, otherwise 0.
 double zero_of(const sim::Table& table, sim::Channel channel);
-// Time axis and impacts without curves. `member` < 0: of all motions.
+// A chart with time axis and marks of impacts, without curves. `member` < 0: impacts of all motions.
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member);
-// The curves of a strip's channels for every motion.
+// A chart with the curves of a strip's channels for all motions.
 ChartContent strip_content(const FilmContext& context, const PanelSpec& spec);
-// The channel at a frame; NaN: it has no value there.
+// The value of a channel at a frame; NaN: undefined.
 double reading(const FilmContext& context, int member, int frame, sim::Channel channel);
 
-// Of the data's curves, which follow those of the motions.
+// Readings of the curves of measured data, which follow those of the motions.
 std::vector<double> readings_of_data(const FilmContext& context, const PanelSpec& spec, double t);
 
 }  // namespace beamcam::render

@@ -31,16 +31,16 @@ class StripPanel final : public ChartPanel {
     PanelSpec spec_;
 };
 
-// ---- a strip that turns from one collision to the next ------------------------------------------
+// ---- a strip that shows one collision after the other --------------------------------------------
 
-// The channel during one collision, from a little before its first touch: t₀ is that touch. It stays until the next
-// collision begins; before the first it shows that one's axes. All collisions share the axis of values.
+// The channels during one collision, from shortly before its first touch at t₀. The chart stays until the next
+// collision begins; before the first one it shows the axes of the first one. All collisions share the axis of values.
 class CollisionPanel final : public FilmPanel {
     struct Shown final : State {
         std::optional<Chart> chart;
         std::size_t which = 0;
-        Image past;              // the plot as it will be when the collision is over
-        double until = 0;        // the picture's first column that shows no past
+        Image past;              // the plot after the end of the collision
+        double until = 0;        // first column of the picture without past
         std::vector<Box> texts;  // of the axes
     };
 
@@ -66,7 +66,7 @@ class CollisionPanel final : public FilmPanel {
     int layer_epoch(int frame) const override { return static_cast<int>(shown(context_.at(0, frame))); }
     Box accumulated_box() const override { return box_.inset(-8); }
 
-    // The axes of a collision when it begins, then column by column what has been.
+    // Draws the axes when a collision begins, then adds its past column by column.
     void accumulate(Canvas& kept, const Image&, int frame, bool restart, State* state) const override {
         Shown& s = *static_cast<Shown*>(state);
         const double now = context_.at(0, frame);
@@ -85,9 +85,9 @@ class CollisionPanel final : public FilmPanel {
         }
         const double t = now - start(which);
         if (!(t > s.chart->time().low)) return;
-        // Once it is over nothing moves any more.
+        // After its end everything is past.
         const double until = t > s.chart->time().high ? plot_.right() + 1 : s.chart->past_column(t);
-        show_past(kept, *s.chart, s.past, until, s.until);
+        copy_past(kept, *s.chart, s.past, until, s.until);
     }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
@@ -102,7 +102,7 @@ class CollisionPanel final : public FilmPanel {
     }
 
   private:
-    // The collision that has begun last.
+    // The collision that began last.
     std::size_t shown(double t) const {
         std::size_t which = 0;
         while (which + 1 < spans_.size() && spans_[which + 1].low - margin(which + 1) <= t) ++which;
@@ -116,18 +116,18 @@ class CollisionPanel final : public FilmPanel {
         if (spans_.empty()) {
             c.time = {0, 0.01};
         } else {
-            // A contact that lasts is no collision any more: its first tenth of a second is.
+            // Of a lasting contact only the first tenth of a second counts as a collision.
             constexpr double kLongest = 0.1;  // [s]
             const Range& span = spans_[which];
             const double length = std::min(span.high - span.low, kLongest), m = std::min(margin(which), 0.01);
             c.time = {-m, length + m};
-            // One that was over that when the film began, or the instant of a still was reached, is seen as it goes on.
+            // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
             const double first = context_.at(0, 0), shown_until = span.low + length + m;
             if (context_.frames() == 1 && first > shown_until && first <= span.high)
                 c.time = {first - kLongest - span.low, first - span.low};
             else if (context_.span.low > shown_until && span.high > context_.span.low)
                 c.time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
-            c.words = context_.say(fmt::format("Collision {}, ", which + 1));
+            c.words = context_.translate(fmt::format("Collision {}, ", which + 1));
         }
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
@@ -156,10 +156,18 @@ class CollisionPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_strip_panel(const FilmContext& context, const PanelSlot& slot) {
-    if (slot.spec.by_collision && context.members() == 1 && context.setup->problem.cam)
-        return std::make_unique<CollisionPanel>(context, slot);
-    return std::make_unique<StripPanel>(context, slot);
+PanelType strip_panel() {
+    return {.kind = PanelKind::strip,
+            .name = "strip",
+            .smallest = {300, 150},
+            .make = [](const FilmContext& context, const PanelSlot& slot) -> std::unique_ptr<FilmPanel> {
+                if (slot.spec.by_collision && context.members() == 1 && context.setup->problem.cam)
+                    return std::make_unique<CollisionPanel>(context, slot);
+                return std::make_unique<StripPanel>(context, slot);
+            },
+            .takes_channels = true,
+            .takes_window = true,
+            .takes_collisions = true};
 }
 
 }  // namespace beamcam::render

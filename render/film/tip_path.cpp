@@ -8,19 +8,20 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kTrailSeconds = 1.2;  // so much of the film is the trail, what stands still not counted
-constexpr double kArcStep = 6;         // of what is drawn [design px]
-constexpr double kFarTurn = 0.5;       // of the hub between places: further, a spline errs by half a pixel [rad]
+constexpr double kTrailSeconds = 1.2;  // length of the trail in time of the film, freezes not counted
+constexpr double kArcStep = 6;         // step of the drawn curve [design px]
+constexpr double kFarTurn =
+    0.5;  // rotation of the hub between positions above which the error of a spline exceeds half a pixel [rad]
 
-// From one of the places to the next, between which the hub turns from one angle to the next [rad].
-std::vector<Vec2> piece_of_way(const MechanismView& home, std::span<const Vec2> tips, std::span<const double> angles,
-                               std::size_t k) {
+// The curve between positions k and k + 1.
+std::vector<Vec2> curve_between(const MechanismView& home, std::span<const Vec2> tips, std::span<const double> angles,
+                                std::size_t k) {
     const double turn = angles[k + 1] - angles[k], step = kArcStep * home.unit;
     if (std::abs(turn) < kFarTurn) return smooth_piece(tips, k, step);
     return turning_piece(home.px({0, 0}), tips[k], tips[k + 1], turn, step);
 }
 
-// A place of the path as the scene's camera sees it.
+// A point of the path in the view of the scene's camera.
 Vec2 seen_in(const MechanismScene& s, const MechanismView& home, Vec2 p) {
     return s.on(s.at.moved ? s.at.px(home.look.camera.to_world(p)) : p);
 }
@@ -34,7 +35,7 @@ void TipPath::add_frame(Vec2 tip, double angle, bool moved) {
 }
 
 std::vector<Vec2> TipPath::piece(const MechanismView& home, std::size_t frame) const {
-    return piece_of_way(home, tips_, angles_, frame);
+    return curve_between(home, tips_, angles_, frame);
 }
 
 void TipPath::find_whole(const MechanismView& home) {
@@ -62,7 +63,7 @@ void TipPath::find_whole(const MechanismView& home) {
     for (const Tip& tip : tips) all.push_back(tip.at), angles.push_back(tip.angle);
     for (std::size_t k = 0; k < all.size(); ++k) {
         std::vector<Vec2> piece{all[k]};
-        if (k > 0) piece = piece_of_way(home, all, angles, k - 1), piece.erase(piece.begin());
+        if (k > 0) piece = curve_between(home, all, angles, k - 1), piece.erase(piece.begin());
         for (Vec2 p : piece) {
             times.push_back(tips[k].t);
             inside.push_back(p - Vec2{home.box.x, home.box.y});

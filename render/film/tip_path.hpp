@@ -1,4 +1,4 @@
-// The path of the beam's tip as a mechanism's panel draws it: over the last of the film, fading, or all of it.
+// The path of the beam's tip: a fading trail of the last second, or the whole path.
 #pragma once
 
 #include <cstddef>
@@ -12,23 +12,22 @@ namespace beamcam::render {
 
 class TipPath {
   public:
-    // Frame by frame: where the tip is drawn [px], and the hub's angle [rad]. `moved`: time went on since the one
-    // before, so that a freeze costs the trail nothing.
+    // Adds a frame: position of the drawn tip [px] and hub angle [rad]. `moved`: time is later than at the previous
+    // frame; a freeze does not shorten the trail.
     void add_frame(Vec2 tip, double angle, bool moved);
-    // The way from a frame's place to the next one's, as `home`, a camera that does not move, shows it.
+    // The curve from the tip's position at a frame to the next one, in the view `home` of the fixed camera.
     std::vector<Vec2> piece(const MechanismView& home, std::size_t frame) const;
-    // All of it, through the motion's survey and the frames that were added: in the panel's box, a piece of it at the
-    // instant of its end.
+    // Computes the whole path from the survey of the motion and the added frames, in pixels of the panel's box.
     void find_whole(const MechanismView& home);
     const TimedPath& whole() const { return whole_; }
 
     void draw_trail(const MechanismScene& s, const MechanismView& home) const;
-    void draw_whole(const MechanismScene& s, const MechanismView& home) const;  // until the scene's instant
+    void draw_whole(const MechanismScene& s, const MechanismView& home) const;  // up to the scene's instant
 
   private:
     std::vector<Vec2> tips_;
     std::vector<double> angles_;
-    std::vector<int> moved_;  // of every frame: how many until it moved
+    std::vector<int> moved_;  // number of frames up to this one in which time moved
     TimedPath whole_;
 };
 

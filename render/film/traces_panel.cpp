@@ -1,5 +1,5 @@
-// Where the contact has been: around the disc, in the disc's own frame, a spoke for each place whose length and colour
-// say how hard it was ever touched; below, the same along the beam.
+// The contact trace: around the disc, in the frame of the disc, a spoke for each place, whose length and colour show
+// the largest force so far; below, the same along the beam.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -37,18 +37,18 @@ class TracesPanel final : public FilmPanel {
         const double u = context_.unit;
         const Palette& p = *context_.palette;
         draw_heading(canvas, context_, box_,
-                     context_.say("Contact trace on disc and beam") + of_motion(context_, member_));
+                     context_.translate("Contact trace on disc and beam") + motion_suffix(context_, member_));
         canvas.circle(centre_, radius_);
         canvas.fill_keeping_path(p.tint(p.steel, 0.5));
         canvas.stroke({p.steel_edge, 1.6 * u});
-        // The mark of the disc, where the arc starts.
+        // The mark of the disc, where arc positions start.
         canvas.circle(centre_ + Vec2{radius_ - 14 * u, 0}, 4 * u);
         canvas.fill(p.steel_edge);
         canvas.rounded(beam_, 3 * u);
         canvas.fill(p.tint(p.motion, 0.35));
         const TextStyle end{.size = 16.0 / 17 * context_.tick, .color = p.muted};
-        canvas.text({beam_.x, beam_.bottom() + 3 * u + context_.tick}, context_.say("root"), end);
-        canvas.text({beam_.right(), beam_.bottom() + 3 * u + context_.tick}, context_.say("tip"),
+        canvas.text({beam_.x, beam_.bottom() + 3 * u + context_.tick}, context_.translate("root"), end);
+        canvas.text({beam_.right(), beam_.bottom() + 3 * u + context_.tick}, context_.translate("tip"),
                     {.size = 16.0 / 17 * context_.tick, .color = p.muted, .align = HAlign::right});
     }
 
@@ -57,7 +57,7 @@ class TracesPanel final : public FilmPanel {
         const Palette& p = *context_.palette;
         const sim::Pose& pose = context_.pose(member_, frame);
         Trace& trace = static_cast<Spokes*>(state)->trace;
-        trace.show_until(pose.t);
+        trace.advance_to(pose.t);
         const auto share = [&](float force) { return std::sqrt(std::min(1.0, double(force) / context_.force_scale)); };
         const double width = std::max(1.2, 2 * pi * radius_ / kSpokes * 1.3);
         stroke_places(canvas, context_, trace.rim(), width, [&](std::size_t i) {
@@ -91,8 +91,12 @@ class TracesPanel final : public FilmPanel {
 
 }  // namespace
 
-std::unique_ptr<FilmPanel> make_traces_panel(const FilmContext& context, const PanelSlot& slot) {
-    return std::make_unique<TracesPanel>(context, slot);
+PanelType traces_panel() {
+    return {.kind = PanelKind::traces,
+            .name = "traces",
+            .smallest = {240, 170},
+            .make = make_panel<TracesPanel>,
+            .needs_cam = true};
 }
 
 }  // namespace beamcam::render

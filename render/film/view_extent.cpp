@@ -22,7 +22,7 @@ double force_arrow_length(double share, bool small, double u) { return (small ? 
 
 double force_label_distance(double length, double depth, double u) { return std::max(length, depth + 26 * u); }
 
-// [m], with what is fixed in pixels at this scale [px/m]; 0: without.
+// [m], with the parts that have sizes in pixels at this scale [px/m]; scale 0: without them.
 Bounds ViewExtent::shown(double scale, double u, bool small) const {
     Bounds all = beams;
     const double pixel = scale > 0 ? 1 / scale : 0;  // [m]
@@ -54,7 +54,7 @@ Camera ViewExtent::camera(const Box& box, double u) const {
     if (problems.empty()) return fit({0, 0, 1, 1}, room);
     Camera camera{0, {}};
     for (int pass = 0; pass < 4; ++pass)
-        camera = fit(shown(camera.scale, u, is_small(box, u)), room);  // it settles at once
+        camera = fit(shown(camera.scale, u, is_small(box, u)), room);  // converges quickly
     return camera;
 }
 
@@ -71,11 +71,11 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
     for (int m = 0; m < context.members(); ++m) {
         const Motion& one = context.motion(m);
         extent.problems.push_back(&one.problem);
-        // Ghosts are drawn as deep as the first.
+        // Ghosts have the depth of the first beam.
         const double depth = std::max((ghosts ? context.motion(0) : one).problem.beam.depth, least_depth);
         const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : context.factor;
         const auto show = [&](const sim::Pose& pose, bool tip_only) {
-            const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth, context.with(m));
+            const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth, context.section_reference(m));
             if (tip_only) return extent.beams.add(beam.line.back());
             std::vector<Vec2>& strip = extent.strips.emplace_back();
             for (std::size_t i = 0; i < beam.line.size(); i += (i + 5 < beam.line.size() ? 4 : 1))

@@ -1,44 +1,76 @@
 #include "render/gl/lit.hpp"
 
 #include <fmt/format.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <new>
+#include <string_view>
 #include <thread>
+#include <utility>
 
 #include "render/base/error.hpp"
-#include "render/base/memory.hpp"
+#include "render/base/limits.hpp"
 #include "render/base/modules.hpp"
-#include "render/base/threads.hpp"
-#include "render/gl/gl_environment.hpp"
 
 namespace beamcam::render {
 namespace {
 
-// To a context without a display, best first: OSMesa loads faster, newer releases of Mesa have EGL alone.
-std::vector<std::string> ways() {
+// The only software driver with OpenGL 3.3; EGL would prefer a graphics card.
+constexpr std::pair<const char*, const char*> kChosen[] = {{"GALLIUM_DRIVER", "llvmpipe"},
+                                                           {"LIBGL_ALWAYS_SOFTWARE", "1"}};
+
+// The number of threads (LP_NUM_THREADS) changes only the speed.
+bool is_read_by_mesa(std::string_view name) {
+    constexpr std::string_view kPrefixes[] = {"MESA_", "GALLIUM_",  "GALLIVM_", "LP_",    "DRAW_", "ST_",
+                                              "NIR_",  "SOFTPIPE_", "TGSI_",    "LIBGL_", "ZINK_", "D3D12_"};
+    return name != "LP_NUM_THREADS" &&
+           std::ranges::any_of(kPrefixes, [&](std::string_view prefix) { return name.starts_with(prefix); });
+}
+
+std::vector<std::string> choose_driver() {
+    std::vector<std::string> found;
+    for (char** entry = environ; entry != nullptr && *entry != nullptr; ++entry) {
+        const std::string_view setting = *entry;
+        if (is_read_by_mesa(setting.substr(0, setting.find('=')))) found.emplace_back(setting);
+    }
+    for (const std::string& setting : found) unsetenv(setting.substr(0, setting.find('=')).c_str());
+    for (const auto& [name, value] : kChosen) {
+        setenv(name, value, 1);
+        std::erase(found, std::string(name) + "=" + value);
+    }
+    return found;
+}
+
+// The modules in order of preference: OSMesa loads faster; newer releases of Mesa have only EGL.
+std::vector<std::string> modules() {
     if (const char* one = std::getenv("BEAMCAM_GL"); one != nullptr && *one != '\0') return {one};
     return {"osmesa", "egl"};
 }
 
-// Mesa draws in a thread for each processor, up to 32, compiles in a few more, and waits forever for those that could
+// Mesa draws in one thread per processor, up to 32, compiles in a few more, and waits forever for threads that could
 // not start.
 int threads_of_mesa() { return std::min(static_cast<int>(std::thread::hardware_concurrency()), 32) + 4; }
 
 }  // namespace
 
+const std::vector<std::string>& ignored_gl_settings() {
+    static const std::vector<std::string> ignored = choose_driver();
+    return ignored;
+}
+
 std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
-    ignored_gl_settings();  // settles the environment before Mesa reads it
+    ignored_gl_settings();  // sets the environment before Mesa reads it
     if (!can_start_threads(threads_of_mesa()))
         throw ThreadError(fmt::format("no thread can be started for OpenGL; {}", kThreadRemedy));
     std::string reasons;
-    for (const std::string& way : ways()) {
+    for (const std::string& name : modules()) {
         try {
-            const auto* library = static_cast<const LitLibrary*>(load_module(fmt::format("beamcam_{}.so", way)));
+            const auto* library = static_cast<const LitLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
             return library->make_renderer(width, height);
         } catch (const GlError& error) {
-            if (memory_is_short()) throw std::bad_alloc();  // Mesa does not say so
+            if (memory_is_short()) throw std::bad_alloc();  // Mesa does not report it
             reasons += fmt::format("\n{}", error.what());
         } catch (const ModuleError& error) {
             reasons += fmt::format("\n{}", error.what());

@@ -1,11 +1,10 @@
-// The lit view: shaded metal through OpenGL (core profile, in software), orthographic, seen from the front; and the
-// solid view (solid.hpp), in perspective.
+// The OpenGL renderer (core profile, in software): the lit view, orthographic from the front, and the solid view
+// (solid.hpp), in perspective.
 //
-// Light and shadow come from normals computed per pixel (chamfers, turned faces, brushed lengths); edges are
-// antialiased by the distance to the shape, which is smoother than four samples and needs none. The renderer lives in
-// modules of its own (gl/module/), one on OSMesa and one on EGL, the first of which that works is loaded when a lit
-// picture is drawn, and only then; $BEAMCAM_GL, "osmesa" or "egl", names one. A machine without either gets GlError,
-// which names the package and the flat view.
+// The lit view computes normals per pixel (chamfers, turned faces, brushed metal) and antialiases edges by their
+// distance, which is smoother than four samples. The renderer is in two modules (gl/module/), one for OSMesa and one
+// for EGL; the first that works is loaded when the first lit or solid picture is drawn. $BEAMCAM_GL, "osmesa" or "egl",
+// selects one. If neither works, GlError names the package to install and the flat view.
 #pragma once
 
 #include <memory>
@@ -23,7 +22,7 @@ namespace beamcam::render {
 enum class Finish { turned, plain, dome, dimple };
 
 struct LitRound {
-    Vec2 centre;  // [px] of the picture, as all here
+    Vec2 centre;  // [px], as all lengths here
     double radius = 0;
     Vec2 hole;  // centre of the bore
     double hole_radius = 0;
@@ -34,35 +33,35 @@ struct LitRound {
 };
 
 struct LitStrip {
-    std::vector<Vec2> face, back;  // both edges, same count >= 2
+    std::vector<Vec2> face, back;  // both edges, of the same size >= 2
     std::vector<Color> colors;
     double chamfer = 5;
 };
 
 struct LitScene {
-    std::vector<LitRound> behind;  // in this order, then the strip, then `front`
+    std::vector<LitRound> behind;  // drawn first, then the strip, then `front`
     LitStrip strip;
     std::vector<LitRound> front;
     double unit = 1;
     double shadow = 0.3;  // opacity
 };
 
-// What the module provides; one thread at a time.
+// The interface of the modules. Used by one thread at a time.
 class LitRenderer {
   public:
     virtual ~LitRenderer() = default;
-    // Premultiplied pixels on a transparent ground, of the size given at creation.
+    // Draws premultiplied pixels on a transparent background, of the size given at creation.
     virtual void draw(const LitScene& scene, Image& out) = 0;
-    // The same where `out` shows what it drew last, and only these tiles, of a picture of this size, can differ.
+    // Draws only these tiles; `out` contains the last picture.
     virtual void redraw(const LitScene& scene, const DirtyTiles& where, Image& out) = 0;
-    // The same of solid bodies in perspective, four samples a pixel, with soft shadows.
+    // Draws solid bodies in perspective, four samples per pixel, with soft shadows.
     virtual void draw(const SolidScene& scene, Image& out) = 0;
-    virtual std::string name() const = 0;  // the driver's, for fingerprints
+    virtual std::string name() const = 0;  // of the driver, for fingerprints
 
-    double read_back = 0;  // so far, of lit pictures, once they are drawn [s]
+    double read_back = 0;  // total time of reading pixels of lit pictures [s]
 };
 
-// What the modules beamcam_osmesa.so and beamcam_egl.so offer.
+// Offered by the modules beamcam_osmesa.so and beamcam_egl.so.
 class LitLibrary {
   public:
     virtual ~LitLibrary() = default;
@@ -71,5 +70,10 @@ class LitLibrary {
 
 // Throws GlError.
 std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height);
+
+// Mesa reads its driver and many switches from environment variables, and several make it crash (GALLIUM_DRIVER=zink,
+// DRAW_USE_LLVM=0 …). Sets the environment for llvmpipe with Mesa's defaults, once, and returns the user's settings
+// that are ignored, "NAME=value". To be called before threads start, because they may read the environment.
+const std::vector<std::string>& ignored_gl_settings();
 
 }  // namespace beamcam::render

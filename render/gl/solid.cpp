@@ -9,7 +9,7 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr int kMostSides = 160;  // of a disc; at a radius of 300 px the corners are a sixteenth of a pixel off
+constexpr int kMostSides = 160;  // of a disc; with a radius of 300 px the error is a sixteenth of a pixel
 
 int sides(double radius) { return std::clamp(static_cast<int>(std::ceil(pi * std::sqrt(8 * radius))), 12, kMostSides); }
 
@@ -31,14 +31,14 @@ class Mesh {
         triangle(a, b, c, na, nb, nc, color);
         triangle(a, c, d, na, nc, nd, color);
     }
-    // A colour at b and c that differs from that at a and d.
+    // A quadrilateral with one colour at a and d and another at b and c.
     void shaded(const std::array<Vec3, 4>& at, const std::array<Vec3, 4>& n, Color first, Color last) {
         const std::array<Color, 4> colors{first, last, last, first};
         for (const std::size_t k : {0, 1, 2, 0, 2, 3}) vertex(at[k], n[k], colors[k]);
     }
     void quad(Vec3 a, Vec3 b, Vec3 c, Vec3 d, Vec3 n, Color color) { quad(a, b, c, d, n, n, n, n, color); }
 
-    // Along z between `back` and `front`, its edges broken by a chamfer; `bore`: a hole through it.
+    // A cylinder along z between `back` and `front` with a chamfer; `bore`: radius of a hole.
     void disc(Vec2 middle, double radius, double back, double front, double chamfer, Color color, Vec2 hole = {},
               double bore = 0, const std::vector<Color>& rim = {}, double mark = 0) {
         const double inner = radius - chamfer;
@@ -76,7 +76,7 @@ class Mesh {
         }
     }
 
-    // A bar between two edges, across the plane of motion.
+    // A bar with the given edges, `half` wide to either side of the plane of motion.
     void bar(const std::vector<Vec2>& face, const std::vector<Vec2>& back, const std::vector<Color>& colors,
              double half) {
         const std::size_t n = face.size();
@@ -120,8 +120,8 @@ class Mesh {
     std::vector<SolidVertex>& out_;
 };
 
-// Cells of a square of the wall, from −far to far, where the shadows of bodies may fall. Elsewhere the wall is
-// transparent, and its pixels are the dearest of the picture.
+// The cells of a square wall, from −far to far, on which shadows of bodies may fall. The rest of the wall is
+// transparent and not drawn, because its pixels are the most expensive of the picture.
 class ShadowedWall {
   public:
     ShadowedWall(double z, double reach) : z_(z), far_(reach), blur_(kBlur * reach) {}
@@ -142,7 +142,7 @@ class ShadowedWall {
         }
     }
 
-    // Cell by cell: neighbours share their corners, and leave no cracks.
+    // Neighbouring cells share their corners, so there are no gaps.
     void build(Mesh& mesh) const {
         for (std::size_t row = 0; row < kCells; ++row)
             for (std::size_t column = 0; column < kCells; ++column) {
@@ -154,8 +154,8 @@ class ShadowedWall {
     }
 
   private:
-    static constexpr std::size_t kCells = 128;
-    static constexpr double kBlur = 0.006;  // of the reach: three texels of 1536, seen obliquely
+    static constexpr std::size_t kCells = 88;
+    static constexpr double kBlur = 0.009;  // relative to the reach: three texels of 1024, seen obliquely
     int cell(double at) const {
         const double share = (at + far_) / (2 * far_);
         return static_cast<int>(std::clamp(share, 0.0, 1.0) * (kCells - 1e-9));
@@ -166,8 +166,8 @@ class ShadowedWall {
     std::array<std::array<bool, kCells>, kCells> shadowed_{};
 };
 
-// Whether the eye is on the outside of a triangle, where its normals point.
-bool faces_eye(const SolidVertex* corners, const Perspective& view) {
+// Whether a triangle faces the camera.
+bool faces_camera(const SolidVertex* corners, const Perspective& view) {
     const auto vec = [](const std::array<float, 3>& a) { return Vec3{a[0], a[1], a[2]}; };
     const auto to = [](Vec3 a, Vec3 b) { return Vec3{b.x - a.x, b.y - a.y, b.z - a.z}; };
     const Vec3 a = vec(corners[0].place), b = vec(corners[1].place), c = vec(corners[2].place), u = to(a, b),
@@ -179,25 +179,25 @@ bool faces_eye(const SolidVertex* corners, const Perspective& view) {
     return outside == 0 || (outside > 0) == (eye >= 0);
 }
 
-// The eye sees the fronts of closed bodies alone. The nearest bodies, which were built last, come first: they spare the
-// shading of what they hide. Returns how many vertices the fronts have.
+// Appends the triangles that face the camera, then the others, which are hidden. The nearest bodies, which were built
+// last, come first, so that the pixels they hide are not shaded. Returns the number of vertices that face the camera.
 std::size_t append_front_first(const std::vector<SolidVertex>& bodies, const Perspective& view,
                                std::vector<SolidVertex>& out) {
     const std::size_t begin = out.size();
     std::size_t fronts = 0;
     for (const bool front : {true, false}) {
         for (std::size_t i = bodies.size(); i >= 3; i -= 3)
-            if (faces_eye(&bodies[i - 3], view) == front)
+            if (faces_camera(&bodies[i - 3], view) == front)
                 out.insert(out.end(), bodies.begin() + std::ptrdiff_t(i) - 3, bodies.begin() + std::ptrdiff_t(i));
         if (front) fronts = out.size() - begin;
     }
     return fronts;
 }
 
-// Where the picture shows anything of the scene; all of it where a body comes as near as OpenGL cuts off.
+// The part of the picture that the scene covers; the whole picture if a body is nearer than the near plane.
 Box seen_part(const SolidScene& scene, const Box& picture) {
-    constexpr double kNearest = 0.25;  // of the distance to the eye; the shader cuts off at 0.2
-    constexpr double kAround = 2;      // rounding of the projection [px]
+    constexpr double kNearest = 0.25;  // of the distance to the camera; the near plane of the shader is 0.2
+    constexpr double kAround = 2;      // margin for rounding [px]
     Bounds seen;
     for (const SolidVertex& vertex : scene.triangles) {
         const Vec3 p{vertex.place[0], vertex.place[1], vertex.place[2]};
@@ -232,7 +232,9 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     for (Vec2 p : shape.face) face.push_back(up(p));
     for (Vec2 p : shape.back) back.push_back(up(p));
     const double half = wide / 2;
-    scene.reach = 1.6 * std::max(box.w, box.h);
+    // Bodies within the box and their shadows; less of those outside, which a near camera does not see.
+    const double size = std::max(box.w, box.h);
+    scene.reach = std::min(1.6 * size, 0.97 * size + 2 * wide);
     std::vector<SolidVertex> bodies;
     Mesh mesh(bodies);
     const Color metal = palette.steel;

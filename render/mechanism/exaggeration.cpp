@@ -25,7 +25,7 @@ Vec2 turned(Vec2 v, double angle) {
     return {u.x * v.x - u.y * v.y, u.y * v.x + u.x * v.y};
 }
 
-// How far from O a straight beam from O touches the disc; 0: O is in it.
+// Distance from O at which a straight beam touches the disc; 0: O is inside it.
 double straight_reach(const Problem& problem, const Pose& pose) {
     const double d = norm(pose.disc_centre), r = problem.cam->radius + sim::contact_offset(problem);
     return d <= r ? 0 : std::sqrt(d * d - r * r);
@@ -38,7 +38,7 @@ Vec2 tangent_at_nearest(const Problem& problem, const Pose& pose) {
     return pose.centreline[i + 1] - pose.centreline[i];
 }
 
-// On which side of the beam the cam lies, seen where they are nearest: ±1 but where that is an end of the beam.
+// Side of the beam on which the cam lies, at the nearest point: ±1, or between if that is an end of the beam.
 double cam_side(const Problem& problem, const Pose& pose) {
     if (!problem.cam || !pose.nearest) return 0;
     const Vec2 t = tangent_at_nearest(problem, pose);
@@ -46,7 +46,7 @@ double cam_side(const Problem& problem, const Pose& pose) {
     return std::copysign(smoothstep(0, 0.5, std::abs(across)), across);
 }
 
-// 1 where the point nearest the cam fixes the base line, 0 where it does not (the beam is far or turned away).
+// 1 if the point nearest the cam fixes the base line, 0 if not (the beam is far away).
 double cam_weight(const Problem& problem, const Pose& pose) {
     if (!problem.cam || !pose.nearest) return 0;
     const double l = problem.beam.length, reach = straight_reach(problem, pose);
@@ -56,8 +56,8 @@ double cam_weight(const Problem& problem, const Pose& pose) {
            (1 - smoothstep(0.15 * l, 0.45 * l, pose.nearest->gap));
 }
 
-// Angle of the least-squares line through O. Orthogonal to rigid rotation: free vibration is seen about it. Of a hub
-// that is led: its own angle, since the clamp does not give way.
+// Angle of the least-squares line through O, about which free vibration is visible. For a prescribed hub: its angle,
+// since the clamp does not rotate.
 double mean_angle(const Problem& problem, const Pose& pose) {
     if (sim::is_prescribed(problem.hub.drive)) return pose.theta;
     double xy = 0, xx = 0;
@@ -68,7 +68,7 @@ double mean_angle(const Problem& problem, const Pose& pose) {
     return pose.theta + (xx > 0 ? std::atan(xy / xx) : 0.0);
 }
 
-// The centre-line point that is nearest the cam, exactly.
+// The point of the centre line nearest the cam.
 Vec2 nearest_on_line(const Problem& problem, const Pose& pose) {
     const double reach = problem.cam->radius + sim::contact_offset(problem) + pose.nearest->gap;
     return pose.disc_centre + pose.nearest->normal * reach;
@@ -98,8 +98,8 @@ Foot foot_on(const std::vector<Vec2>& line, Vec2 from) {
     return best;
 }
 
-// The turn about O that brings the line to `distance` from the disc's centre, by Newton's method: turning the line
-// by δ is turning the centre by −δ, and d(distance)/dδ = (k × point)·n.
+// The rotation about O that brings the line to `distance` from the disc's centre, by Newton's method: rotating the line
+// by δ is rotating the centre by −δ, and d(distance)/dδ = (k × point)·n.
 std::optional<double> turn_to(const std::vector<Vec2>& line, Vec2 centre, double distance, double scale) {
     double turn = 0;
     for (int i = 0; i < 30; ++i) {
@@ -141,7 +141,7 @@ double largest_deflection(const Pose& pose, double base) {
 
 }  // namespace
 
-DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, double depth, const Problem* with) {
+DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, double depth, const Problem* reference) {
     DrawnBeam beam;
     beam.line = pose.centreline;
     const double weight = cam_weight(problem, pose), base = base_angle(problem, pose, weight);
@@ -153,8 +153,8 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
             p = turned({local.x, factor * local.y}, base);
         }
         if (weight > 0) {
-            const double wanted = problem.cam->radius + offset + std::max(pose.nearest->gap, 0.0);
-            const auto turn = turn_to(beam.line, pose.disc_centre, wanted, problem.beam.length);
+            const double requested = problem.cam->radius + offset + std::max(pose.nearest->gap, 0.0);
+            const auto turn = turn_to(beam.line, pose.disc_centre, requested, problem.beam.length);
             beam.clear = turn.has_value();
             if (turn) {
                 for (Vec2& p : beam.line) p = turned(p, weight * *turn);
@@ -164,9 +164,9 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
     }
     add_normals(beam);
     beam.side = cam_side(problem, pose);
-    const bool borrowed = !problem.cam && with && with->cam;
+    const bool borrowed = !problem.cam && reference && reference->cam;
     if (borrowed) beam.side = 1;
-    beam.low = -depth / 2 + beam.side * (depth / 2 - (borrowed ? sim::contact_offset(*with) : offset));
+    beam.low = -depth / 2 + beam.side * (depth / 2 - (borrowed ? sim::contact_offset(*reference) : offset));
     beam.high = beam.low + depth;
     if (problem.cam && pose.nearest) {
         const Foot foot = foot_on(beam.line, pose.disc_centre);
@@ -176,10 +176,10 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
         contact.on_face = foot.point - contact.normal * offset;
         contact.x = foot.station / static_cast<double>(beam.line.size() - 1) * problem.beam.length;
         contact.gap = foot.distance - problem.cam->radius - offset;
-        // A hundred-thousandth of the length is a hundredth of a pixel in a full-size picture.
+        // 1e-5 of the length is a hundredth of a pixel in a full-size picture.
         if (factor != 1 && contact.gap < -1e-5 * problem.beam.length) beam.clear = false;
-        // A contact drawn elsewhere on the beam would tell a lie.
-        constexpr double kElsewhere = 0.05;  // of the length; `auto` stays at about half of it
+        // A contact drawn far from the true place on the beam would be wrong.
+        constexpr double kElsewhere = 0.05;  // of the length; automatic factors reach about half of it
         if (factor != 1 && pose.nearest->touching &&
             std::abs(contact.x - pose.nearest->x) > kElsewhere * problem.beam.length)
             beam.clear = false;
@@ -188,17 +188,17 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
     return beam;
 }
 
-double film_factor(const Problem& problem, std::span<const Pose> poses, std::optional<double> wanted) {
+double film_factor(const Problem& problem, std::span<const Pose> poses, std::optional<double> requested) {
     return film_factor(
-        problem, poses.size(), [&](std::size_t k) { return poses[k]; }, wanted);
+        problem, poses.size(), [&](std::size_t k) { return poses[k]; }, requested);
 }
 
 double film_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,
-                   std::optional<double> wanted) {
+                   std::optional<double> requested) {
     constexpr double kShare = 0.10, kTilt = 0.25;  // of the length; [rad]
     if (problem.beam.model == sim::ModelKind::rigid) return 1;
-    double factor = wanted.value_or(1e6);
-    if (!wanted) {
+    double factor = requested.value_or(1e6);
+    if (!requested) {
         double deflection = 0, slope = 0;
         for (std::size_t k = 0; k < frames; ++k) {
             const Pose pose = pose_of(k);
@@ -207,7 +207,7 @@ double film_factor(const Problem& problem, std::size_t frames, const std::functi
             if (pose.nearest && pose.nearest->touching && problem.cam)
                 slope = std::max(slope, std::abs(contact_tilt(problem, pose, base, 2)));
         }
-        // Below a millionth of the length there is nothing to see but rounding.
+        // Below a millionth of the length there are only rounding errors.
         if (deflection < 1e-6 * problem.beam.length) return 1;
         factor = kShare * problem.beam.length / deflection;
         if (slope > 0) factor = std::min(factor, kTilt / slope);

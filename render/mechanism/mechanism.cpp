@@ -15,7 +15,7 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     disc.axis = camera.to_pixels(pose.cam_centre);
     disc.radius = cam.radius * camera.scale;
     disc.angle = pose.cam_angle;
-    // The bore stays inside the disc: at C it has R − e of material around it.
+    // The bore stays inside the disc, which has R − e of material around C.
     const double marks = mark_unit(problem, camera, unit);
     disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * (cam.radius - cam.eccentricity) * camera.scale});
     disc.mark_radius = std::min(5.5 * marks, 0.09 * disc.radius);
@@ -25,7 +25,7 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     return disc;
 }
 
-// A line of this width inside a circle, or about it by half.
+// A ring of this width inside a circle.
 Area ring(Vec2 centre, double outside, double width) {
     Area area;
     area.add_circle(centre, outside);
@@ -33,7 +33,7 @@ Area ring(Vec2 centre, double outside, double width) {
     return area;
 }
 
-// The filling ends under the middle of the lines, so that nothing of it shows at their edges.
+// The fill ends under the middle of the outline, so that it is not visible at its edges.
 void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette& p) {
     const double rim = 2 * unit, bore = 1.6 * unit;
     Area body, mark;
@@ -48,7 +48,7 @@ void draw_disc(Canvas& canvas, const DiscShape& disc, double unit, const Palette
     });
 }
 
-// Into how many parts the colour between two stations is divided: steps of two levels of 255 are no bands to the eye.
+// Number of colour steps between two stations: steps of two levels of 255 are not visible as bands.
 int color_steps(const Color& a, const Color& b) {
     const double most = std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
     return std::clamp(static_cast<int>(std::ceil(most * 255 / 2)), 1, 64);
@@ -59,7 +59,7 @@ struct Edges {
     std::vector<Vec2> face, back;  // [px]
 };
 
-// Moved inwards, the ends along the beam, by no more than half way to the next station.
+// Moved inwards; the ends along the beam, at most half way to the next station.
 Edges inset(const MechanismShape& s, double by) {
     Edges inner{s.face, s.back};
     const std::size_t n = s.face.size();
@@ -86,8 +86,8 @@ std::vector<Vec2> around(const Edges& edges) {
     return corners;
 }
 
-// The colours end hard, one beside the other, and under the middle of the outline, which lies inside the section: its
-// outer edge is the true one.
+// Colours are not antialiased between each other and end under the middle of the outline, whose outer edge is the true
+// edge of the section.
 void draw_beam(Canvas& canvas, const MechanismShape& s, double unit, const Palette& p) {
     const Edges middle = inset(s, unit);
     Area outline;
@@ -120,8 +120,8 @@ void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palett
 }  // namespace
 
 double mark_unit(double beam_length, double unit) {
-    constexpr double kUsual = 640;         // of a beam at full size [px]
-    constexpr double kSmallestHub = 0.25;  // a hub of 5 px
+    constexpr double kUsual = 640;         // length of a beam with marks of full size [px]
+    constexpr double kSmallestHub = 0.25;  // gives a hub of 5 px
     return std::clamp(beam_length / kUsual, std::min(kSmallestHub, unit), unit);
 }
 
@@ -129,7 +129,7 @@ double mark_unit(const sim::Problem& problem, const Camera& camera, double unit)
     return mark_unit(problem.beam.length * camera.scale, unit);
 }
 
-// Wide enough to cover the root's corners, within reason, and always short of the circle that the disc sweeps.
+// Covers the corners of the beam's root, within limits, and stays outside the circle that the disc sweeps.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit) {
     const double offset = problem.cam ? sim::contact_offset(problem) : problem.beam.depth / 2;
     const double corner = 1.06 * std::max(offset, problem.beam.depth - offset) * camera.scale;
@@ -145,7 +145,7 @@ double hub_radius(const sim::Problem& problem, const Camera& camera, double unit
 double support_reach(double hub, double marks) { return hub + 44 * marks; }
 double support_half_width(double hub, double marks) { return 0.6 * (hub + 24 * marks) + 18 * marks; }
 
-// Its lines do not become finer than what can be seen.
+// The width of lines has a visible minimum.
 void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, const Palette& p) {
     const double foot = hub + 24 * u, half = 0.6 * foot + 6 * u, pen = std::max(line, 0.45),
                  apart = std::max(11 * u, 4.0);
@@ -168,8 +168,8 @@ void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, con
 
 namespace {
 
-// Of a wide hub the root's corner, which stands off the radius that the centre line leaves along, would stay outside:
-// the section goes on inwards until both of its corners are in the hub.
+// The corners of the beam's root would be visible outside a wide hub: extends the section inwards until both corners
+// are inside the hub.
 void continue_into_hub(MechanismShape& s) {
     if (s.face.size() < 2) return;
     const Vec2 along = s.face[0] - s.face[1], inwards = along * (1 / std::max(norm(along), 1e-300));
@@ -179,7 +179,8 @@ void continue_into_hub(MechanismShape& s) {
         const Vec2 from = corner - s.hinge;
         const double outside = dot(from, from) - radius * radius, middle = -dot(from, inwards);
         if (outside <= 0) continue;
-        if (middle <= 0 || middle * middle < outside) return;  // it passes the hub by, or begins beyond its middle
+        if (middle <= 0 || middle * middle < outside)
+            return;  // the beam passes beside the hub, or begins beyond its centre
         by = std::max(by, middle - std::sqrt(middle * middle - outside));
     }
     if (by == 0) return;

@@ -1,4 +1,4 @@
-// The mechanism of one frame as shapes in pixels, shared by both painters, and its flat drawing with Cairo.
+// The shapes of the mechanism in pixels, used by all styles, and their flat drawing.
 #pragma once
 
 #include <optional>
@@ -24,36 +24,36 @@ struct DiscShape {
 };
 
 struct MechanismShape {
-    std::vector<Vec2> face, back;  // edges of the section, root to tip [px]; the face is the touching one
-    std::vector<Color> colors;     // one a station
+    std::vector<Vec2> face, back;  // edges of the section, root to tip [px]; the face is on the cam's side
+    std::vector<Color> colors;     // one per station
     Vec2 hinge;                    // O [px]
     double hub = 0, pin = 0;       // radii [px]
     std::optional<DiscShape> disc;
     bool operator==(const MechanismShape&) const = default;
 };
 
-// What stays the same over a film.
+// Camera and scales of the drawing; constant over a film unless the camera moves.
 struct MechanismLook {
     Camera camera;
-    double unit = 1;          // of hub, bore and chamfers, which the camera magnifies with the rest [px]
-    double factor = 1;        // of exaggeration
-    double depth = 0;         // of the beam as drawn [m]
-    double moment_scale = 0;  // colour scale ±[N m]; 0: no colouring
+    double unit = 1;          // size of a design pixel of hub, bore and chamfers, which grow with the zoom [px]
+    double factor = 1;        // exaggeration of deflection
+    double depth = 0;         // drawn depth of the beam [m]
+    double moment_scale = 0;  // end of the colour scale; 0: no colouring [N m]
 };
 
 MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,
                                const MechanismLook& look, const Palette& palette);
 
-// The unit of hub, support, marks and their letters [px]: that of the picture, less where the drawn beam is short, so
-// that they stay in proportion to it, and not below what can be read.
+// Size of a design pixel of hub, support, marks and their letters [px]: that of the picture, reduced for a short drawn
+// beam, so that they stay in proportion to it, down to the readable minimum.
 double mark_unit(double beam_length, double unit);
 double mark_unit(const sim::Problem& problem, const Camera& camera, double unit);
-// Radius of the hub's boss [px]: the hub's own where that is larger than a readable boss.
+// Drawn radius of the hub [px]: at least that of a visible boss.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit);
-// The bearing that O stands on; does not move. `reach`: how far it extends below O [px]. `marks`: mark_unit.
+// The fixed bearing below O. `support_reach`: its extent below O [px]. `marks`: mark_unit.
 double support_reach(double hub_radius, double marks);
 double support_half_width(double hub_radius, double marks);
-// `line`: the unit of its lines [px].
+// `line`: size of a design pixel of its lines [px].
 void draw_support(Canvas& canvas, Vec2 hinge, double hub_radius, double marks, double line, const Palette& palette);
 
 void draw_flat(Canvas& canvas, const MechanismShape& shape, double line, const Palette& palette);

@@ -35,8 +35,8 @@ std::vector<TraceSample> contact_samples(const sim::Table& table) {
 
 namespace {
 
-// Arc on the disc where a nearly straight beam touches at arc position x: its direction makes cos φ = (x + r)/|OB|
-// with the ray O→B. A slope of 1e-3 displaces it by a thousandth of the radius.
+// Arc position on the disc at which a nearly straight beam touches at arc position x: its direction is at the angle φ
+// from the ray O→B with cos φ = (x + r)/|OB|. A slope of 1e-3 changes the result by a thousandth of the radius.
 double touched_arc(const sim::Problem& problem, const sim::Impact& impact) {
     const sim::Cam& cam = *problem.cam;
     const sim::Vec2 b = cam.centre + sim::unit(impact.cam_angle) * cam.eccentricity;
@@ -78,7 +78,7 @@ Trace::Trace(std::span<const TraceSample> samples, double circumference, std::si
       beam_(beam_places),
       rim_times_(rim_places) {}
 
-void Trace::show_until(double t) {
+void Trace::advance_to(double t) {
     const auto after = std::ranges::upper_bound(samples_, t, {}, &TraceSample::t);
     const auto until = static_cast<std::size_t>(after - samples_.begin());
     if (until < shown_) {

@@ -1,7 +1,7 @@
-// Where the contact has been: the largest force so far at each place of the disc's rim and of the beam's face.
+// The trace of the contact: the largest force so far at each place of the disc's rim and of the beam's face.
 //
-// Samples are sorted into places a pixel wide. Largest-so-far does not depend on the order of the samples, so a film
-// played in any order shows the same trace; playing on only adds the samples in between.
+// Samples are sorted into bins a pixel wide. The maximum does not depend on the order of the samples, so the trace is
+// the same in whatever order frames are drawn.
 #pragma once
 
 #include <cstddef>
@@ -17,22 +17,21 @@ namespace beamcam::render {
 struct TraceSample {
     double t = 0, x = 0, s = 0, force = 0;  // [s], on the beam [m], on the disc from its mark [m], [N]
 };
-// The rows of the table in contact (force > 0, places known), by time. Missing columns give no samples.
+// The rows of the table in contact (force > 0, defined places), sorted by time. Missing columns give no samples.
 std::vector<TraceSample> contact_samples(const sim::Table& table);
-// And one for each impact that is shorter than the table's spacing and fell between its rows: its place at touch, its
-// largest force.
+// Adds a sample for each impact that falls between the rows of the table: its place at touch and its peak force.
 std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
                                          std::span<const sim::Impact> impacts);
 
 class Trace {
   public:
-    // `places` bins on the rim of the given circumference and on the beam of the given length, each >= 1.
+    // Numbers of bins on the rim of the given circumference and on the beam of the given length, each >= 1.
     Trace(std::span<const TraceSample> samples, double circumference, std::size_t rim_places, double length,
           std::size_t beam_places);
-    void show_until(double t);                              // includes samples at t
+    void advance_to(double t);                              // includes samples at t; going back is possible
     const std::vector<float>& rim() const { return rim_; }  // 0: never touched
     const std::vector<float>& beam() const { return beam_; }
-    const std::vector<double>& rim_times() const { return rim_times_; }  // of the last touch of each place [s]
+    const std::vector<double>& rim_times() const { return rim_times_; }  // of the last touch in each bin [s]
 
   private:
     std::span<const TraceSample> samples_;

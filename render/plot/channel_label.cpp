@@ -45,7 +45,7 @@ constexpr LabelRow kLabels[] = {
 }  // namespace
 
 std::string ChannelLabel::heading(Lang lang) const {
-    return lang == Lang::zh ? std::string(chinese) + " " + apart() : std::string(words) + " ";
+    return lang == Lang::zh ? std::string(chinese) + " " + script_break() : std::string(words) + " ";
 }
 
 std::string ChannelLabel::below(sim::Channel channel) const {

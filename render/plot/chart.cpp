@@ -221,10 +221,10 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
 // ---- the heading's line ------------------------------------------------------------------------
 
 TextStyle Chart::heading_style() const {
-    return {.size = 21 * style_.unit, .color = style_.palette.ink, .weight = Weight::semibold};
+    return {.size = style_.heading(), .color = style_.palette.ink, .weight = Weight::semibold};
 }
 TextStyle Chart::reading_style(Color color) const {
-    return {.size = 21 * style_.unit, .color = color, .weight = Weight::medium, .align = HAlign::right};
+    return {.size = style_.heading(), .color = color, .weight = Weight::medium, .align = HAlign::right};
 }
 
 // The readings are beside it.
@@ -232,12 +232,14 @@ void Chart::draw_heading(Canvas& canvas) const {
     const std::string name = axis_.name();
     const double room = plot_.w - reading_width(canvas, true);
     canvas.text({plot_.x, box_.y + 26 * style_.unit},
-                first_that_fits(canvas, {c_.words + name, name}, heading_style(), room), heading_style());
+                first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room),
+                heading_style());
 }
 
 std::string Chart::reading_text(double value) const {
-    if (!c_.reading_unit.empty()) return reading(value, c_.reading_unit.c_str());
-    return fixed(axis_.tick_value(value), digits_);
+    if (c_.reading_unit.empty()) return fixed(axis_.tick_value(value), digits_);
+    if (value == 0) return quantity(0, prefix_for(axis_.high()), c_.reading_unit.c_str());
+    return reading(value, c_.reading_unit.c_str());
 }
 
 double Chart::widest_reading(Canvas& canvas) const {

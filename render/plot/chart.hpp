@@ -43,14 +43,16 @@ struct ChartBand {
 };
 
 struct ChartContent {
-    std::string words;             // before the symbol, omitted if there is no room: "Hub angle "
+    std::string words;             // before the symbol, if there is space: "Contact point on the beam "
+    std::string short_words = {};  // otherwise these, if there is space: "Contact point "
     std::string symbol;            // markup: θ; may be empty
     std::string unit;              // "rad", "N", "" for none
     Range value;                   // of the axis, which is widened to round ends
     Range time;                    // of the film [s]
     std::optional<double> window;  // [s]
     double time_unit = 1;          // [s]
-    // Readings carry this unit with their own prefix, as labels beside the mechanism do; empty: the axis's unit.
+    // Unit of the readings, which choose their prefix as labels beside the mechanism do; empty: the axis's unit and
+    // prefix.
     std::string reading_unit = {};
     std::string time_label;    // markup, "t / s"
     std::string instead = {};  // text that replaces the axis if there are no values: "no contact"

@@ -1,6 +1,7 @@
 // The axes of charts in films: a grid line at every number of the left axis, and numbers below the plot.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -12,11 +13,16 @@ namespace beamcam::render {
 // An axis from `low` < `high`, widened to round ends. `symbol`: Pango markup; `unit`: "" for none; `most`: ticks, >= 2.
 AxisMap chart_axis(double low, double high, const std::string& symbol, const std::string& unit, int most);
 
+// Letters of headings and readings are larger than those at axes [px].
+inline double heading_size(double unit, double numbers) { return std::max(21 * unit, 1.14 * numbers); }
+
 // The common style of the charts of a film.
 struct ChartStyle {
     const Palette& palette;
     double unit;     // [px] of a design pixel
     double numbers;  // size of the letters at axes [px]
+
+    double heading() const { return heading_size(unit, numbers); }
 };
 void draw_levels(Canvas& canvas, const ChartStyle& style, const AxisMap& axis, const Box& plot);
 

@@ -15,7 +15,7 @@
 #include "render/draw/canvas.hpp"
 #include "render/draw/font_handles.hpp"
 #include "render/draw/markup.hpp"
-#include "render/draw/surface.hpp"
+#include "render/draw/cairo_support.hpp"
 #include "render/plot/style.hpp"
 
 namespace beamcam::render::figure {
@@ -110,7 +110,7 @@ PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, co
         cairo_svg_surface_set_document_unit(cairo_get_target(cr_), CAIRO_SVG_UNIT_MM);
     }
     cairo_scale(cr_, unit, unit);
-    use(rgb(0xFFFFFF));
+    set_source(rgb(0xFFFFFF));
     cairo_paint(cr_);
 }
 PageCanvas::~PageCanvas() noexcept(false) { end(); }
@@ -159,7 +159,7 @@ LetterFace face_of(const Run& run, const TextStyle& style, double size, const Fo
 }
 
 PangoLayout* layout_of(const Run& run, const TextStyle& style, double size, const Fonts& fonts) {
-    PangoLayout* layout = laid_out(fonts, face_of(run, style, size, fonts), escape(run.text));
+    PangoLayout* layout = layout_of(fonts, face_of(run, style, size, fonts), escape(run.text));
     if (pango_layout_get_unknown_glyphs_count(layout) > 0) throw FontError(missing_glyphs(run.text));
     return layout;
 }
@@ -216,12 +216,12 @@ Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     cairo_save(cr_);
     cairo_translate(cr_, at.x, at.y);
     cairo_rotate(cr_, -style.turned);
-    use(style.color);
+    set_source(style.color);
     // Rounded to Cairo's numbers, 1/256 of a unit, so that the letters of a label keep their distances.
     cairo_move_to(cr_, dx, dy);
     cairo_get_current_point(cr_, &dx, &dy);
     new_path();
-    set_down(label, {dx, dy}, style.size, style.color, [&](const SetRun& run, Vec2 p) { write(run, p, style); });
+    draw_label(label, {dx, dy}, style.size, style.color, [&](const SetRun& run, Vec2 p) { write(run, p, style); });
     cairo_restore(cr_);
 
     // The box around the turned corners.

@@ -148,7 +148,7 @@ std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = fals
 
 std::string text_markup(const Canvas& canvas, std::string_view text) {
     std::string out;
-    const std::string between = needs_cjk(text) ? apart() : std::string();
+    const std::string between = needs_cjk(text) ? script_break() : std::string();
     split(
         text, [&](const std::string& plain) { out += escape(canvas.drawable(plain)); },
         [&](std::string_view formula) { out += between + drawn(canvas, formula) + between; });

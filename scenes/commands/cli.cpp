@@ -19,8 +19,8 @@
 #include "output/files/standard_output.hpp"
 #include "output/film/video.hpp"
 #include "render/base/error.hpp"
-#include "render/base/memory.hpp"
-#include "render/gl/gl_environment.hpp"
+#include "render/base/limits.hpp"
+#include "render/gl/lit.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/format/source.hpp"
@@ -127,7 +127,7 @@ int fail(int code, const std::string& text) {
 // Where memory is short, most other causes are its consequences.
 int fail_or_blame_memory(int code, const std::string& text) {
     if (!render::memory_is_short()) return fail(code, text);
-    return fail(kInputOutput, fmt::format("{}\nbeamcam: {}", text, render::memory_words()));
+    return fail(kInputOutput, fmt::format("{}\nbeamcam: {}", text, render::out_of_memory_message()));
 }
 
 }  // namespace
@@ -169,7 +169,7 @@ int command_line(int argc, const char* const* argv) {
     } catch (const sim::Interrupted&) {
         return fail(kInterrupted, "beamcam: interrupted; nothing half-written is left");
     } catch (const std::bad_alloc&) {
-        return fail(kInputOutput, fmt::format("beamcam: {}", render::memory_words()));
+        return fail(kInputOutput, fmt::format("beamcam: {}", render::out_of_memory_message()));
     } catch (const std::exception& e) {
         return fail_or_blame_memory(
             kBug,

@@ -89,7 +89,7 @@ void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunCon
     std::mutex mutex;  // guards counts and times
     long put = 0;
     const auto make_worker = [&]() -> Worker {
-        const auto own = std::make_shared<render::Film>(film.another());
+        const auto own = std::make_shared<render::Film>(film.for_thread());
         return [&, own, input = sink.input(gate)](long k) {
             stop_if_interrupted();
             double spent = 0;

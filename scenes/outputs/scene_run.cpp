@@ -191,7 +191,7 @@ void SceneRun::write_pictures(std::size_t picture) {
     const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
                        film_track(setup, p.picture.view.lang)};
     render::Film film(std::move(setup));
-    if (const auto requested = p.picture.view.exaggeration; requested && film.yields())
+    if (const auto requested = p.picture.view.exaggeration; requested && film.exaggeration_reduced())
         context_.print(
             "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam inside the cam or "
             "far from its contact\n",
@@ -199,7 +199,7 @@ void SceneRun::write_pictures(std::size_t picture) {
     if (film.exaggeration() > 1 && !p.picture.view.show.legend)
         context_.print("note: {} shows deflection ×{:g} without stating it; state it in the caption\n", p.file,
                        film.exaggeration());
-    if (film.cuts_title())
+    if (film.title_truncated())
         context_.print("warning: {} shows only the beginning of the title: {}\n", p.file,
                        why_text_is_omitted(p.picture.size));
     if (const int empty = film.empty_frames(); empty > 0)

@@ -108,7 +108,7 @@ std::string omitted_text(const Pictures& p, const Scene& scene) {
     if (problems.empty()) problems.push_back(&scene.problem);
     const int members = picture.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
     return fmt::format("{}",
-                       fmt::join(render::without_room(picture.size.width, picture.size.height, picture.layout, members,
+                       fmt::join(render::omitted_text(picture.size.width, picture.size.height, picture.layout, members,
                                                       scene.title, problems, picture.view.show, scene.units.rpm),
                                  "; "));
 }

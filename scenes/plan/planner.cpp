@@ -29,7 +29,7 @@ std::string omitted_panels(const Picture& picture) {
     std::string out;
     if (!picture.layout) return out;
     for (const render::PanelSpec& panel :
-         render::left_out(picture.size.width, picture.size.height, *picture.layout, picture.view.show))
+         render::omitted_panels(picture.size.width, picture.size.height, *picture.layout, picture.view.show))
         out += (out.empty() ? "" : ", ") +
                (panel.channels.empty() ? std::string(type_of(panel.kind).name) : name(panel.channels.front()));
     return out;

@@ -18,7 +18,7 @@
 #include "render/base/error.hpp"
 #include "render/base/versions.hpp"
 #include "render/draw/fonts.hpp"
-#include "render/gl/gl_environment.hpp"
+#include "render/gl/lit.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/fingerprint.hpp"

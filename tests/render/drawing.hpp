@@ -1,4 +1,4 @@
-// What the tests of drawn films share.
+// Helpers for tests of films.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -14,7 +14,7 @@
 
 namespace beamcam::render {
 
-// Without those of Chinese.
+// Without the Chinese fonts.
 inline const Fonts& fonts() {
     static const Fonts loaded(false);
     return loaded;
@@ -24,6 +24,16 @@ inline Image drawn(Film& film, int frame) {
     Image image;
     film.draw(frame, image);
     return image;
+}
+
+inline long differing_pixels(const Image& a, const Image& b, const Box& within) {
+    long count = 0;
+    for (int y = int(within.y); y < int(within.bottom()); ++y)
+        for (int x = int(within.x); x < int(within.right()); ++x) {
+            const std::size_t i = std::size_t(y) * std::size_t(a.width) + std::size_t(x);
+            count += a.pixels[i] != b.pixels[i];
+        }
+    return count;
 }
 
 }  // namespace beamcam::render

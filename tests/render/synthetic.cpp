@@ -14,7 +14,7 @@ using std::numbers::pi;
 // The hinged–free shape is close to a parabola less its rigid part; unit tip value.
 double shape(double s) { return (s * s - 0.75 * s) / 0.25 * 0.8 + 0.2 * std::sin(2 * pi * s); }
 
-// Where the bounces of a falling height end: flights of length T, 0.6 T, 0.36 T, …
+// End of the bounces of a falling body: flights of duration T, 0.6 T, 0.36 T, …
 struct Flight {
     double start, length, height;
 };
@@ -64,7 +64,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
     if (problem.cam) {
         const double reach = problem.cam->radius + problem.contact.offset.value_or(problem.beam.depth / 2);
         sim::Nearest nearest;
-        // Turned until the gap is that of the straight rod: secant steps on the foot point.
+        // Rotated until the gap is that of the straight rod, by secant steps.
         double turn = 0;
         for (int pass = 0; pass < 12; ++pass) {
             bend(turn);
@@ -144,6 +144,13 @@ render::FilmSetup synthetic_film(const Synthetic& how) {
         }
         touching = q.nearest->touching;
     }
+    return film;
+}
+
+render::FilmSetup flat_film(const Synthetic& how, int width, int height) {
+    render::FilmSetup film = synthetic_film(how);
+    film.width = width, film.height = height;
+    film.view.style = render::Style::flat;
     return film;
 }
 

@@ -1,6 +1,6 @@
-// A made-up film for the pictures' tests: a rod that falls on the disc, bounces with a closed-form flight, rests, and
-// vibrates by one hinged–free shape with a small amplitude that dies away. Not the mechanics: only poses that look
-// like them, exact in what the tests ask (touching means a gap of zero).
+// A synthetic film for tests of pictures: a rod that falls on the disc, bounces in closed form, comes to rest, and
+// vibrates in one hinged–free shape with decaying amplitude. The poses are not simulated, but exact where tests need it
+// (a touching pose has a gap of zero).
 #pragma once
 
 #include <vector>
@@ -21,5 +21,6 @@ struct Synthetic {
 
 sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, double t);
 render::FilmSetup synthetic_film(const Synthetic& how = {});
+render::FilmSetup flat_film(const Synthetic& how, int width, int height);  // the same in the flat style
 
 }  // namespace beamcam::test

@@ -1,4 +1,4 @@
-// OpenGL by EGL without a surface (EGL_MESA_platform_surfaceless). gl_environment.hpp makes Mesa choose software.
+// OpenGL by EGL without a surface (EGL_MESA_platform_surfaceless). ignored_gl_settings() makes Mesa choose software.
 #define EGL_NO_X11
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

@@ -54,7 +54,7 @@ struct Band {
     int left, top, right, bottom;  // [px]
 };
 
-// A few rows of tiles each, as wide as they need: reading one back costs as much as some ten thousand pixels.
+// Bands of a few rows of tiles: reading one band has a fixed cost of about ten thousand pixels.
 std::vector<Band> bands(const DirtyTiles& tiles) {
     constexpr int kRows = 4 * DirtyTiles::kHeight;
     std::vector<Band> out;
@@ -119,7 +119,7 @@ double LitPainter::draw(const LitScene& scene, const DirtyTiles* where, Image& o
 }
 
 void LitPainter::draw_shapes(const LitScene& scene) {
-    // Shadows fall on the wall behind everything, to the lower right.
+    // Shadows fall to the lower right, on the wall behind everything.
     const Vec2 fall{7 * scene.unit, 11 * scene.unit};
     const float soft = static_cast<float>(11 * scene.unit), opacity = static_cast<float>(scene.shadow);
     for (const LitRound& r : scene.behind)

@@ -13,7 +13,7 @@ namespace beamcam::render {
 class LitPainter {
   public:
     LitPainter(int width, int height);  // in the current context
-    // What of the picture lies in these tiles; null: all of it. Returns the time that reading the pixels took [s].
+    // Draws the picture within these tiles; null: all of it. Returns the time of reading the pixels [s].
     double draw(const LitScene& scene, const DirtyTiles* where, Image& out);
 
   private:

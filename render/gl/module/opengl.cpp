@@ -21,7 +21,7 @@ GLuint compile(GLenum kind, std::initializer_list<const char*> parts) {
     if (!good) {
         std::array<char, 2048> log{};
         glGetShaderInfoLog(shader, static_cast<GLsizei>(log.size()), nullptr, log.data());
-        throw GlError(fmt::format("the OpenGL driver refused a shader ({}); {}", log.data(), kRemedy));
+        throw GlError(fmt::format("the OpenGL driver rejected a shader ({}); {}", log.data(), kRemedy));
     }
     return shader;
 }
@@ -60,7 +60,7 @@ void describe_vertices(std::initializer_list<GLint> floats) {
         glEnableVertexAttribArray(attribute);
         glVertexAttribPointer(
             attribute, count, GL_FLOAT, GL_FALSE, stride,
-            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): as OpenGL has it
+            reinterpret_cast<const void*>(offset));  // NOLINT(performance-no-int-to-ptr): required by OpenGL
         offset += sizeof(float) * static_cast<std::size_t>(count);
         ++attribute;
     }
@@ -86,7 +86,7 @@ void require_no_error() {
 }
 
 void require_target() {
-    require_no_error();  // a buffer for which there was no memory
+    require_no_error();  // reports a failed allocation
     if (const GLenum state = glCheckFramebufferStatus(GL_FRAMEBUFFER); state != GL_FRAMEBUFFER_COMPLETE)
         throw GlError(fmt::format("OpenGL cannot draw into its own memory here (0x{:x}); {}", state, kRemedy));
 }

@@ -14,7 +14,7 @@ namespace beamcam::render {
 
 inline constexpr const char* kRemedy = "choose the flat view: \"view\": {\"style\": \"flat\"}";
 
-// In software, without a surface to draw into. Each module brings one kind.
+// A software context without a surface. Each module implements one.
 class GlContext {
   public:
     GlContext() = default;
@@ -23,22 +23,22 @@ class GlContext {
     virtual ~GlContext() = default;
     virtual void make_current() = 0;  // on this thread; throws GlError
 };
-// Throws GlError where the library offers no OpenGL 3.3 core.
+// Throws GlError if the library has no OpenGL 3.3 core.
 std::unique_ptr<GlContext> make_context();
 
-// Throws GlError with the driver's words.
+// Throws GlError with the driver's message.
 GLuint link_program(std::initializer_list<const char*> vertex, std::initializer_list<const char*> fragment);
 
 void set(GLuint program, const char* uniform, float value);
 void set(GLuint program, const char* uniform, Vec2 value);
 void set(GLuint program, const char* uniform, Vec3 value);
 
-// Of the bound vertex array and buffer: attributes 0, 1 … of so many floats each, side by side.
+// Describes the bound vertex buffer: attributes 0, 1 … with these numbers of floats, interleaved.
 void describe_vertices(std::initializer_list<GLint> floats);
 
-// A frame buffer of RGBA pixels, bound. Throws as the next two.
+// Creates and binds a frame buffer of RGBA pixels. Throws as the next two.
 GLuint make_target(int width, int height);
 void require_no_error();  // throws GlError, std::bad_alloc
-void require_target();    // the bound one can be drawn into
+void require_target();    // throws unless the bound frame buffer is complete
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// What the modules beamcam_osmesa.so and beamcam_egl.so have in common: lit and solid views. See lit.hpp.
+// The common code of beamcam_osmesa.so and beamcam_egl.so: lit and solid views. See lit.hpp.
 #include <fmt/format.h>
 
 #include <memory>
@@ -14,7 +14,7 @@
 namespace beamcam::render {
 namespace {
 
-// The same for every kind of context with the same driver.
+// Equal for all kinds of context with the same driver.
 std::string driver_name() {
     const std::string_view version = reinterpret_cast<const char*>(glGetString(GL_VERSION)),
                            driver = reinterpret_cast<const char*>(glGetString(GL_RENDERER));

@@ -1,11 +1,11 @@
-// The shaders of lit and of solid views. Powers are squared out, branches are programs of their own: a software
-// renderer runs them all.
+// The shaders of lit and solid views. They use products instead of powers, and separate programs instead of branches,
+// because a software renderer executes both sides of a branch.
 #pragma once
 
 namespace beamcam::render {
 
-// Pixels with y down become clip coordinates; rows run top to bottom, and colours are painted as B, G, R, so that what
-// is read back is an Image.
+// Converts pixels with y down to clip coordinates. Rows run top to bottom and colours are written as B, G, R, so that
+// the pixels read back form an Image.
 inline constexpr const char* kRoundVertex = R"(#version 330 core
 uniform vec2 size; uniform vec2 centre; uniform float reach;
 out vec2 at;
@@ -16,8 +16,8 @@ void main() {
     gl_Position = vec4(p, 0.0, 1.0);
 })";
 
-// Shared by both lit fragment shaders. Light from the upper left, the viewer straight ahead; colours are lit linearly
-// (sRGB taken as a square). Powers are squared out: on a software renderer a power costs as much as all the rest.
+// Shared by both lit fragment shaders. The light is at the upper left, the viewer in front; lighting is computed with
+// linear colours (sRGB approximated by a square).
 inline constexpr const char* kLight = R"(
 const vec3 to_light = normalize(vec3(-0.50, 0.72, 0.85));
 const vec3 half_way = normalize(to_light + vec3(0.0, 0.0, 1.0));
@@ -31,7 +31,6 @@ vec3 lit(vec3 srgb, vec3 n, vec3 grain, float grain_strength) {
 }
 )";
 
-// Shadows are programs of their own: this renderer runs both sides of a branch.
 inline constexpr const char* kRoundShadow = R"(
 in vec2 at; out vec4 color;
 uniform float radius, hole_radius, soft, opacity; uniform vec2 hole;
@@ -101,7 +100,7 @@ void main() {
 
 // ---- solid bodies --------------------------------------------------------------------------------
 
-// Depth is linear in 1/w: nearest 0.2, farthest 3 of the eye's distance.
+// Depth is linear in 1/w; near plane at 0.2, far plane at 3 times the camera's distance.
 inline constexpr const char* kSolidVertex = R"(#version 330 core
 layout(location = 0) in vec3 place; layout(location = 1) in vec3 towards; layout(location = 2) in vec4 tint;
 uniform vec3 right, up, near; uniform vec2 size, centre; uniform float distance, zoom, reach;
@@ -112,45 +111,52 @@ void main() {
     vec2 px = vec2(dot(right, place), dot(up, place)) * zoom;
     vec2 clip = (vec2(centre.x, size.y - centre.y) * w + px) / size * 2.0 - w;
     const float far_w = 3.0, near_w = 0.2;
-    gl_Position = vec4(clip, (far_w + near_w) / (far_w - near_w) * w - 2.0 * far_w * near_w / (far_w - near_w), w);
+    gl_Position = vec4(clip.x, -clip.y, (far_w + near_w) / (far_w - near_w) * w - 2.0 * far_w * near_w / (far_w - near_w), w);
     normal = towards; paint = tint; eye_dir = near * distance - place;
     lit_at = vec3(dot(light_right, place), dot(light_up, place), -dot(light_near, place)) / reach * 0.5 + 0.5;
 })";
 
-// Shared by the wall and the bodies. A shadow is the mean of `taps` × `taps` comparisons, each filtered over two texels
-// a side, two texels apart. Comparisons cost more than all the rest of a pixel: the wall has 3 × 3, over 6 × 6 texels,
-// since long edges show every step of the map there; bodies have 2 × 2.
+// Shared by the wall and the bodies. A shadow is the mean of four comparisons at the corners of a square and of up to
+// five `more` between them, each filtered over 2 × 2 texels. Comparisons dominate the cost of a pixel: bodies have
+// four; the wall, where long edges make steps of the map visible, has nine, but only where the four differ. The number
+// of `more` is a uniform, because this renderer skips iterations of loops but executes both sides of a branch.
 inline constexpr const char* kSoftShadow = R"(
 in vec3 normal, lit_at, eye_dir; in vec4 paint; out vec4 color;
-uniform sampler2DShadow depths; uniform vec3 light_near; uniform float texel;
-float light_that_arrives(float facing, int taps) {
-    float bias = 0.0012 + 0.003 * (1.0 - clamp(facing, 0.0, 1.0)), seen = 0.0;
-    for (int y = 1 - taps; y < taps; y += 2)
-        for (int x = 1 - taps; x < taps; x += 2)
-            seen += texture(depths, vec3(lit_at.xy + vec2(x, y) * texel, lit_at.z - bias));
-    return seen / float(taps * taps);
+uniform sampler2DShadow depths; uniform vec3 light_near; uniform float texel; uniform int more_taps;
+float tap(vec2 at, float depth) { return texture(depths, vec3(lit_at.xy + at * texel, depth)); }
+float light_that_arrives(float facing, float far, int more) {
+    float depth = lit_at.z - 0.0018 - 0.0045 * (1.0 - clamp(facing, 0.0, 1.0)), taps = 4.0;
+    float seen = tap(vec2(-far, -far), depth) + tap(vec2(far, -far), depth) + tap(vec2(-far, far), depth) +
+                 tap(vec2(far, far), depth);
+    int rest = seen == 0.0 || seen == 4.0 ? 0 : more;
+    for (int i = 0; i < rest; ++i) {
+        float side = far * (2.0 * float(i & 1) - 1.0);
+        seen += tap(i < 2 ? vec2(side, 0.0) : i < 4 ? vec2(0.0, side) : vec2(0.0), depth);
+        taps += 1.0;
+    }
+    return seen / taps;
 }
 )";
 
-// A smooth normal may point away at a limb that is seen: only one that is seen from behind is turned.
-// Light from the sky above, from the floor below and from the wall behind stands for what bounces around the room.
+// Interpolated normals may point slightly away from the camera at silhouettes; only clearly reversed ones are flipped.
+// Light from above, below and behind approximates indirect light.
 inline constexpr const char* kSolidFragment = R"(
 float power_48(float x) { x *= x; x *= x; x *= x; x *= x; return x * x * x; }
 void main() {
     vec3 n = normalize(normal), eye = normalize(eye_dir);
     if (dot(n, eye) < -0.2) n = -n;
-    float facing = dot(n, light_near), seen = light_that_arrives(facing, 2);
+    float facing = dot(n, light_near), seen = light_that_arrives(facing, 1.0, 0);
     float diffuse = max(facing, 0.0) * seen, sky = 0.5 + 0.5 * n.y, front = max(n.z, 0.0);
     float spot = power_48(max(dot(n, normalize(light_near + eye)), 0.0)) * seen;
     vec3 c = paint.rgb * paint.rgb * (0.20 + 0.22 * sky + 0.16 * front + 0.72 * diffuse) + vec3(0.16 * spot);
-    color = vec4(sqrt(clamp(c, 0.0, 1.0)), 1.0);
+    color = vec4(sqrt(clamp(c, 0.0, 1.0)).bgr, 1.0);
 })";
 
-// The wall shows shadows and nothing else, fading out before the panel ends.
+// The wall shows only shadows, which fade out before the edge of the panel.
 inline constexpr const char* kWallFragment = R"(
 uniform float opacity; uniform vec2 size;
 void main() {
-    float seen = light_that_arrives(dot(normalize(normal), light_near), 3);
+    float seen = light_that_arrives(dot(normalize(normal), light_near), 2.0, more_taps);
     vec2 rim = smoothstep(0.0, 60.0, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
     color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);
 })";

@@ -9,7 +9,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr int kShadowSize = 1536;
+constexpr int kShadowSize = 1024;
 
 void set_light(GLuint program, double reach) {
     set(program, "light_near", kLightNear);
@@ -18,7 +18,7 @@ void set_light(GLuint program, double reach) {
     set(program, "reach", float(reach));
 }
 
-// Of the buffer's vertices, those from `first` until before `end`.
+// Draws the vertices from `first` to before `end`.
 void draw_triangles(std::size_t first, std::size_t end) {
     glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(end - first));
 }
@@ -79,7 +79,7 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     draw_depths(scene);
-    draw_scene(scene, part);
+    draw_scene(scene);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
     read(part, out);
@@ -88,11 +88,11 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
 
 SolidPainter::Part SolidPainter::part_of(const SolidScene& scene) const {
     const auto whole = [](double at, int most) { return static_cast<int>(std::clamp<double>(at, 0, most)); };
-    return {whole(std::floor(scene.seen.x), width_), whole(std::floor(height_ - scene.seen.bottom()), height_),
-            whole(std::ceil(scene.seen.right()), width_), whole(std::ceil(height_ - scene.seen.y), height_)};
+    return {whole(std::floor(scene.seen.x), width_), whole(std::floor(scene.seen.y), height_),
+            whole(std::ceil(scene.seen.right()), width_), whole(std::ceil(scene.seen.bottom()), height_)};
 }
 
-// What the light sees. The wall casts no shadow.
+// The shadow map. The wall casts no shadow.
 void SolidPainter::draw_depths(const SolidScene& scene) {
     glBindFramebuffer(GL_FRAMEBUFFER, shadow_target_);
     glViewport(0, 0, kShadowSize, kShadowSize);
@@ -102,19 +102,16 @@ void SolidPainter::draw_depths(const SolidScene& scene) {
     draw_triangles(scene.wall, scene.triangles.size());
 }
 
-// What the eye sees.
-void SolidPainter::draw_scene(const SolidScene& scene, const Part& part) {
+// The picture.
+void SolidPainter::draw_scene(const SolidScene& scene) {
     glBindFramebuffer(GL_FRAMEBUFFER, target_);
     glViewport(0, 0, width_, height_);
-    glEnable(GL_SCISSOR_TEST);
-    glScissor(part.left, part.low, part.right - part.left, part.high - part.low);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
-    glDisable(GL_SCISSOR_TEST);
     use_program(bodies_, scene);
     draw_triangles(scene.wall, scene.front);
     use_program(wall_, scene);
     set(wall_, "opacity", float(scene.shadow));
-    draw_triangles(0, scene.wall);  // behind them: where they hide it, it costs nothing
+    draw_triangles(0, scene.wall);  // after the bodies, so that hidden pixels are not shaded
 }
 
 void SolidPainter::use_program(GLuint program, const SolidScene& scene) {
@@ -129,22 +126,21 @@ void SolidPainter::use_program(GLuint program, const SolidScene& scene) {
     set(program, "distance", float(view.distance));
     set(program, "zoom", float(view.zoom));
     set(program, "texel", 1.0F / kShadowSize);
+    glUniform1i(glGetUniformLocation(program, "more_taps"), 5);
 }
 
-// The mean of the samples. OpenGL's first row is the lowest.
+// Resolves the samples and reads the pixels.
 void SolidPainter::read(const Part& part, Image& out) const {
     std::ranges::fill(out.pixels, 0);
-    if (part.left >= part.right || part.low >= part.high) return;
+    if (part.left >= part.right || part.top >= part.bottom) return;
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
-    glBlitFramebuffer(part.left, part.low, part.right, part.high, part.left, part.low, part.right, part.high,
+    glBlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top, part.right, part.bottom,
                       GL_COLOR_BUFFER_BIT, GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, resolved_);
     glPixelStorei(GL_PACK_ROW_LENGTH, width_);
-    const int first = height_ - part.high, rows = part.high - part.low, columns = part.right - part.left;
-    const auto row = [&](int y) { return out.pixels.begin() + std::ptrdiff_t(first + y) * width_ + part.left; };
-    glReadPixels(part.left, part.low, columns, rows, GL_BGRA, GL_UNSIGNED_BYTE, &*row(0));
-    for (int y = 0; y < rows / 2; ++y) std::swap_ranges(row(y), row(y) + columns, row(rows - 1 - y));
+    glReadPixels(part.left, part.top, part.right - part.left, part.bottom - part.top, GL_RGBA, GL_UNSIGNED_BYTE,
+                 out.pixels.data() + std::ptrdiff_t(part.top) * width_ + part.left);
 }
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// Draws solid bodies in perspective: four samples a pixel, soft shadows by a map of depths seen from the light.
+// Draws solid bodies in perspective: four samples per pixel, soft shadows by a shadow map.
 #pragma once
 
 #include "render/draw/image.hpp"
@@ -12,13 +12,13 @@ class SolidPainter {
     void draw(const SolidScene& scene, Image& out);
 
   private:
-    struct Part {  // of a frame buffer, half open [px]
-        int left = 0, low = 0, right = 0, high = 0;
+    struct Part {  // of the frame buffer, half open [px]
+        int left = 0, top = 0, right = 0, bottom = 0;
     };
     void make_shadow_target();
     Part part_of(const SolidScene& scene) const;
     void draw_depths(const SolidScene& scene);
-    void draw_scene(const SolidScene& scene, const Part& part);
+    void draw_scene(const SolidScene& scene);
     void use_program(GLuint program, const SolidScene& scene);
     void read(const Part& part, Image& out) const;
 

@@ -9,7 +9,7 @@
 #include "output/files/atomic_file.hpp"
 #include "output/files/sha256.hpp"
 #include "output/film/video_library.hpp"
-#include "render/base/threads.hpp"
+#include "render/base/limits.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {

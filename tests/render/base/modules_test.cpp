@@ -29,7 +29,7 @@ TEST_F(Modules, AreLookedForInTheInstalledPlacesOnly) {
     const auto places = module_places("/opt/x/bin/beamcam", "m.so");
     ASSERT_EQ(places.size(), 2U);
     EXPECT_TRUE(places[0].string().starts_with("/opt/x/lib")) << places[0];
-    // A program that stands somewhere else, or whose folder is unknown: what was configured.
+    // A program in another folder, or without /proc: the configured folder.
     EXPECT_EQ(module_places(folder_ / "beamcam", "m.so"), std::vector<fs::path>{places[1]});
     EXPECT_EQ(module_places(folder_ / "tests/test_x", "m.so"), std::vector<fs::path>{places[1]});
     EXPECT_EQ(module_places({}, "m.so"), std::vector<fs::path>{places[1]});
@@ -44,7 +44,7 @@ TEST_F(Modules, OfABuildFolderBelongToItsPrograms) {
 }
 
 TEST_F(Modules, OfAnotherBuildAreRefused) {
-    // A sound library without the handshake.
+    // A valid library without the entry function.
     for (const char* libm : {"/lib/x86_64-linux-gnu/libm.so.6", "/lib/aarch64-linux-gnu/libm.so.6", "/lib64/libm.so.6"})
         if (fs::exists(libm) && !fs::exists(folder_ / "m.so")) fs::copy_file(libm, folder_ / "m.so");
     if (!fs::exists(folder_ / "m.so")) GTEST_SKIP() << "no library to take for a module";

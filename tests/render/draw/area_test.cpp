@@ -87,7 +87,7 @@ TEST(Area, SumsToTheAreaWhereverAndHoweverItLies) {
         }
 }
 
-// However large, a circle's polygon is one to the eye.
+// Polygons of circles of any size deviate by less than a visible amount.
 TEST(Area, CirclesAreRound) {
     for (double radius : {0.4, 3.0, 70.0, 700.0, 9000.0}) {
         Area whole, inner;
@@ -105,7 +105,7 @@ TEST(Area, CirclesAreRound) {
     }
 }
 
-// A part of the picture shows what the whole one shows there.
+// A clipped picture has the pixels of the full picture.
 TEST(Area, KeepsToThePicture) {
     for (double angle = 0; angle < 3.2; angle += 0.23) {
         const auto area_at = [&](Vec2 by) {
@@ -157,7 +157,7 @@ TEST(Area, PaintsOverWhatIsThere) {
     EXPECT_EQ(p.pixels[0] & 0xff0000ffU, 0xff0000ffU);
 }
 
-// The tiles told are enough to take all ink away again.
+// The reported tiles contain all painted pixels.
 TEST(Area, TellsWhereItPainted) {
     for (double angle = 0; angle < 3.2; angle += 0.31) {
         Picture before(400, 300);
@@ -177,7 +177,7 @@ TEST(Area, TellsWhereItPainted) {
     }
 }
 
-// Of a fan of quadrilaterals each pixel belongs to one: additive inks tell.
+// Each pixel of a fan belongs to exactly one quadrilateral, as additive colours show.
 TEST(Quadrilaterals, LeaveNoSeamAndDoNotOverlap) {
     for (double angle = 0; angle < 6.3; angle += 0.21) {
         Picture owner(300, 300);
@@ -214,7 +214,7 @@ TEST(Quadrilaterals, LeaveNoSeamAndDoNotOverlap) {
     }
 }
 
-TEST(Quadrilaterals, KeepToThePictureAndTellTheirTiles) {
+TEST(Quadrilaterals, StayInsideThePictureAndReportTheirTiles) {
     Picture p(100, 80);
     DirtyTiles touched(100, 80);
     paint_quadrilateral({Vec2{-50, -50}, {400, -20}, {150, 300}, {-1e12, 90}}, p.view(), kBlack, &touched);

@@ -11,7 +11,7 @@
 namespace beamcam::render {
 namespace {
 
-// Cairo accepts no negative dash; from then on the context draws nothing and says so only when it is asked.
+// A negative dash is an error, after which a Cairo context draws nothing and only reports its status.
 const Pen kImpossible{rgb(0x000000), 1, {-1}};
 
 template <typename Picture>
@@ -30,7 +30,7 @@ TEST(Canvas, APictureThatCairoGaveUpIsAnError) {
     EXPECT_THROW(draw(), std::runtime_error);
 }
 
-// Where the ground is not known every text has an outline, in a film without a paper.
+// In films without paper every text has an outline.
 TEST(Canvas, TextsAreOutlinedInAColourThatIsNotTheirOwn) {
     const auto covered = [](std::optional<Color> outline, Color ink, std::optional<Color> halo) {
         Image image(80, 40);

@@ -1,4 +1,4 @@
-// Shapes painted through what their path covered in the picture before.
+// Shapes painted from the cached coverage of the previous picture.
 #include "render/draw/coverage_cache.hpp"
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@ Image ground() {
     return image;
 }
 
-// Some of it opaque, some not, some beyond the picture; `age` fades what stays in its place.
+// Opaque and translucent shapes, some partly outside the picture; `age` fades the shapes that stay in place.
 void draw_shapes(Canvas& canvas, double age) {
     const Color blue = rgb(0x1F5FA8), red = rgb(0xD55E00);
     for (const Color& color : {blue, red.faded(0.7 * age)}) {
@@ -55,7 +55,7 @@ TEST(CoverageCache, PaintWhatCairoPaints) {
         EXPECT_EQ(picture(&coverage_cache, touched, age), picture(nullptr, touched, age)) << age;
 }
 
-// Each is a little different: nothing of the others may be used.
+// Slightly different shapes, which must not share coverage.
 TEST(CoverageCache, TellShapesApart) {
     CoverageCache coverage_cache;
     for (int round = 0; round < 3; ++round) {

@@ -1,4 +1,4 @@
-// Where the runs of a label stand, in letters as wide as half their size.
+// Positions of the runs of a label, for letters half as wide as their size.
 #include "render/draw/label.hpp"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,7 @@ TEST(Label, ScriptsStandBehindTheirBase) {
     EXPECT_DOUBLE_EQ(set("1^{22}", 9).runs[1].size, 9);  // no letter is smaller
 }
 
-// Above each other and further apart than one alone; the wider one counts.
+// Both scripts start at the same place, further from the baseline than one alone; the wider one determines the width.
 TEST(Label, ScriptsOfOneBaseStandAboveEachOther) {
     for (const char* markup : {"1_{2}^{33}", "1^{33}_{2}"}) {
         const SetLabel label = set(markup);
@@ -45,7 +45,7 @@ TEST(Label, ScriptsOfOneBaseStandAboveEachOther) {
         EXPECT_DOUBLE_EQ(std::max(label.runs[1].y, label.runs[2].y), 2.4);
         EXPECT_DOUBLE_EQ(label.width, 5 + 7.2);
     }
-    // A superscript of two runs, one of them italic, keeps to one height, and what follows to the end of both.
+    // A superscript of two runs, one italic, has one height; the next run starts after both.
     const SetLabel mixed = set("$2^{n+1}_3$4");
     ASSERT_EQ(mixed.runs.size(), 5u);
     EXPECT_DOUBLE_EQ(mixed.runs[1].y, -4.2);
@@ -55,7 +55,7 @@ TEST(Label, ScriptsOfOneBaseStandAboveEachOther) {
     EXPECT_DOUBLE_EQ(mixed.runs[4].x, 5 + 3 * 3.6);
 }
 
-// An upright superscript, before or behind a subscript.
+// An upright superscript, before or after a subscript.
 TEST(Label, SuperscriptsLeanAwayFromItalicLetters) {
     EXPECT_DOUBLE_EQ(set("$x^2$").runs[1].x, 5 + 0.8);
     EXPECT_DOUBLE_EQ(set("$x^2_1$").runs[1].x, 5 + 0.8);
@@ -65,7 +65,7 @@ TEST(Label, SuperscriptsLeanAwayFromItalicLetters) {
     EXPECT_DOUBLE_EQ(set("$x$)").runs[1].x, 5 + 0.3);
 }
 
-// As wide as the wider of its parts and a gap on either side; the line lies between them.
+// The width is that of the wider part plus a gap on either side; the line is between the parts.
 TEST(Label, FractionsHaveALineBetweenTheirParts) {
     const SetLabel label = set("$\\frac{1}{234}$");
     ASSERT_EQ(label.runs.size(), 2u);
@@ -88,7 +88,7 @@ TEST(Label, RootsCoverWhatIsInside) {
     EXPECT_NEAR(sign.back().y, -inside.ascent - 0.9, 1e-12);
     EXPECT_NEAR(sign[2].y, inside.descent, 1e-12);
     EXPECT_GT(label.ascent, -sign.back().y);
-    // Behind a fraction it begins further on: their lines do not touch.
+    // After a fraction there is space, so that the lines do not touch.
     EXPECT_NEAR(set("$\\frac{1}{2}\\sqrt{3}$").width, inside.width + set("$\\sqrt{3}$").width + 0.9, 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// Where the camera looks, in closed form, and that what it leaves out does not show.
+// The moving camera against closed forms; parts outside its view are not drawn.
 #include "render/film/camera.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,7 @@ TEST(Camera, WhatItFollowsStandsInTheMiddle) {
     }
 }
 
-// A symmetric mean leaves a steady motion where it is, and takes out what vibrates within a third of a second.
+// A symmetric mean preserves uniform motion and removes vibration with periods below a third of a second.
 TEST(Camera, FollowsTheMeanOfWhatVibrates) {
     std::vector<Followed> all;
     for (int k = 0; k < 120; ++k) all.push_back({{0.01 * k, k % 2 == 0 ? 0.1 : -0.1}, {}, {}});
@@ -84,24 +84,17 @@ FilmSetup film_of(Style style) {
     return setup;
 }
 
-// Beside the mechanism's panel nothing changes, and nothing of the panel is drawn beyond it.
+// Drawing does not extend beyond the mechanism's panel.
 void keeps_to_its_panel(Style style) {
     FilmSetup near = film_of(style);
     near.view.shot = {.zoom = 6, .follow = {Anchor::Kind::contact, {}}};
     Film whole(film_of(style)), film(near);
     const Box box = film.geometry(12).layout.first(PanelKind::mechanism)->box;
     const Image a = drawn(whole, 12), b = drawn(film, 12);
-    long inside = 0, outside = 0;
-    for (int y = 0; y < a.height; ++y)
-        for (int x = 0; x < a.width; ++x) {
-            const auto at =
-                static_cast<std::size_t>(y) * static_cast<std::size_t>(a.width) + static_cast<std::size_t>(x);
-            if (a.pixels[at] == b.pixels[at]) continue;
-            ++(x >= box.x && x < box.right() && y >= box.y && y < box.bottom() ? inside : outside);
-        }
+    const long inside = differing_pixels(a, b, box);
     EXPECT_GT(inside, 10'000);
-    EXPECT_EQ(outside, 0);
-    Film fresh = film.another();
+    EXPECT_EQ(differing_pixels(a, b, {0, 0, double(a.width), double(a.height)}), inside);
+    Film fresh = film.for_thread();
     EXPECT_EQ(drawn(fresh, 12), b);
 }
 TEST(Camera, KeepsToItsPanel) { keeps_to_its_panel(Style::flat); }
@@ -135,7 +128,7 @@ TEST(Camera, AFilmWhoseCameraMovesDoesNotStandStill) {
 
 // ---- several exposures in one picture ----------------------------------------------------------
 
-// Equal exposures are one; the mean of different ones lies between them, and words are not blurred.
+// The mean of equal exposures equals one of them; that of different ones is between them; text is not blurred.
 TEST(Exposures, TheMeanOfEqualOnesIsTheSharpPicture) {
     FilmSetup sharp = film_of(Style::flat), blurred = sharp;
     blurred.poses.clear();
@@ -166,11 +159,9 @@ TEST(Exposures, TheStrobeShowsWhereTheBeamWas) {
     EXPECT_NE(drawn(film, 14), drawn(without, 14));
 }
 
-// Labels have places by the whole mechanism; near, they would stand outside the view.
+// Labels are placed for the full view; for a near camera those places would be outside the view.
 TEST(Camera, LabelsOfWhatItSeesStandWithinTheView) {
-    FilmSetup setup = test::synthetic_film({.duration = 1});
-    setup.width = 960, setup.height = 540;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 1}, 960, 540);
     setup.layout = LayoutNode{};
     setup.view.shot = {.zoom = 5, .follow = {Anchor::Kind::contact, {}}};
     Film film(std::move(setup));
@@ -188,7 +179,7 @@ TEST(Camera, LabelsOfWhatItSeesStandWithinTheView) {
     EXPECT_GT(labels, 0);
 }
 
-// However near the camera is: no line across the picture leads to a label that the zoom has moved away.
+// At any zoom labels stay near their owners, without long leader lines.
 TEST(Camera, TheForceIsWrittenAsNearToItsArrow) {
     FilmSetup setup = test::synthetic_film({.duration = 2});
     setup.impacts.clear();  // whose peaks would be held where they were

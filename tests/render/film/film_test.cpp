@@ -20,7 +20,7 @@
 namespace beamcam::render {
 namespace {
 
-// An environment variable for the length of a test.
+// Sets an environment variable during a test.
 class Variable {
   public:
     Variable(const char* name, const char* value) : name_(name) { setenv(name, value, 1); }
@@ -43,7 +43,7 @@ void same_pixels_in_any_order(Style style) {
     std::vector<Image> forward;
     for (int k : frames) forward.push_back(drawn(film, k));
     for (int i = 4; i >= 0; --i) EXPECT_EQ(drawn(film, frames[i]), forward[std::size_t(i)]) << frames[i];
-    Film fresh = film.another();
+    Film fresh = film.for_thread();
     EXPECT_EQ(drawn(fresh, 30), forward[3]);
     EXPECT_NE(forward[0], forward[1]);
 }
@@ -59,7 +59,7 @@ void same_pixels_on_threads(Style style) {
     std::vector<Image> one(12), two(12);
     for (int k = 0; k < 12; ++k) film.draw(k * 4, one[std::size_t(k)]);
     const auto half = [&](int start) {
-        Film own = film.another();
+        Film own = film.for_thread();
         for (int k = start; k < 12; k += 2) own.draw(k * 4, two[std::size_t(k)]);
     };
     std::thread other(half, 1);
@@ -196,7 +196,7 @@ TEST(Mechanism, MarkOfTheDiscStandsAtTheCamAngle) {
     }
 }
 
-// The section stands beside the radius along which it leaves the hub; no wedge opens between the two.
+// The section is placed beside the radius along which it leaves the hub, without a wedge between them.
 TEST(Mechanism, TheBeamsRootIsWithinItsHub) {
     for (const double radius : {0.0, 0.03, 0.1, 0.3}) {
         FilmSetup film = test::synthetic_film({.duration = 0.1, .cam = false});
@@ -216,7 +216,7 @@ TEST(Mechanism, TheBeamsRootIsWithinItsHub) {
     }
 }
 
-// Small pictures: hub and support in proportion to the beam, but never too small to read.
+// In small pictures hub and support are in proportion to the beam, down to a readable minimum.
 TEST(Mechanism, HubAndSupportShrinkWithTheBeam) {
     const sim::Problem problem;
     EXPECT_EQ(mark_unit(problem, {900, {}}, 1), 1);
@@ -234,7 +234,7 @@ TEST(Mechanism, HubAndSupportShrinkWithTheBeam) {
     EXPECT_LT(support_reach(hub, mark_unit(filmed, g.camera, g.layout.unit)), 0.25 * g.camera.scale);
 }
 
-// The colour in the middle of the drawn section is the moment's, and beyond the face it is not.
+// The centre of the drawn section has the colour of the moment; a point outside the face has not.
 TEST(Film, FlatBeamIsDrawnWhereItsGeometrySays) {
     FilmSetup setup = small_film(Style::flat);
     const Palette& p = palette(setup.view.theme);
@@ -291,14 +291,14 @@ TEST(LitFilm, ShapesKeepClearOfTheGround) {
 TEST(Trace, KeepsTheLargestForceOfEachPlaceWhateverTheOrder) {
     const std::vector<TraceSample> samples{{0, 0.5, 0.1, 3}, {1, 0.5, 0.1, 2}, {2, 0.9, 6.2, 7}, {3, 0.5, 0.1, 5}};
     Trace trace(samples, 2 * M_PI, 100, 1, 10);
-    trace.show_until(1.5);
+    trace.advance_to(1.5);
     EXPECT_EQ(trace.beam()[5], 3);
     EXPECT_EQ(trace.rim()[1], 3);
     EXPECT_EQ(trace.rim()[98], 0);
-    trace.show_until(3);
+    trace.advance_to(3);
     EXPECT_EQ(trace.beam()[5], 5);
     EXPECT_EQ(trace.rim()[98], 7);
-    trace.show_until(0);
+    trace.advance_to(0);
     EXPECT_EQ(trace.beam()[5], 3);
     EXPECT_EQ(trace.beam()[9], 0);
 }
@@ -319,7 +319,7 @@ TEST(Fonts, ChineseIsRecognized) {
         EXPECT_FALSE(needs_cjk(words)) << words;
 }
 
-// System settings that would replace every font: pixels must not care.
+// System settings that would replace every font do not change pixels.
 TEST(Fonts, SystemSettingsDoNotInfluencePixels) {
     Film plain(small_film(Style::flat, {.duration = 0.1}));
     const Image expected = drawn(plain, 2);
@@ -328,7 +328,7 @@ TEST(Fonts, SystemSettingsDoNotInfluencePixels) {
     EXPECT_EQ(drawn(other, 2), expected);
 }
 
-// Pango sorts fonts in threads of its own, which may still be at it when a picture is done.
+// Pango sorts fonts in its own threads, which may still run when a picture is complete.
 TEST(Fonts, ComeAndGoOnManyThreads) {
     constexpr int kThreads = 4, kTimes = 50;
     std::array<Image, kThreads> pictures;

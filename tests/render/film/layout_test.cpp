@@ -85,13 +85,13 @@ INSTANTIATE_TEST_SUITE_P(Sizes, AnySize,
 TEST(Layout, LettersAtAxesHaveAFiftiethOfTheHeight) {
     for (const auto& [w, h] : {std::pair{1280, 720}, {1920, 1080}, {2560, 1440}, {3840, 2160}, {854, 480}, {640, 360}})
         EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * h) << w << "x" << h;
-    // In pictures that are no wider than high, of the width.
+    // In square and portrait pictures, of the width.
     for (const auto& [w, h] : {std::pair{1080, 1920}, {1080, 1080}, {720, 1280}})
         EXPECT_GE(layout(w, h, std::vector<PanelSpec>{}).tick, 0.02 * w) << w << "x" << h;
     const Layout usual = layout(1920, 1080, std::vector<PanelSpec>{}),
                  large = layout(1920, 1080, std::vector<PanelSpec>{}, 1, {}, {.size = 1.3});
     EXPECT_NEAR(large.tick, 1.3 * usual.tick, 1e-9);
-    // They take their room from the plot, not from each other.
+    // Larger labels shrink the plot and do not overlap.
     const Box box{0, 0, 600, 300};
     EXPECT_LT(plot_area(box, 1, 22).w, plot_area(box, 1, 17).w);
     EXPECT_LT(plot_area(box, 1, 22).bottom(), plot_area(box, 1, 17).bottom());
@@ -120,7 +120,7 @@ TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {
     EXPECT_NE(clock_text(slow, 0.01, 1), clock_text(slow, 0.01001, 1));
 }
 
-// Freezes at round times make steps of rounding, and one odd step each.
+// Freezes at round times cause steps of rounding size, and one irregular step each.
 TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
     std::vector<double> times;
     for (int k = 0; k < 30; ++k) {
@@ -153,21 +153,21 @@ TEST(Labels, LargeNumbersArePowersOfTen) {
     EXPECT_EQ(power_text(3e-10), "3·10<sup>−10</sup>");
 }
 
-// What of a wanted grid finds no room is told, so that it can be said.
+// Panels of a grid without space are reported.
 TEST(Layout, PanelsWithoutRoomAreNamed) {
     using Kind = LayoutNode::Kind;
     LayoutNode side{.kind = Kind::rows};
     for (const PanelSpec& panel : kAll) side.children.push_back({.panel = panel});
     const LayoutNode grid{.kind = Kind::columns, .children = {{.panel = {.kind = PanelKind::mechanism}}, side}};
     EXPECT_EQ(panels_of(grid).size(), 4u);
-    EXPECT_TRUE(left_out(1920, 1080, grid).empty());
-    EXPECT_EQ(left_out(640, 300, grid), (std::vector<PanelSpec>{{.kind = PanelKind::close_up}}));
-    EXPECT_EQ(left_out(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
+    EXPECT_TRUE(omitted_panels(1920, 1080, grid).empty());
+    EXPECT_EQ(omitted_panels(640, 300, grid), (std::vector<PanelSpec>{{.kind = PanelKind::close_up}}));
+    EXPECT_EQ(omitted_panels(100, 100, grid).size() + layout(100, 100, grid).panels.size(), 4u);
 }
 
-// ---- the standard arrangement follows what is to be seen ---------------------------------------
+// ---- the standard layout follows the extent ----------------------------------------------------
 
-// The reach of a beam that swings between two angles, and of the paper's cam.
+// Extent of a beam that swings between two angles, and of the paper's cam.
 ViewExtent swinging(const sim::Problem& problem, double from, double to) {
     ViewExtent extent;
     extent.problems = {&problem};
@@ -185,7 +185,7 @@ struct Extents {
     }
 };
 
-// 200 sizes, the same in every run.
+// 200 sizes from a fixed seed.
 std::vector<Size> many_sizes() {
     std::vector<Size> out;
     std::uint64_t state = 88172645463325252;
@@ -236,7 +236,7 @@ TEST(Layout, NoOtherArrangementShowsTheMechanismLarger) {
     EXPECT_GT(below, 100);
 }
 
-// Charts take room that a mechanism leaves, and never any that it needs.
+// Charts get the space that the mechanism does not need, and no more.
 TEST(Layout, WideChartsCostTheMechanismNothing) {
     const Extents extents;
     const Layout upright = layout(1920, 1080, kAll, 1, extents.all[1]),
@@ -263,7 +263,7 @@ TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
         for (const Box& box : all) EXPECT_TRUE(box.w == all[0].w && box.h == all[0].h);
 }
 
-// What stands in the line of parameters can be told before there is a motion.
+// The box of the parameters does not depend on the motion.
 TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
     const Extents extents;
     for (const auto [w, h] : many_sizes())
@@ -271,7 +271,7 @@ TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
             EXPECT_EQ(layout(w, h, kAll, 1, extent).parameters, layout(w, h, kAll).parameters) << w << "x" << h;
 }
 
-// The arrow of the largest force, too, stands in the mechanism's box.
+// The arrow of the largest force is inside the mechanism's box.
 TEST(ViewExtent, ArrowsOfForceAreSeen) {
     FilmSetup setup = test::synthetic_film({.duration = 1.5});
     setup.problem.cam->radius *= 0.3, setup.problem.cam->eccentricity *= 0.3;

@@ -1,5 +1,5 @@
-// Films of every panel, of several motions, and in perspective: the same pixels in any order of frames and on any
-// number of threads, text apart from text.
+// Films with every panel, several motions and perspective: pixels do not depend on the order of frames or the number of
+// threads, and texts do not overlap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -27,11 +27,9 @@ LayoutNode grid(LayoutNode::Kind kind, std::vector<LayoutNode> children, double 
 }
 PanelSpec strip(ChannelKind kind) { return {.kind = PanelKind::strip, .channels = {{kind, 0}}}; }
 
-// Every kind of panel at once.
+// All kinds of panels at once.
 FilmSetup everything() {
-    FilmSetup setup = test::synthetic_film({.duration = 0.8});
-    setup.width = 1920, setup.height = 1080;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.8}, 1920, 1080);
     setup.view.tip_path = true;
     setup.view.trace = TraceColor::age;
     setup.chart.channels.push_back({ChannelKind::theta_dot, 0});
@@ -75,7 +73,7 @@ void same_in_any_order(FilmSetup setup) {
     const int frames[] = {0, 7, 20, 21, 33, 47};
     std::vector<Image> forward;
     for (int k : frames) forward.push_back(drawn(film, k));
-    Film fresh = film.another();
+    Film fresh = film.for_thread();
     for (int i = 5; i >= 0; --i) EXPECT_EQ(drawn(fresh, frames[i]), forward[std::size_t(i)]) << frames[i];
     for (int i = 1; i < 6; ++i) EXPECT_NE(forward[std::size_t(i)], forward[std::size_t(i) - 1]) << frames[i];
 }
@@ -93,7 +91,7 @@ TEST(SolidFilm, SamePixelsInAnyOrder) {
     same_in_any_order(std::move(setup));
 }
 
-// While time stands still so does the picture, whatever it is made of, but for the ring of an impact.
+// While time is frozen nothing changes in any panel, except the ring of an impact.
 void stands_still(FilmSetup setup) {
     for (std::size_t k = 21; k < 47; ++k) {
         setup.poses[k] = setup.poses[20];
@@ -113,7 +111,7 @@ void stands_still(FilmSetup setup) {
     EXPECT_FALSE(film.repeats(46));  // the words are gone
 }
 
-// A line and points over the charts, and a straight beam.
+// Measured data as a line, as points and as a straight beam.
 FilmSetup with_data() {
     FilmSetup setup = everything();
     FilmData rig, other;
@@ -128,20 +126,10 @@ FilmSetup with_data() {
 TEST(FilmData, HaveTheSamePixelsInAnyOrder) { same_in_any_order(with_data()); }
 TEST(FilmData, AreDrawnWhereTheyHaveValues) {
     Film without(everything()), with(with_data());
-    const auto changed = [&](int frame, const Box& where) {
-        const Image a = drawn(without, frame), b = drawn(with, frame);
-        long count = 0;
-        for (int y = static_cast<int>(where.y); y < static_cast<int>(where.bottom()); ++y)
-            for (int x = static_cast<int>(where.x); x < static_cast<int>(where.right()); ++x)
-                count += a.pixels[std::size_t(y) * std::size_t(a.width) + std::size_t(x)] !=
-                         b.pixels[std::size_t(y) * std::size_t(b.width) + std::size_t(x)];
-        return count;
-    };
     const FrameGeometry geometry = with.geometry(12);
     const Vec2 tip = geometry.camera.to_pixels(sim::unit(0.55) * 1.0);
     const Box at_tip = Box{tip.x, tip.y, 0, 0}.inset(-20);
-    EXPECT_GT(changed(12, at_tip), 30);
-    EXPECT_NE(drawn(without, 12), drawn(with, 12));
+    EXPECT_GT(differing_pixels(drawn(without, 12), drawn(with, 12), at_tip), 30);
 }
 
 TEST(Panels, StandStillWhileTimeDoes) { stands_still(everything()); }
@@ -171,11 +159,9 @@ TEST(Layers, LieOverEachOtherAsIfTheyWereOne) {
     EXPECT_GT(of_other, 1000);
 }
 
-// A contact that lasts less than two frames: its largest force is seen as long as its ring, 0.4 s.
+// A contact shorter than two frames shows its peak force as long as its ring, 0.4 s.
 TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
-    FilmSetup setup = test::synthetic_film({.duration = 1.2});
-    setup.width = 640, setup.height = 360;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
     sim::Impact impact;
     impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
     setup.impacts = {impact};
@@ -188,11 +174,9 @@ TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
     EXPECT_EQ(drawn(brief, gone + 1), drawn(longer, gone + 1));
 }
 
-// One that begins within the same frame and lasts is seen with its own force, which may be smaller.
+// A longer contact that begins in the same frame shows its own force, which may be smaller.
 TEST(Peaks, GiveWayToAContactThatLasts) {
-    FilmSetup setup = test::synthetic_film({.duration = 1.2});
-    setup.width = 640, setup.height = 360;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
     setup.layout = LayoutNode{};
     sim::Impact brief, lasting;
     brief.t_start = 0.301, brief.t_end = 0.302, brief.force_peak = 100;
@@ -208,11 +192,9 @@ TEST(Peaks, GiveWayToAContactThatLasts) {
     EXPECT_NE(drawn(held, touch + 6), drawn(alone, touch + 6));
 }
 
-// What leads from a caption to the contact goes beside the disc, not over it.
+// The leader line from a caption to the contact does not cross the disc.
 TEST(Captions, LeadToTheContactBesideTheDisc) {
-    FilmSetup setup = test::synthetic_film({.duration = 0.8});
-    setup.width = 1280, setup.height = 720;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.8}, 1280, 720);
     setup.layout = LayoutNode{};
     Film without(setup);
     setup.callouts = {{0, 47, "touching"}};
@@ -260,7 +242,7 @@ TEST(Captions, FadeAndKeepInsideWhereverTheyAreAnchored) {
     }
 }
 
-// Ink of texts that one film has and another has not.
+// Text boxes of one film that another does not have.
 std::vector<Box> added_texts(Film& film, Film& without, int frame) {
     const std::vector<Box> before = without.geometry(frame).texts;
     std::vector<Box> texts = film.geometry(frame).texts;
@@ -284,7 +266,7 @@ TEST(Captions, KeepTheirPlacesWhileOthersComeAndGo) {
     EXPECT_FALSE(both[0].overlaps(both[1]));
 }
 
-// Where the picture leaves no room for all, the latest is shown.
+// Without space for all captions the latest is shown.
 TEST(Captions, TheLatestHasRoomInAnyCase) {
     FilmSetup setup = everything();
     setup.callouts.clear();
@@ -300,7 +282,7 @@ TEST(Captions, TheLatestHasRoomInAnyCase) {
     EXPECT_EQ(texts.back().w, added_texts(last, plain, 40).front().w);
 }
 
-// In a narrow mechanism the plate stands below the cam's speed, across the way to the contact.
+// In a narrow panel the caption is below the label of the cam's speed, which its leader line has to avoid.
 TEST(Captions, LinesToTheContactPassTheLabels) {
     FilmSetup setup = compared(Comparison::panels);
     Film plain(setup);
@@ -308,15 +290,7 @@ TEST(Captions, LinesToTheContactPassTheLabels) {
     Film film(setup);
     const int touch = 18;
     const Image before = drawn(plain, touch), now = drawn(film, touch);
-    const auto differ = [&](const Box& box) {
-        long count = 0;
-        for (int y = int(box.y); y < int(box.bottom()); ++y)
-            for (int x = int(box.x); x < int(box.right()); ++x) {
-                const std::size_t i = std::size_t(y) * std::size_t(now.width) + std::size_t(x);
-                count += before.pixels[i] != now.pixels[i];
-            }
-        return count;
-    };
+    const auto differ = [&](const Box& box) { return differing_pixels(before, now, box); };
     const FrameGeometry g = plain.geometry(touch);
     ASSERT_GE(g.labels.size(), 2U);
     for (const Box& label : g.labels) EXPECT_EQ(differ(label), 0) << label.x << ", " << label.y;
@@ -324,7 +298,7 @@ TEST(Captions, LinesToTheContactPassTheLabels) {
     EXPECT_GT(differ({contact.x - 4, contact.y - 4, 8, 8}), 0);  // the line is there
 }
 
-// ---- plates --------------------------------------------------------------------------------------
+// ---- visible parts -------------------------------------------------------------------------------
 
 TEST(Plates, OwnColoursReplaceTheThemesAndLeaveTheOthers) {
     const Palette& theme = palette(Theme::light);
@@ -370,7 +344,7 @@ TEST(Plates, ALogoStandsBesideTheClockClearOfWords) {
         }
 }
 
-// ---- where the motion is not reproducible ------------------------------------------------------
+// ---- intervals that are not reproducible -------------------------------------------------------
 
 TEST(Unreliable, CurvesArePalerWithinTheIntervals) {
     FilmSetup setup = everything();
@@ -403,7 +377,7 @@ TEST(Films, InChineseHaveNoLetterBoxes) {
     EXPECT_FALSE(film.geometry(20).texts.empty());
 }
 
-// ---- only what moved is drawn ------------------------------------------------------------------
+// ---- only changed parts are redrawn ------------------------------------------------------------
 
 long pixels_in(const DirtyTiles& tiles) {
     long count = 0;
@@ -411,7 +385,7 @@ long pixels_in(const DirtyTiles& tiles) {
     return count;
 }
 
-// Pixels outside of the tiles that are not the same.
+// Number of changed pixels outside of the tiles.
 long changed_elsewhere(const Image& before, const Image& now, const DirtyTiles& tiles) {
     Image patched = before;
     copy(now, patched, tiles);
@@ -420,9 +394,9 @@ long changed_elsewhere(const Image& before, const Image& now, const DirtyTiles& 
     return count;
 }
 
-// The frames in this order, each against a film that has drawn nothing before.
+// Draws the frames in this order and compares each with a fresh film.
 void as_if_all_were_drawn(const Film& film, const std::vector<int>& frames, double most_of_the_picture) {
-    Film in_order = film.another();
+    Film in_order = film.for_thread();
     Image before;
     double share = 0;
     for (int k : frames) {
@@ -432,7 +406,7 @@ void as_if_all_were_drawn(const Film& film, const std::vector<int>& frames, doub
             share += double(pixels_in(in_order.changed())) / double(now.pixels.size() * (frames.size() - 1));
         }
         before = now;
-        Film fresh = film.another();
+        Film fresh = film.for_thread();
         EXPECT_EQ(fresh.draw(k), now) << "frame " << k;
     }
     EXPECT_LT(share, most_of_the_picture);
@@ -472,9 +446,7 @@ TEST(MovingParts, TransparentTinyAndOddPicturesAreDrawnAsIfAllWere) {
     }
 }
 TEST(MovingParts, AStandardFilmRedrawsAThirdAtMost) {
-    FilmSetup setup = test::synthetic_film({.duration = 0.8});
-    setup.width = 1920, setup.height = 1080;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.8}, 1920, 1080);
     as_if_all_were_drawn(Film(std::move(setup)), kForward, 0.33);
 }
 void gl_films_are_drawn_as_if_all_were(Style style) {
@@ -549,9 +521,7 @@ TEST(Panels, MotionsAtOtherInstantsAreRefused) {
 }
 
 TEST(Panels, ATransparentFilmHasNoPaper) {
-    FilmSetup setup = test::synthetic_film({.duration = 0.2});
-    setup.width = 960, setup.height = 540;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.2}, 960, 540);
     setup.view.transparent = true;
     Film film(std::move(setup));
     const Image image = drawn(film, 3);
@@ -569,12 +539,10 @@ TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
     EXPECT_EQ(palette(Theme::dark).without_paper().ink.g, palette(Theme::dark).ink.g);
 }
 
-// Paper around letters would be a patch on whatever the picture is laid upon.
+// Opaque paper around letters would be visible on any background.
 TEST(Panels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
     const auto of_paper = [](bool transparent) {
-        FilmSetup setup = test::synthetic_film({.duration = 0.7});
-        setup.width = 960, setup.height = 540;
-        setup.view.style = Style::flat;
+        FilmSetup setup = test::flat_film({.duration = 0.7}, 960, 540);
         setup.view.transparent = transparent;
         setup.layout = leaf({.kind = PanelKind::mechanism});
         const Color paper = palette(setup.view.theme).paper;
@@ -590,9 +558,7 @@ TEST(Panels, TextsOfATransparentFilmHaveNoPaperAroundThem) {
 
 TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
     const auto ledger = [](double nothing) {
-        FilmSetup setup = test::synthetic_film({.duration = 0.3, .cam = false});
-        setup.width = 960, setup.height = 540;
-        setup.view.style = Style::flat;
+        FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 960, 540);
         const std::size_t rows = setup.chart.values[0].size();
         for (const auto& [kind, value] : {std::pair{ChannelKind::energy_kinetic, 1.0},
                                           {ChannelKind::loss_structural, 2.0},
@@ -609,12 +575,10 @@ TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
     EXPECT_EQ(empty.pixels, zero.pixels);
 }
 
-// Rows of the chart are coarser than an impact: its peak is told all the same, whatever else the chart shows.
+// Rows of the chart are coarser than an impact: the curve shows its peak nevertheless.
 TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
     const auto highest = [](double end) {
-        FilmSetup setup = test::synthetic_film({.duration = 0.1});
-        setup.width = 1280, setup.height = 720;
-        setup.view.style = Style::flat;
+        FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
         setup.impacts.clear();
         for (auto& column : setup.trace.values) column.clear();
         setup.chart.values.assign(setup.chart.channels.size(), {});
@@ -652,12 +616,10 @@ TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
     EXPECT_GT(highest(0.5), 0.6);
 }
 
-// One impact at 50 ms, whose force rises and falls as a sine, and a picture at each of these instants.
+// One impact at 50 ms with a half-sine force, and pictures at these instants.
 FilmSetup struck(const PanelSpec& spec, const std::vector<double>& instants) {
     constexpr double kTouch = 0.05, kRelease = 0.0504, kPeak = 100, kStep = 2e-5;
-    FilmSetup setup = test::synthetic_film({.duration = 0.1});
-    setup.width = 1280, setup.height = 720;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
     for (auto& column : setup.trace.values) column.clear();
     setup.chart.channels = {{ChannelKind::t, 0}, {ChannelKind::contact_force, 0}};
     setup.chart.values.assign(2, {});
@@ -681,7 +643,7 @@ FilmSetup struck(const PanelSpec& spec, const std::vector<double>& instants) {
     return setup;
 }
 
-// The highest ink of what has been, of the plot's height.
+// Height of the past part of the curve, relative to the plot.
 double highest_past(Film& film, int frame) {
     const FrameGeometry g = film.geometry(frame);
     const double u = g.layout.unit;
@@ -699,7 +661,7 @@ double highest_past(Film& film, int frame) {
     return 0;
 }
 
-// Before the first touch there is no scale of forces to be shown: neither numbers nor levels.
+// Before the first touch the axis of force has neither numbers nor levels.
 TEST(ForceStrip, WithoutContactHasNoInventedAxis) {
     const auto texts_left_of_plot = [](double duration) {
         FilmSetup setup = test::synthetic_film({.duration = duration});
@@ -721,7 +683,7 @@ TEST(ForceStrip, DrawsNothingAfterTheInstantAsPast) {
     by_collision.by_collision = true;
     moving.window = 0.02;
     for (const PanelSpec& spec : {strip(ChannelKind::contact_force), by_collision, moving}) {
-        // At the touch, and soon after it, when the force has come to 16 N of its 100 N.
+        // At the touch, and shortly after it at 16 N of 100 N.
         Film film(struck(spec, {0.05, 0.05002, 0.0505}));
         EXPECT_LT(highest_past(film, 0), 0.05);
         EXPECT_LT(highest_past(film, 1), 0.25);
@@ -730,7 +692,7 @@ TEST(ForceStrip, DrawsNothingAfterTheInstantAsPast) {
 }
 
 // Small forces on the axis of large ones: the reading is the label's "400 mN", not the axis's "0".
-TEST(ForceStrip, TellsTheForceAsItsLabelDoes) {
+TEST(ForceStrip, ReadsTheForceWithThePrefixOfItsLabel) {
     const auto reading_width = [](double force) {
         FilmSetup setup = struck(strip(ChannelKind::contact_force), {0.04});
         setup.poses[0].nearest->force = force;
@@ -746,12 +708,10 @@ TEST(ForceStrip, TellsTheForceAsItsLabelDoes) {
     EXPECT_GT(reading_width(0.4), 1.8 * reading_width(0));
 }
 
-// A contact that lasts beyond the first tenth of a second, which a strip of collisions shows, when the picture begins.
+// A lasting contact that began more than a tenth of a second before the picture.
 TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
     for (const int frames : {1, 30}) {
-        FilmSetup setup = test::synthetic_film({.duration = 2});
-        setup.width = 1280, setup.height = 720;
-        setup.view.style = Style::flat;
+        FilmSetup setup = test::flat_film({.duration = 2}, 1280, 720);
         setup.poses.erase(setup.poses.begin(), setup.poses.end() - frames);
         if (frames > 1)  // charts begin with the film
             for (auto& column : setup.chart.values) column.erase(column.begin(), column.begin() + 1500);
@@ -765,22 +725,20 @@ TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
         Film film(std::move(setup));
         const FrameGeometry g = film.geometry(frames - 1);
         const Box box = g.layout.first(PanelKind::strip)->box;
-        // The reading stands at the right end of the heading's line while the cursor is within the axes.
+        // The reading is at the right end of the heading's line while the cursor is inside the axes.
         EXPECT_TRUE(std::ranges::any_of(g.texts, [&](const Box& text) {
             return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
         })) << frames;
     }
 }
 
-// Twice the force, twice the arrow; in the mechanism and in the close-up.
+// Arrows are proportional to the force, in the mechanism and in the close-up.
 TEST(ForceArrows, AreInProportionToTheForce) {
     for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
-        FilmSetup setup = test::synthetic_film({.duration = 0.1});
-        setup.width = 1280, setup.height = 1280;
-        setup.view.style = Style::flat;
+        FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 1280);
         setup.impacts.clear();
         for (auto& column : setup.trace.values) column.clear();
-        // The same pose with three forces: the first gives the scale, of the second and third the arrows are compared.
+        // The same pose with three forces: the first sets the scale, the arrows of the others are compared.
         sim::Pose pose = test::synthetic_pose(setup.problem, {}, 1.99);
         pose.nearest->touching = true, pose.nearest->gap = -1e-5, pose.nearest->friction = 0;
         setup.poses.clear();
@@ -793,7 +751,7 @@ TEST(ForceArrows, AreInProportionToTheForce) {
         const Color contact = palette(setup.view.theme).contact;
         Film film(std::move(setup));
         const Box box = film.geometry(1).layout.first(kind)->box;
-        // How far its colour reaches along it.
+        // Length along which the arrow's colour is found.
         const auto length = [&](int frame) {
             const Image image = drawn(film, frame);
             const FrameGeometry g = film.geometry(frame);
@@ -816,16 +774,14 @@ TEST(ForceArrows, AreInProportionToTheForce) {
             return top - bottom - (close ? 3.5 : 5) * u;  // the dot reaches below the arrow's foot
         };
         EXPECT_GT(length(2), 40) << type_of(kind).name;
-        // Antialiasing takes some two pixels of a tip.
+        // Antialiasing hides about two pixels of the tip.
         EXPECT_NEAR(length(1) / length(2), 2, 0.12) << type_of(kind).name;
     }
 }
 
 TEST(CloseUp, HasTwoMarksHoweverLow) {
     for (const int height : {240, 300, 400, 700}) {
-        FilmSetup setup = test::synthetic_film({.duration = 0.1});
-        setup.width = 960, setup.height = height;
-        setup.view.style = Style::flat;
+        FilmSetup setup = test::flat_film({.duration = 0.1}, 960, height);
         setup.layout = leaf({.kind = PanelKind::close_up});
         Film film(std::move(setup));
         const FrameGeometry g = film.geometry(0);
@@ -839,17 +795,15 @@ TEST(CloseUp, HasTwoMarksHoweverLow) {
 }
 
 TEST(Mechanism, TheAngleIsDrawnInTheSenseTheHubHasTurned) {
-    // 200° counter-clockwise passes the vertical above the hub, not the one below.
-    FilmSetup setup = test::synthetic_film({.duration = 0.1, .cam = false});
-    setup.width = 1200, setup.height = 1200;
-    setup.view.style = Style::flat;
+    // The arc of 200° is counter-clockwise: it crosses the vertical above the hub.
+    FilmSetup setup = test::flat_film({.duration = 0.1, .cam = false}, 1200, 1200);
     const double angle = 200 * std::numbers::pi / 180;
     for (sim::Pose& pose : setup.poses) {
         const std::size_t n = pose.centreline.size();
         for (std::size_t i = 0; i < n; ++i) pose.centreline[i] = sim::unit(angle) * (double(i) / double(n - 1));
         pose.theta = angle;
     }
-    // The first frame's beam points to the right, so that there is room.
+    // The first frame's beam points to the right and leaves space.
     sim::Pose& other = setup.poses.front();
     for (std::size_t i = 0; i < other.centreline.size(); ++i)
         other.centreline[i] = sim::unit(0.1) * (double(i) / double(other.centreline.size() - 1));
@@ -900,7 +854,7 @@ TEST(Layout, AGroupOfPanelsThatFindNoRoomLeavesItsOwn) {
     EXPECT_EQ(large.panels.size(), 3U);
     ASSERT_EQ(small.panels.size(), 1U);
     EXPECT_GT(small.panels[0].box.w, 0.85 * 400);
-    EXPECT_EQ(left_out(400, 400, wanted).size(), 2U);
+    EXPECT_EQ(omitted_panels(400, 400, wanted).size(), 2U);
 }
 
 TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
@@ -912,13 +866,11 @@ TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
     EXPECT_GT(l.panels[1].box.y, l.panels[0].box.bottom());
 }
 
-// The close-up: in the middle of its plot the face stands as high above the rim as the gap says. Its heights go from
-// 1.35 of the largest penetration below the rim to 1.9 above.
+// In the middle of the close-up the height of the face above the rim equals the gap. The plot extends from 1.35 of the
+// largest penetration below the rim to 1.9 above.
 TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
     constexpr double kDeepest = 4e-5;  // [m]
-    FilmSetup setup = test::synthetic_film({.duration = 0.4});
-    setup.width = 960, setup.height = 1080;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.4}, 960, 1080);
     setup.impacts.clear();
     for (std::size_t k = 0; k < setup.poses.size(); ++k) {
         sim::Nearest& near = *setup.poses[k].nearest;
@@ -934,7 +886,7 @@ TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
     const Box plot{std::round(box.x + 70 * u), std::round(box.y + 46 * u), std::round(box.w - 78 * u),
                    std::round(box.h - 86 * u)};
     const Color motion = palette(Theme::light).motion;
-    // The middle of the rows that the face's line covers.
+    // Centre of the rows that the line of the face covers.
     const auto row_of_face = [&](const Image& image) {
         double sum = 0, count = 0;
         const auto x = std::size_t(plot.x + plot.w / 2);
@@ -953,11 +905,9 @@ TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
     }
 }
 
-// Twelve rows a turn of a harmonic motion: its portrait is an ellipse, where chords would cut 3 % off.
+// Harmonic motion with twelve rows per period: its portrait is an ellipse; chords would deviate by 3 %.
 TEST(PhasePanel, DrawsCurvesBetweenTheRows) {
-    FilmSetup setup = test::synthetic_film({.duration = 0.8});
-    setup.width = 960, setup.height = 960;
-    setup.view.style = Style::flat;
+    FilmSetup setup = test::flat_film({.duration = 0.8}, 960, 960);
     setup.layout = leaf({.kind = PanelKind::phase});
     setup.title.clear();
     setup.chart.channels = {{ChannelKind::t, 0}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0}};
@@ -994,7 +944,7 @@ TEST(PhasePanel, DrawsCurvesBetweenTheRows) {
     EXPECT_EQ(beside, 0);
 }
 
-// What no typeface has would be drawn as a box: the picture is the one without it.
+// Characters that no font has are removed instead of drawn as boxes.
 TEST(Panels, PictographsLeaveNoBoxes) {
     FilmSetup plain = test::synthetic_film({.duration = 0.1}), decorated = plain;
     for (FilmSetup* setup : {&plain, &decorated}) {
@@ -1021,7 +971,7 @@ TEST(Panels, WordsThatAreShownTogetherStandApart) {
     EXPECT_NE(drawn(a, 10), drawn(b, 10));
 }
 
-// Least distance in CIELAB, as it is seen and with each dichromacy (Machado, Oliveira and Fernandes 2009).
+// Smallest distance in CIELAB with normal vision and each dichromacy (Machado, Oliveira and Fernandes 2009).
 double seen_apart(Color a, Color b) {
     using Matrix = std::array<std::array<double, 3>, 3>;
     static constexpr std::array<Matrix, 4> kSights{{
@@ -1050,7 +1000,7 @@ double seen_apart(Color a, Color b) {
     return least;
 }
 
-// Ten is a clear difference side by side.
+// A distance of ten is clearly visible side by side.
 TEST(Colors, EightMotionsAreToldApartByEverybody) {
     for (const Theme theme : {Theme::light, Theme::dark, Theme::print})
         for (std::size_t i = 0; i < 8; ++i)
@@ -1110,7 +1060,7 @@ TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
     EXPECT_NEAR(nearer.y, 300 - 62.5, 1e-9);
 }
 
-// Seen from the side, distances shrink and words do not: they still stand beside what they belong to.
+// In a view from the side distances shrink but text does not: labels are still beside their owners.
 TEST(Perspective, LabelsStandBesideTheirArrows) {
     FilmSetup setup = test::synthetic_film({.duration = 0.1});
     setup.width = 1280, setup.height = 720;

@@ -28,7 +28,7 @@ TEST(ParameterLine, KeepsItsDesignWhereThereIsRoom) {
     const ParameterLine line = line_in(1200);
     EXPECT_EQ(line.size, 21);
     EXPECT_EQ(line.pieces.size(), kPieces.size());
-    EXPECT_TRUE(line.without_room.empty());
+    EXPECT_TRUE(line.omitted.empty());
 }
 
 TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
@@ -38,7 +38,7 @@ TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
     for (double width = 1200; width > 20; width -= 10) {
         const ParameterLine line = line_in(width);
         EXPECT_LE(line.pieces.size(), shown) << width;
-        EXPECT_EQ(line.pieces.size() + line.without_room.size(), kPieces.size());
+        EXPECT_EQ(line.pieces.size() + line.omitted.size(), kPieces.size());
         if (line.pieces.size() == kPieces.size()) {
             EXPECT_LE(line.size, size);
             smaller = smaller || line.size < 21;
@@ -53,7 +53,7 @@ TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
 
 TEST(ParameterLine, TheRestStandsBesideAShortTitle) {
     const ParameterLine alone = line_in(500), beside = line_in(500, "Fall");
-    EXPECT_FALSE(alone.without_room.empty());
+    EXPECT_FALSE(alone.omitted.empty());
     EXPECT_GT(beside.pieces.size(), alone.pieces.size());
     Measuring with;
     const double title = with.canvas.measure("Fall", title_style(1)).w;
@@ -67,7 +67,7 @@ TEST(ParameterLine, TheRestStandsBesideAShortTitle) {
 TEST(ParameterLine, WithoutATitleThereAreTwoLinesInTheirOrder) {
     const ParameterLine line = line_in(500, "");
     ASSERT_GT(line.pieces.size(), 2U);
-    EXPECT_TRUE(line.without_room.empty());
+    EXPECT_TRUE(line.omitted.empty());
     EXPECT_EQ(line.pieces.front().baseline.x, 0);
     for (std::size_t i = 1; i < line.pieces.size(); ++i)
         EXPECT_GE(line.pieces[i].baseline.y, line.pieces[i - 1].baseline.y) << i;
@@ -96,23 +96,23 @@ TEST(ParameterLine, ALongTitleFillsTwoLinesInEveryScript) {
 
 TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     const sim::Problem problem;
-    EXPECT_TRUE(without_room(1920, 1080, {}, 1, "Fall", {&problem}).empty());
-    const std::vector<std::string> tiny = without_room(320, 180, {}, 1, "Fall", {&problem});
+    EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, "Fall", {&problem}).empty());
+    const std::vector<std::string> tiny = omitted_text(320, 180, {}, 1, "Fall", {&problem});
     ASSERT_EQ(tiny.size(), kPieces.size() + 1);
     EXPECT_EQ(tiny.front(), "L = 1 m");
     EXPECT_EQ(tiny.back(), "colour scales");
     const std::string essay =
         "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
-    EXPECT_EQ(without_room(480, 270, {}, 1, essay, {&problem}).front(), "colour scales");          // on two lines
-    EXPECT_EQ(without_room(480, 270, {}, 1, essay + essay, {&problem}).front(), "colour scales");  // in small letters
-    EXPECT_EQ(without_room(480, 270, {}, 1, essay + essay + essay, {&problem}).front(), "the end of the title");
-    EXPECT_TRUE(without_room(1920, 1080, {}, 1, essay, {&problem}).empty());
-    EXPECT_EQ(without_room(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
+    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay, {&problem}).front(), "colour scales");          // on two lines
+    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay + essay, {&problem}).front(), "colour scales");  // in small letters
+    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay + essay + essay, {&problem}).front(), "the end of the title");
+    EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, essay, {&problem}).empty());
+    EXPECT_EQ(omitted_text(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
     EXPECT_EQ(plain(math("K") + "\u2009=\u2009" + power_text(1e8) + "\u00A0N\u2009m<sup>−1.5</sup>"),
               "K = 10^8 N m^−1.5");
 }
 
-// Formulas are broken in front of signs, and cut by an ellipsis; tall ones keep off what stands below.
+// Lines break before operators, and end with an ellipsis if truncated; tall formulas do not overlap the line below.
 TEST(ParameterLine, TitlesOfFormulasAreBrokenCutAndKeptApart) {
     Measuring with;
     const Box box{0, 0, 600, 54};

@@ -1,5 +1,5 @@
-// What a viewer would see as jitter, measured in pixels: nothing static changes, numbers do not push their
-// neighbours, what moves is drawn where it is, and a contact that touches shows no gap.
+// Jitter, measured in pixels: static parts do not change, changing numbers do not move their neighbours, moving parts
+// are drawn at their exact positions, and a touching contact has no gap.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -62,7 +62,7 @@ Box around(const std::array<Vec2, 4>& piece) {
     return {left.x, top.y, right.x - left.x, bottom.y - top.y};
 }
 
-// In no frame does a label of the mechanism meet the beam or another label, and all keep their places.
+// Labels of the mechanism keep their places and never intersect the beam or each other.
 void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::string& name) {
     Film film(setup);
     std::vector<Box> places;
@@ -74,7 +74,7 @@ void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::
                 std::array<Vec2, 4> piece{g.beam.face(i), g.beam.face(i + 1), g.beam.back(i + 1), g.beam.back(i)};
                 for (Vec2& p : piece) p = g.camera.to_pixels(p);
                 if (!label.overlaps(around(piece))) continue;
-                for (int n = 0; n <= 256; ++n) {  // places in the label
+                for (int n = 0; n <= 256; ++n) {  // points of the label
                     const Vec2 p{label.x + label.w * (n % 16) / 15, label.y + label.h * (n / 16) / 16};
                     ASSERT_FALSE(within(p, piece)) << name << ", frame " << k;
                 }
@@ -117,7 +117,7 @@ TEST(Steadiness, LabelsKeepTheirPlacesClearOfTheBeam) {
 
 // ---- a touching contact ------------------------------------------------------------------------
 
-// Across the contact, from inside the disc to inside the beam, no pixel shows the paper.
+// No pixel on a line across the contact, from the disc to the beam, shows the paper.
 void no_paper_between(Style style, std::optional<double> factor) {
     Film film(film_of(style, {.duration = 2}, factor));
     const std::uint32_t paper = opaque(palette(Theme::light).paper);
@@ -148,8 +148,7 @@ TEST(GlSteadiness, ATouchingContactShowsNoPaperBetween) {
     no_paper_between(Style::lit, {});
 }
 
-// The lit picture itself: within the drawn cam there is nothing but its metal, however much the deflection is
-// exaggerated, while the beam beside it is coloured.
+// In the lit picture the beam never covers the drawn cam, for any exaggeration.
 TEST(GlSteadiness, AnExaggeratedBeamEntersTheLitCamNowhere) {
     SKIP_WITHOUT_GL();
     for (const double factor : {1.0, 20.0}) {
@@ -194,9 +193,9 @@ TEST(GlSteadiness, AnExaggeratedBeamEntersTheLitCamNowhere) {
     }
 }
 
-// ---- what is static ----------------------------------------------------------------------------
+// ---- static parts ------------------------------------------------------------------------------
 
-// Titles, parameters, colour bars with their marks, the note: the same bits in every frame.
+// Title, parameters, colour bars and note have the same pixels in every frame.
 void static_parts_stay(FilmSetup setup) {
     Film film(std::move(setup));
     const Layout places = film.geometry(0).layout;
@@ -207,7 +206,7 @@ void static_parts_stay(FilmSetup setup) {
             ASSERT_TRUE(box);
             EXPECT_TRUE(same_within(first, image, *box)) << "frame " << k << ", box at " << box->x << ", " << box->y;
         }
-        // The axes of values and their headings' beginnings, left of the plots and above them.
+        // The axes of values and the starts of headings, left of the plots and above them.
         for (const PanelSlot& slot : places.panels) {
             if (slot.spec.kind != PanelKind::strip) continue;
             const Box plot = plot_area(slot.box, places.unit, places.tick);
@@ -248,7 +247,7 @@ TEST(Steadiness, FiguresAreTabular) {
     }
 }
 
-// The clock passes from 9.9 s to 10.0 s: its "t =", its unit and the pill beside it stay.
+// When the clock changes from 9.9 s to 10.0 s, "t =", the unit and the pill beside it do not move.
 TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
     FilmSetup setup = film_of(Style::flat, {.duration = 0.5}, 5);
     for (sim::Pose& pose : setup.poses) pose.t += 9.8;
@@ -269,9 +268,10 @@ TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
         same_within(before, after, {clock.x + head + number + 3, clock.y, clock.w - head - number - 3, clock.h}));
 }
 
-// ---- what moves --------------------------------------------------------------------------------
+// ---- moving parts ------------------------------------------------------------------------------
 
-// A horizontal beam whose end is moved by fractions of a pixel: what the end's rows of pixels cover moves as much.
+// A horizontal beam displaced by fractions of a pixel: the covered length of pixel rows at its end changes by the same
+// amount.
 TEST(Steadiness, TheDrawnTipFollowsThePoseWithinATwentiethOfAPixel) {
     FilmSetup setup = film_of(Style::flat, {.duration = 0.5, .cam = false}, 1);
     const std::size_t n = setup.poses[0].centreline.size();
@@ -286,7 +286,7 @@ TEST(Steadiness, TheDrawnTipFollowsThePoseWithinATwentiethOfAPixel) {
     Film film(std::move(setup));
     const FrameGeometry g = film.geometry(0);
     const std::uint32_t paper = opaque(palette(Theme::light).paper) & 0xFF;
-    // Darkness along a row through the section, in units of the section's own: the length that it covers.
+    // Covered length of a row: its darkness relative to that of the section.
     const auto covered = [&](const Image& image) {
         const Vec2 end = g.camera.to_pixels({1, 0});
         const double y = end.y + 5;
@@ -346,7 +346,7 @@ TEST(SmoothPath, WhatTurnsFarKeepsToItsCircle) {
     EXPECT_NEAR(norm(outwards[outwards.size() / 2]), 150, 2);
 }
 
-// A rod that turns two radians from frame to frame.
+// A rod that rotates by two radians per frame.
 TEST(Steadiness, TheTrailOfAFastTurnIsRound) {
     FilmSetup setup = film_of(Style::flat, {.duration = 1, .fps = 10, .cam = false});
     for (sim::Pose& pose : setup.poses) {
@@ -376,7 +376,7 @@ TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {
         }
 }
 
-// While time stands still the trail behind the tip does too.
+// The trail of the tip does not change while time is frozen.
 TEST(Steadiness, AFreezeIsOnePicture) {
     FilmSetup setup = film_of(Style::flat, {.duration = 1});
     setup.impacts.clear();  // no rings that open
@@ -388,9 +388,9 @@ TEST(Steadiness, AFreezeIsOnePicture) {
     EXPECT_EQ(early.pixels, late.pixels);
 }
 
-// ---- what fades does so by the clock of the film ------------------------------------------------
+// ---- fading in time of the film ------------------------------------------------------------------
 
-// Three seconds of film of a fall ten times slowed, so that the tip comes to each place once.
+// Three seconds of film of a fall at a tenth of real time, in which the tip visits each place once.
 FilmSetup slow_fall(double fps) {
     FilmSetup setup = film_of(Style::flat, {.duration = 0.3});
     setup.fps = fps;
@@ -400,7 +400,7 @@ FilmSetup slow_fall(double fps) {
     return setup;
 }
 
-// How much of the film the trail shows at its second 2.5, found on the paper where the tip has been [s].
+// Duration of the trail that is visible at 2.5 s, found from pixels along the path [s].
 double length_of_trail(double fps) {
     Film film(slow_fall(fps));
     const int now = static_cast<int>(2.5 * fps);

@@ -60,7 +60,7 @@ TEST(SolidScene, TheWallIsWhereverAShadowFallsAndNotMuchMore) {
     EXPECT_LT(area, 0.25 * 960 * 720);
 }
 
-// What the eye cannot see is left out of the picture, not of the shadows; the picture is empty outside `seen`.
+// Triangles that face away are drawn only in the shadow map; the picture is empty outside `seen`.
 TEST(SolidScene, WhatFacesTheEyeComesFirstAndLiesWithinThePartThatIsSeen) {
     const SolidScene scene = example();
     ASSERT_GT(scene.front, scene.wall);
@@ -87,7 +87,7 @@ TEST(SolidScene, ABodyAtTheEyeIsSeenEverywhere) {
     EXPECT_EQ(solid_scene(shape, palette(Theme::light), box, near, 60, 1, {}).seen.w, 400);
 }
 
-// A renderer keeps its picture from one scene to the next: what the first showed is gone.
+// A renderer clears the previous scene.
 TEST(GlSolid, ASmallSceneAfterALargeOneLeavesNothingOfIt) {
     SKIP_WITHOUT_GL();
     SolidScene large = example(), small = example();
@@ -102,7 +102,7 @@ TEST(GlSolid, ASmallSceneAfterALargeOneLeavesNothingOfIt) {
     EXPECT_TRUE(after == alone);
 }
 
-// Only the fronts are shaded: with the backs drawn too the picture is the same but for its silhouette.
+// Drawing the backs as well changes only pixels at the silhouette.
 TEST(GlSolid, TheBacksOfBodiesAreNotMissed) {
     SKIP_WITHOUT_GL();
     SolidScene scene = example();
@@ -116,7 +116,7 @@ TEST(GlSolid, TheBacksOfBodiesAreNotMissed) {
     EXPECT_LE(differ, 20U);  // of samples on the silhouette, where front and back meet
 }
 
-// The limb of a disc towards the light: pixels that were shaded by a normal turned away stood there like stitches.
+// The silhouette of a disc towards the light: normals that point away must not darken single pixels.
 TEST(GlSolid, TheLitLimbOfADiscHasNoDarkPixels) {
     SKIP_WITHOUT_GL();
     constexpr int kSize = 400;

@@ -11,7 +11,7 @@
 namespace beamcam::render {
 namespace {
 
-// The distance of the drawn face from the disc, measured on the polygon that is drawn.
+// Distance of the drawn face from the disc, measured on the drawn polygon.
 double face_gap(const DrawnBeam& beam, const sim::Pose& pose, double radius) {
     double best = 1e300;
     for (std::size_t i = 0; i + 1 < beam.line.size(); ++i) {
@@ -119,7 +119,7 @@ TEST(Exaggeration, FreeVibrationIsMultipliedAboutTheMeanLine) {
     }
 }
 
-// The clamp of a hub that is led does not give way: w is multiplied about the hub's own direction.
+// The clamp of a prescribed hub does not rotate: w is exaggerated about the hub's direction.
 TEST(Exaggeration, DeflectionFromALedHubIsMultipliedAboutItsDirection) {
     sim::Problem problem;
     problem.cam.reset();
@@ -139,7 +139,7 @@ TEST(Exaggeration, DeflectionFromALedHubIsMultipliedAboutItsDirection) {
     }
 }
 
-// A soft beam bent over the disc lies on it also when its hub points beyond the disc.
+// A soft beam that is bent over the disc touches it even if the hub points past the disc.
 TEST(Exaggeration, TheSideOfTheCamIsThatOfTheContact) {
     FilmSetup film = test::synthetic_film();
     sim::Pose pose;
@@ -213,7 +213,7 @@ TEST(Exaggeration, AFactorThatWouldEnterTheCamYields) {
         EXPECT_TRUE(drawn_beam(film.problem, pose, n, film.problem.beam.depth).clear);
 }
 
-// Equal motions are drawn at one place, also where one of them has no cam.
+// Equal motions are drawn at the same place, even if one of them has no cam.
 TEST(Exaggeration, ABeamWithoutACamLiesAsTheOneItIsComparedWith) {
     const FilmSetup with = test::synthetic_film({.duration = 0.1});
     sim::Problem without = with.problem;

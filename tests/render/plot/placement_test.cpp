@@ -64,8 +64,8 @@ double nearest_to_words(FilmSetup setup, std::size_t words) {
     double least = INFINITY;
     for (int k = 0; k < film.frames(); ++k) {
         const FrameGeometry g = film.geometry(k);
-        EXPECT_EQ(g.words.size(), words);
-        for (const Box& box : g.words) {
+        EXPECT_EQ(g.legend.size(), words);
+        for (const Box& box : g.legend) {
             for (std::size_t i = 0; i + 1 < g.beam.line.size(); i += 4) {
                 least = std::min(
                     least, distance(g.camera.to_pixels(g.beam.face(i)), g.camera.to_pixels(g.beam.face(i + 1)), box));

@@ -1,4 +1,4 @@
-// Writes frames of the made-up film as PNG, to be looked at:
+// Writes frames of the synthetic film as PNG for inspection:
 //   render_frames OUT.png WIDTH HEIGHT lit|flat light|dark|print FRAME [size [cam|nocam [exaggeration]]]
 #include <png.h>
 

@@ -1,18 +1,32 @@
-#include "render/base/threads.hpp"
+#include "render/base/limits.hpp"
 
 #include <glib.h>
 #include <pthread.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <atomic>
 #include <cerrno>
+#include <cstddef>
 #include <latch>
 #include <string_view>
 #include <vector>
 
 namespace beamcam::render {
 namespace {
+
+constexpr rlim_t kMiB = 1 << 20;
+
+// Limit of the address space or of data, whichever is smaller [bytes].
+rlim_t limit() noexcept {
+    rlimit space = {RLIM_INFINITY, RLIM_INFINITY}, data = space;
+    getrlimit(RLIMIT_AS, &space);
+    getrlimit(RLIMIT_DATA, &data);
+    return std::min(space.rlim_cur, data.rlim_cur);
+}
 
 extern "C" void* wait_for_end(void* end) {
     static_cast<std::latch*>(end)->wait();
@@ -21,7 +35,7 @@ extern "C" void* wait_for_end(void* end) {
 
 std::atomic<bool> glib_failed = false;
 
-// GLib names the cause of its end in words alone.
+// GLib gives the cause of its abort only as text.
 GLogWriterOutput write_log(GLogLevelFlags level, const GLogField* fields, gsize count, gpointer) {
     for (gsize i = 0; i < count && (level & G_LOG_LEVEL_ERROR) != 0; ++i)
         if (fields[i].key == std::string_view("MESSAGE"))
@@ -31,12 +45,32 @@ GLogWriterOutput write_log(GLogLevelFlags level, const GLogField* fields, gsize 
 
 }  // namespace
 
+bool has_memory(std::size_t bytes) noexcept {
+    void* room = mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+    if (room == MAP_FAILED) return false;
+    munmap(room, bytes);
+    return true;
+}
+
+bool memory_is_short() noexcept {
+    const rlim_t most = limit();
+    return most != RLIM_INFINITY && !has_memory(std::max<std::size_t>(most / 2, 64 * kMiB));
+}
+
+std::string out_of_memory_message() {
+    const rlim_t most = limit();
+    return "not enough memory" +
+           (most == RLIM_INFINITY ? std::string()
+                                  : "; this process may use " + std::to_string(most / kMiB) + " MiB (ulimit -v)") +
+           "; choose a smaller size, fewer threads (-j 1), or give it more memory";
+}
+
 void watch_threads_of_glib() {
     [[maybe_unused]] static const bool once = (g_log_set_writer_func(write_log, nullptr, nullptr), true);
 }
 
 bool can_start_threads(int count) {
-    constexpr std::size_t kStack = 64 * 1024;  // [bytes] Memory is no part of the question.
+    constexpr std::size_t kStack = 64 * 1024;  // [bytes]; small, since only the number of threads matters
     std::latch end(1);
     std::vector<pthread_t> started;
     started.reserve(static_cast<std::size_t>(count));

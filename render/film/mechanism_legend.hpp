@@ -1,4 +1,4 @@
-// What stands beside a mechanism without moving: which motion it is, where there are several, and the scale bar.
+// The fixed texts of a mechanism panel: the legend of motions, if there are several, and the scale bar.
 #pragma once
 
 #include <optional>
@@ -13,16 +13,16 @@ namespace beamcam::render {
 
 struct MechanismView;
 
-class MechanismWords {
+class MechanismLegend {
   public:
-    explicit MechanismWords(const MechanismView& at) : at_(at) {}  // which outlives it
+    explicit MechanismLegend(const MechanismView& at) : at_(at) {}  // `at` must outlive it
 
-    void place(OccupancyGrid room);  // in corners, or along edges, where nothing moving comes
+    void place(OccupancyGrid room);  // in corners or along edges that no moving part reaches
     void draw(Canvas& canvas, const MechanismView& at) const;
-    std::vector<Box> boxes() const;  // where they stand [px]
+    std::vector<Box> boxes() const;  // of the placed texts [px]
 
   private:
-    // Which motion this is, with ghosts all of them; and data that are drawn as a beam.
+    // This panel's motion, or all motions if they are drawn as ghosts; and data that are drawn as a beam.
     struct Entry {
         Color color;
         std::string text;

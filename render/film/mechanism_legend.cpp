@@ -1,4 +1,4 @@
-#include "render/film/mechanism_words.hpp"
+#include "render/film/mechanism_legend.hpp"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 
 namespace beamcam::render {
 
-std::vector<MechanismWords::Entry> MechanismWords::entries() const {
+std::vector<MechanismLegend::Entry> MechanismLegend::entries() const {
     std::vector<Entry> out;
     for (int m = 0; m < at_.context.members() && at_.context.members() > 1; ++m)
         if (at_.ghosts || m == at_.member)
@@ -18,14 +18,13 @@ std::vector<MechanismWords::Entry> MechanismWords::entries() const {
     return out;
 }
 
-bool MechanismWords::has_label() const { return !entries().empty() && at_.box.w >= 160 * at_.unit; }
-bool MechanismWords::has_bar() const {
+bool MechanismLegend::has_label() const { return !entries().empty() && at_.box.w >= 160 * at_.unit; }
+bool MechanismLegend::has_bar() const {
     return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
            at_.context.setup->view.style != Style::solid;
 }
 
-// In corners, or along edges, where nothing moving comes.
-void MechanismWords::place(OccupancyGrid room) {
+void MechanismLegend::place(OccupancyGrid room) {
     Image scratch(1, 1);
     Canvas canvas(scratch, *at_.context.fonts);
     const double gap = std::min(4 * at_.unit, 0.1 * std::min(at_.box.w, at_.box.h));
@@ -35,7 +34,7 @@ void MechanismWords::place(OccupancyGrid room) {
         return place;
     };
     if (has_label()) {
-        double widest = 0;  // of all, so that the labels of mechanisms beside each other stand at one place
+        double widest = 0;  // of all motions, so that the labels of several panels have the same place
         for (const auto* labels : {&at_.context.labels, &at_.context.data_labels})
             for (const std::string& each : *labels) widest = std::max(widest, canvas.measure(each, label_style()).w);
         const auto lines = static_cast<double>(entries().size());
@@ -48,24 +47,24 @@ void MechanismWords::place(OccupancyGrid room) {
     bar_ = choose({wide + 2 * at_.unit, 30 * at_.unit}, Corner::bottom_right);
 }
 
-std::vector<Box> MechanismWords::boxes() const {
+std::vector<Box> MechanismLegend::boxes() const {
     std::vector<Box> out;
     if (label_) out.push_back(*label_);
     if (bar_) out.push_back(*bar_);
     return out;
 }
 
-void MechanismWords::draw(Canvas& canvas, const MechanismView& at) const {
+void MechanismLegend::draw(Canvas& canvas, const MechanismView& at) const {
     scale_bar(canvas, at);
     label(canvas);
 }
 
 // A round length near a seventh of the view [m].
-double MechanismWords::scale_length(const MechanismView& at) const {
+double MechanismLegend::scale_length(const MechanismView& at) const {
     return round_down_125(0.17 * at.box.w / at.look.camera.scale);
 }
 
-void MechanismWords::scale_bar(Canvas& canvas, const MechanismView& at) const {
+void MechanismLegend::scale_bar(Canvas& canvas, const MechanismView& at) const {
     if (!bar_) return;
     const double w = scale_length(at) * at.look.camera.scale;
     double middle = bar_->x + bar_->w / 2;
@@ -82,11 +81,14 @@ void MechanismWords::scale_bar(Canvas& canvas, const MechanismView& at) const {
         {.size = at_.context.tick, .color = at_.palette.muted, .align = HAlign::centre, .halo = at_.palette.paper});
 }
 
-TextStyle MechanismWords::label_style() const {
-    return {.size = 24 * at_.unit, .color = at_.palette.ink, .weight = Weight::semibold, .halo = at_.palette.paper};
+TextStyle MechanismLegend::label_style() const {
+    return {.size = std::max(24 * at_.unit, at_.context.heading()),
+            .color = at_.palette.ink,
+            .weight = Weight::semibold,
+            .halo = at_.palette.paper};
 }
 
-void MechanismWords::label(Canvas& canvas) const {
+void MechanismLegend::label(Canvas& canvas) const {
     if (!label_) return;
     double y = label_->y + 24 * at_.unit;
     TextStyle style = label_style();
