@@ -30,7 +30,7 @@ struct Document {
     std::string title, subject;
     std::string scene;         // JSON
     std::string creator;       // "beamcam 0.1.0"
-    std::int64_t created = 0;  // [s] since 1970, UTC: part of the bytes, so never the clock
+    std::int64_t created = 0;  // [s] since 1970, UTC; in the bytes, so not the present time
     bool editable = false;     // SVG: text instead of outlines, in the fonts of the viewer
 };
 

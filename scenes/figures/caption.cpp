@@ -239,8 +239,8 @@ std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim:
     }
     const std::string but = paper ? (en ? ", the model “paper” apart" : "（模型 paper 除外）") : "";
     if (closure == 0) return filled(en ? "Relative tolerance {}." : "相对容差 {}。", one_digit(rtol));
-    return filled(en ? "Relative tolerance {}; the energy ledger closes to {} of its scale{}."
-                     : "相对容差 {}；能量账目闭合到其尺度的 {}{}。",
+    return filled(en ? "Relative tolerance {}; the energy balance closes to {} of its scale{}."
+                     : "相对容差 {}；能量平衡闭合到其尺度的 {}{}。",
                   one_digit(rtol), one_digit(closure), but);
 }
 
