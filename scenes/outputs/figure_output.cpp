@@ -15,7 +15,7 @@ namespace dim = sim::dimension;
 using sim::between, sim::required;
 
 static void visit(SceneVisitor& v, SeriesSum& sum) {
-    v.text("label", sum.label, "Its name in the legend; $θ$ is set as mathematics.");
+    v.text("label", sum.label, "Name in the legend; $θ$ is a formula.");
     v.value(sim::required("plus", "[\"energy_elastic\", \"energy_contact\"]"), channels_format(sum.plus),
             "Channels that are added.");
     v.value("minus", channels_format(sum.minus), "Channels that are subtracted; the curve is then drawn in black.");
@@ -26,7 +26,7 @@ static void visit(SceneVisitor& v, SeriesPanel& panel) {
     v.value(sim::required("channels", "[\"theta\"]"), channels_format(panel.channels), "Curves, all of one unit.");
     v.value("right", channels_format(panel.right), "Curves of another unit, on the right axis.");
     List sums = SceneVisitor::items_of(panel.sums);
-    sums.most = 12, sums.of = "sums";
+    sums.max_size = 12, sums.of = "sums";
     sums.example = "[{\"label\": \"stored\", \"plus\": [\"energy_elastic\", \"energy_contact\"]}]";
     v.list("sums", sums, "Curves that are sums of channels, instead of \"channels\", whose unit they have.");
     v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}}, "Scale of the left axis.");
