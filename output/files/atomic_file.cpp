@@ -175,7 +175,7 @@ std::string read_file(const fs::path& file) {
     const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
     if (descriptor < 0) throw read_error(file, errno);
     std::string content;
-    constexpr std::size_t kChunk = 1 << 20;
+    constexpr std::size_t kChunk = 1 << 16;  // a megabyte would be cleared twice for every small file
     for (;;) {
         const std::size_t used = content.size();
         content.resize(used + kChunk);

@@ -70,7 +70,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
     std::vector<ApexRun> runs = apex_runs(scene.problem);
     for (ApexRun& run : runs) {
         run.study = studies.of(run.problem, scene.end_time, "apex-modes");
-        studies.turning_points(run.study);
+        studies.apexes(run.study);
         studies.may_fail(run.study);
         studies.stop_after(run.study, {.collisions = kSearchedCollisions});
     }

@@ -161,8 +161,10 @@ FindingStudies ask_for_findings(Studies& studies) {
                               {ChannelKind::contact_force, ChannelKind::separation, ChannelKind::separation_paper});
     ask_for_repeated_impacts(studies, who, all);
     for (const std::size_t study : {all.flexible, all.printed, all.long_beam, all.long_printed, all.repeated[0][0],
-                                    all.repeated[1][0], all.repeated[2][0]})
-        studies.turning_points(study);
+                                    all.repeated[1][0], all.repeated[2][0]}) {
+        studies.apexes(study);
+        studies.zero_crossings(study);
+    }
     return all;
 }
 

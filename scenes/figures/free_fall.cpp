@@ -125,7 +125,7 @@ std::string fall_caption(const Beams& beams, const Results& results, double end,
 Fall ask_for_fall(Studies& studies, const sim::Problem& problem, double end, std::optional<double> closely) {
     Fall fall;
     fall.study = studies.of(problem, end, "free-fall");
-    studies.turning_points(fall.study);
+    studies.zero_crossings(fall.study);
     fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
     if (closely)
         fall.close = studies.table(fall.study, {*closely - kAround, *closely + kAround, 241},
@@ -148,7 +148,7 @@ Beams beams_of(const Scene& scene, std::optional<double>& closely, Studies& stud
     beams.falls[1] = ask_for_fall(studies, beams.stiff, end, closely);
     if (beams.paper) beams.falls[2] = ask_for_fall(studies, beams.doubled, end, {});
     beams.fewer = study_with_one_mode_fewer(beams.own, end, "free-fall", studies);
-    if (beams.fewer) studies.turning_points(*beams.fewer);
+    if (beams.fewer) studies.zero_crossings(*beams.fewer);
     return beams;
 }
 

@@ -198,7 +198,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
     for (Rung& rung : all) {
         rung.study = studies.of(rung.problem, scene.end_time, "models");
         studies.may_fail(rung.study);
-        studies.turning_points(rung.study);
+        studies.apexes(rung.study);
         rung.table =
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }

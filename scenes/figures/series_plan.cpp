@@ -109,7 +109,7 @@ void complete(SeriesPlan& plan, const Scene& scene, const char* name, Studies& s
         motion.study = studies.of(motion.problem, plan.end, name);
         if (plan.horizon) studies.horizon(motion.study);
         if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
-            studies.turning_points(motion.study);
+            studies.apexes(motion.study);
     }
     plan.measured_motion = motion_measured(scene, plan.motions);
     plan.measured = measured(scene, channels_of(plan), keys.from, plan.end, plan.motion_with_data().study, studies);

@@ -29,7 +29,6 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time, const std:
         keys_.push_back(physics);
         users_.push_back(0);
         all_.push_back({.problem = problem, .request = {}, .because = {}});
-        all_.back().request.turning_points = false;
     }
     Study& study = all_[index];
     ++users_[index];

@@ -35,7 +35,8 @@ std::vector<double> instants(const Instants& grid);
 
 class Studies {
   public:
-    // The study of this physics, at least until `end_time` [s]. Apexes and zero crossings only with `turning_points`.
+    // The study of this physics, at least until `end_time` [s]. Apexes and zero crossings of θ only where one of the
+    // next two is called.
     std::size_t of(const sim::Problem& problem, double end_time, const std::string& because);
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
@@ -44,7 +45,8 @@ class Studies {
     std::size_t curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
                       const std::vector<sim::Channel>& also = {});
     std::size_t point(std::size_t study, double x, const Instants& at);
-    void turning_points(std::size_t study) { request(study).turning_points = true; }
+    void apexes(std::size_t study) { request(study).apexes = true; }
+    void zero_crossings(std::size_t study) { request(study).zero_crossings = true; }
     void may_fail(std::size_t study) { all_[study].may_fail = true; }
     // Ends the study after these events, unless another figure uses it.
     void stop_after(std::size_t study, const sim::EventCounts& events);

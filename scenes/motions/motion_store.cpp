@@ -12,6 +12,7 @@
 #include "scenes/motions/pose_spool.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
+#include "sim/observe/recorder.hpp"
 #include "sim/observe/trajectory.hpp"
 
 namespace beamcam::scenes {
@@ -167,7 +168,6 @@ void MotionStore::report(const Group& group) const {
 sim::Result MotionStore::find_events(const sim::Problem& problem, const sim::Request& request, double far) {
     sim::Request further;
     further.end_time = far;
-    further.turning_points = false;
     const sim::Request both[] = {request, further};
     const double until = latest(both);
     progress_.begin("impacts", until, "s");

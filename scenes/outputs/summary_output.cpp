@@ -37,7 +37,7 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
         return from.run.reproducibility;
     };
     planner.simulate_until(planner.run_end(), file);
-    planner.request().turning_points = true;
+    planner.request().zero_crossings = true;
     if (planner.request().extrema.empty())
         for (const sim::Channel& channel : all_channels(planner.scene().problem))
             if (channel.kind != sim::ChannelKind::t) planner.request().extrema.push_back(channel);

@@ -71,7 +71,6 @@ void follow(const SweepFilmOutput& how, const output::StoredPoint& point, SweepS
     const double period = cam_period(shot.problem), turns = how.turns / how.fps.value();
     const double before = std::floor(shot.first * turns);
     sim::Request request;
-    request.turning_points = false;
     request.poses.emplace_back();
     for (int frame = shot.first; frame < shot.end; ++frame)
         request.poses.back().times.push_back((frame * turns - before) * period);

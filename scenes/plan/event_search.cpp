@@ -45,7 +45,7 @@ Bounds bounds_of(const SeriesKeys& keys) { return {keys.from_event, keys.to_even
 sim::Request events_request(double end, bool apexes) {
     sim::Request request;
     request.end_time = end;
-    request.turning_points = apexes;
+    request.apexes = apexes;
     return request;
 }
 

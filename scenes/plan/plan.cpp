@@ -71,7 +71,6 @@ std::vector<sim::Request> requests_of(const Plan& plan) {
     for (double end : plan.simulation->ends) {
         all.emplace_back();
         all.back().end_time = end;
-        all.back().turning_points = false;
     }
     for (const FigureFile& figure : plan.figures)
         for (const Study& study : figure.studies)

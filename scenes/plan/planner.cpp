@@ -65,9 +65,7 @@ bool is_shared(const Output& output) {
 }  // namespace
 
 Planner::Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing)
-    : scene_(scene), selection_(selection), existing_(existing) {
-    simulation_.request.turning_points = false;
-}
+    : scene_(scene), selection_(selection), existing_(existing) {}
 
 Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
@@ -176,7 +174,6 @@ void Planner::add_compared(Pictures& p) {
     for (const Compared& each : p.picture.compare) {
         ComparedMotion motion{each.label, each.problem, {}, {}};
         motion.request.end_time = p.end_time;
-        motion.request.turning_points = false;
         motion.request.horizon = p.picture.horizon;
         motion.request.poses = {{}, survey()};
         motion.request.tables.push_back({{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))});
@@ -247,7 +244,7 @@ void Planner::add_skipped_stages() {
     else if (!plan_.needs_gl())
         skip("OpenGL", "every view is flat");
     if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
-    if (!plan_.simulation->request.turning_points) skip("extrema and turning points", "no output is a summary");
+    if (plan_.simulation->request.extrema.empty()) skip("extrema and zero crossings", "no output is a summary");
     if (!plan_.simulation->horizon) skip("further runs for the reproducible horizon", "no output needs it");
 }
 

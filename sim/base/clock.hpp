@@ -1,4 +1,4 @@
-// Time that passes while the program works.
+// Elapsed time of the program.
 #pragma once
 
 #include <chrono>

@@ -1,4 +1,4 @@
-// A number of things in words: "1 impact", "2 impacts".
+// A count with its noun: "1 impact", "2 impacts".
 #pragma once
 
 #include <string>

@@ -1,6 +1,6 @@
-// Eight numbers side by side, one for each node of a collocation step. Written with the compiler's vector types, in
-// parts as wide as every machine's registers (wider vector types are taken apart through memory): every lane sees the
-// same operations in the same order, so results have the same bits with two, four or eight lanes an instruction.
+// Eight numbers side by side, one for each node of a collocation step, in the compiler's vector types of the width that
+// every machine has (wider ones would be split through memory). Every lane sees the same operations in the same order,
+// so results have the same bits with two, four or eight lanes an instruction.
 #pragma once
 
 #include <cmath>
@@ -20,7 +20,7 @@ struct Lanes {
     BEAMCAM_INLINE double operator[](int k) const { return reinterpret_cast<const double*>(part)[k]; }
 };
 
-// Lane by lane; a number stands for eight of it.
+// Lane by lane; a number is the same in all lanes.
 #define BEAMCAM_LANES_OPERATOR(op)                                                   \
     BEAMCAM_INLINE Lanes& operator op##=(Lanes& a, const Lanes& b) {                 \
         for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = a.part[i] op b.part[i];  \
@@ -47,7 +47,13 @@ BEAMCAM_INLINE Lanes operator-(Lanes a) {
 }
 
 BEAMCAM_INLINE double sum(const Lanes& a) { return ((a[0] + a[1]) + (a[2] + a[3])) + ((a[4] + a[5]) + (a[6] + a[7])); }
-// Of magnitudes; what is no number is passed over.
+// Lane by lane; a NaN in `b` is passed over.
+BEAMCAM_INLINE Lanes larger(Lanes a, const Lanes& b) {
+    for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = b.part[i] > a.part[i] ? b.part[i] : a.part[i];
+    return a;
+}
+BEAMCAM_INLINE Lanes magnitude(const Lanes& a) { return larger(a, -a); }
+// Of magnitudes; NaN is passed over.
 BEAMCAM_INLINE double largest(const Lanes& a) {
     Lanes::Part m{};
     for (const Lanes::Part& part : a.part) {

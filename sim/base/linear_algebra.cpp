@@ -8,7 +8,7 @@
 namespace beamcam::sim {
 
 Eigenmodes eigenmodes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
-    // Eigen's solver factors M too, but does not say when that fails.
+    // Eigen's solver factors M too, but does not report a failure.
     const bool definite = Eigen::LLT<Eigen::MatrixXd>(mass).info() == Eigen::Success;
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
     if (!definite || solver.info() != Eigen::Success)

@@ -1,5 +1,4 @@
-// Dense linear systems and eigenproblems. The decompositions are Eigen's; they are compiled in one file, because each
-// takes seconds.
+// Dense linear systems and eigenproblems by Eigen, compiled in one file because each decomposition takes seconds.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,10 +16,10 @@ struct Eigenmodes {
 // Throws std::domain_error if M is not positive definite or the iteration does not converge.
 Eigenmodes eigenmodes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass);
 
-// Of a square real matrix, in no order. These two are NaN where the matrix is not finite or the QR
+// Eigenvalues of a square real matrix, in no order. These two are NaN where the matrix is not finite or the QR
 // iteration does not converge.
 Eigen::VectorXcd eigenvalues(const Eigen::MatrixXd& matrix);
-// Of unit length, to the eigenvalue that is nearest to this number.
+// The eigenvector of unit length of the eigenvalue that is nearest to this number.
 Eigen::VectorXcd eigenvector_nearest(const Eigen::MatrixXd& matrix, std::complex<double> number);
 
 // x of A x = b by LU decomposition with complete pivoting; for a singular A some x, or not finite.

@@ -1,5 +1,5 @@
 // Gauss collocation with eight nodes on [0, 1]: nodes, weights, integration to the nodes, and derivatives of the
-// interpolation polynomial. Constants, worked out once. MODEL.md §12.
+// interpolation polynomial. Computed once. MODEL.md §12.
 //
 // Sources: Hairer, Nørsett & Wanner II.7; derivatives by Legendre coefficients (Trefethen, "Spectral Methods").
 #pragma once
@@ -22,7 +22,8 @@ struct Collocation {
     std::array<std::array<Lanes, kNodes>, kNodes + 1> derive;
     // legendre[j][l]: nodal values to the coefficient of P_j(2s − 1).
     std::array<Lanes, kNodes> legendre;
-    std::array<Lanes, kNodes> slope;  // [l][k]: ℓ_l′(c_k)
+    std::array<Lanes, kNodes> slope;     // [l][k]: ℓ_l′(c_k)
+    std::array<Lanes, kNodes> slope_at;  // [k][l]: the same, transposed
     // monomial[j][l]: nodal values to the coefficient of (2s − 1)ʲ.
     std::array<Lanes, kNodes> monomial;
 

@@ -21,24 +21,24 @@ inline constexpr double kShortestTouchEver = 1e-12;                       // [s]
 // ---- errors ----
 // Steps in contact are kept to a share of the tolerance: impacts multiply errors, and at order sixteen it costs little.
 inline constexpr double kContactShare = 64;
-inline constexpr double kShareOfIteration = 0.02;      // of the tolerance, for what the iteration leaves
-inline constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficients: a smoother forcing is not believed
+inline constexpr double kShareOfIteration = 0.02;      // of the tolerance, for the rest of the iteration
+inline constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficients: the smoothest forcing assumed
 inline constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, the fourth power of a decay
 
 // ---- oscillators ----
 inline constexpr double kSlowestOscillator = 1e-6;  // [rad/s] slower ones hardly have a period: no inverse of it
-// ζ from which the two decays are told apart; below, they are too near each other for that.
+// ζ from which the two decays are treated separately; below, they are too close to each other.
 inline constexpr double kTwoDecays = 1.02;
-inline constexpr double kMostDampingInLanes = 0.5;  // ζ that oscillators answered in lanes may have in common
-inline constexpr double kSeriesRadians = 2;         // [rad], or decays, that the series of the responses serve
-// What the nodes do not resolve of a mode turns by more radians, or decays by more, in a step.
+inline constexpr double kMostDampingInLanes = 0.5;  // the largest ζ of oscillators whose responses share lanes
+inline constexpr double kSeriesRadians = 2;         // [rad], or decays, up to which responses come from their series
+// The nodes do not resolve vibration that turns by more radians, or decays by more, in a step.
 inline constexpr double kResolvedRadians = 3;
 inline constexpr int kPlacesPerWave = 32;       // where shapes are evaluated for their largest values
 inline constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd of a half wave apart: 1.0012
 // Bounds within a step.
-inline constexpr double kNodeOvershoot = 1.5;        // of what a polynomial may exceed its values at the nodes by
+inline constexpr double kNodeOvershoot = 1.5;        // largest value of a polynomial over that at the nodes
 inline constexpr double kFarthestFromNode = 0.1;     // of the step: no instant is farther from the nearest node
-inline constexpr double kVibrationRounding = 1e-11;  // of the speed of the beam's points: what does not matter
+inline constexpr double kVibrationRounding = 1e-11;  // of the speed of the beam's points: slower is negligible
 
 // ---- iterations ----
 inline constexpr int kMostSweeps = 12;         // in flight: at a contraction of a half a step half as long is cheaper
@@ -48,8 +48,8 @@ inline constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a 
 // amplifies it tenfold. Otherwise the iteration diverges: by growth, which in contact the first sweeps may show.
 inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
 inline constexpr double kDepthRounding = 4e-16;  // of the beam's length: two roundings of a gap
-// A contact whose damping decays by more than kFastDecay within a step turns what the iteration leaves of a rate into a
-// force that no polynomial follows: it may leave only a share of kContactShare. Contractions vary from sweep to sweep;
+// Where the damping of a contact decays by more than kFastDecay within a step, an error of a rate becomes a force that
+// no polynomial follows: the iteration may leave only a share of kContactShare. Contractions vary from sweep to sweep;
 // kSlowestContraction is the poorest after a good one.
 inline constexpr double kFastDecay = 5, kSlowestContraction = 0.03;
 inline constexpr double kStalled = 0.9, kContactGrowth = 2;
@@ -63,7 +63,7 @@ inline constexpr double kExpansionTolerance = 1e-2;
 // Even for loose tolerances no farther than this, [–] of 1/β, a small part of a wave, and of the beam.
 inline constexpr double kFarthestWave = 0.2, kLongestExpansion = 0.1;
 inline constexpr double kKeptRange = 1.0 / 3;  // an expansion is kept while the contact stays so far within its range
-inline constexpr int kMostCentres = 8;         // until the expansion is where the foot is
+inline constexpr int kMostCentres = 8;         // until the expansion contains the foot
 inline constexpr double kSettledFoot = 3e-3;   // of the length: corrections by less have converged
 
 // ---- events within a step ----
@@ -85,12 +85,12 @@ inline constexpr double kResolvedTurn = 2;  // [rad] of a mode between two insta
 // ---- other methods ----
 // Step-size factors of the published code of order 8: safety, and the least and most from one step to the next.
 inline constexpr double kRk8Safety = 0.9, kRk8Shrink = 1.0 / 3.0, kRk8Growth = 6.0;
-inline constexpr double kIgnoredWeight = 1e-30;  // in SUNDIALS, of components that error control shall not see
+inline constexpr double kIgnoredWeight = 1e-30;  // in SUNDIALS, of components without error control
 inline constexpr double kFarTime = 1e3;          // [s] a target beyond any step, in the direction of time
 
-// ---- leaving phases to another method ----
-// Above this damping ratio explicit steps are limited by stability; use BDF. Its errors add up: it is given a share of
-// the tolerance.
+// ---- the fallback to another method ----
+// Above this damping ratio explicit steps are limited by stability; BDF is used. Its errors add up, so it gets a share
+// of the tolerance.
 inline constexpr double kStiffDamping = 20, kShareOfBdf = 0.03;
 // [rad] of the fastest vibration in a step of modes that are not the coordinates: where their coupling asks for shorter
 // ones, in flight by its error or in contact as nothing settles, Runge and Kutta's method is as good.

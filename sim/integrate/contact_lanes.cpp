@@ -10,7 +10,7 @@
 namespace beamcam::sim {
 namespace {
 
-// β|x − centre| up to which the expansion is trusted.
+// β|x − centre| up to which the expansion is accurate.
 double trusted(double rtol) {
     constexpr int kNext = ContactExpansion::kOrder + 1;
     return std::min(kFarthestWave, std::pow(kExpansionTolerance * rtol * std::tgamma(kNext + 1), 1.0 / kNext));
@@ -90,7 +90,7 @@ void ContactExpansion::expand(double x) {
         for (std::size_t m = 0; m <= kOrder; ++m) turned_[i * (kOrder + 1) + m] = y[m * n_ + i];
 }
 
-// Legendre's polynomials of degree N swing like a wave of β = 2(N + ½)/(L√(1 − z²)), z in [−1, 1].
+// A Legendre polynomial of degree N oscillates like a wave of β = 2(N + ½)/(L√(1 − z²)), z in [−1, 1].
 void ContactExpansion::centre_exact(double x) {
     const double z = 2 * x / length_ - 1, order = static_cast<double>(n_) + 0.5;
     section_angle_shapes(x, length_, static_cast<int>(n_), kOrder, y_.data());

@@ -1,6 +1,6 @@
 // Contact geometry and force at the nodes of a collocation step: MODEL.md §7 and §8 in the beam's own frame, with the
-// shapes expanded about one arc position near the contact, so that no node evaluates a shape. The same formulas serve
-// one instant (T = double) and eight (T = Lanes), and all models.
+// shapes expanded about one arc position near the contact, so that no node evaluates a shape. The same templates are
+// used for one instant (T = double) and for eight (T = Lanes), and for all models.
 #pragma once
 
 #include <memory>
@@ -20,9 +20,9 @@ BEAMCAM_INLINE void root(const Lanes& a, Lanes& out) {
 // The motion of the frame and the cam at one instant or eight.
 template <class T>
 struct Frame {
-    T sin, cos, spin;    // Θ, Θ̇
-    T disc_x, disc_y;    // B in fixed axes [m]
-    T disc_vx, disc_vy;  // Ḃ
+    T sin, cos, theta_dot;  // of Θ; Θ̇
+    T disc_x, disc_y;       // B in fixed axes [m]
+    T disc_vx, disc_vy;     // Ḃ
 };
 
 constexpr int kExpansionOrder = 6;
@@ -31,7 +31,7 @@ constexpr std::size_t kMostNodes = 2 * kMaxModes + 24;  // of the integrals of `
 // The contact at one instant or eight; names as in ContactState.
 template <class T>
 struct ContactKinematics {
-    T dx{};  // of the foot from the point of expansion; a first guess comes in
+    T dx{};  // from the centre of the expansion to the foot; in: a first guess
     T gap, gap_rate, slip;
     T nx, ny;                   // normal in the beam's frame
     T hub;                      // ∂(n·r)/∂Θ
@@ -59,18 +59,18 @@ class ContactExpansion {
 
     explicit ContactExpansion(System& system);
 
-    // Expands about x unless the present expansion serves there too.
+    // Expands about x unless the present expansion covers it.
     void centre(double x);
-    // The same about the nearest of places that are told by x alone: what was expanded before does not matter.
+    // Expands about the nearest point of a fixed grid: the result does not depend on earlier expansions.
     void centre_near(double x);
-    // The next expansion is made anew, as the first was.
+    // The next call of `centre` expands in any case.
     void forget() { x_ = -1; }
     double at() const { return x_; }
-    // How far from its centre an expansion is trusted [m].
+    // Largest distance from the centre at which the expansion is accurate [m].
     double range() const { return range_; }
 
-    // Fills `touch` from q, q̇ (one entry a coordinate); `hq`, of `scratch` numbers, receives what `rows` needs, H q at
-    // the centre (`exact`: ∂r/∂q). `corrections` of the foot by Newton's method, from touch.dx.
+    // Fills `touch` from q, q̇ (one entry a coordinate). `hq`, of `scratch` numbers, receives H q at the centre
+    // (`exact`: ∂r/∂q), which `rows` needs. Newton's method corrects the foot `corrections` times, from touch.dx.
     std::size_t scratch() const { return exact() ? 2 * n_ : n_; }
     template <class T>
     void evaluate(const T* q, const T* v, const Frame<T>& frame, double gap_offset, T* hq, ContactKinematics<T>& touch,
@@ -212,13 +212,14 @@ BEAMCAM_INLINE void ContactExpansion::finish(const Point<T>& at, const T& ex, co
     touch.gap = distance - (disc_ + offset_ - gap_offset);  // (S25)
     const T bvx = frame.disc_vx * frame.cos + frame.disc_vy * frame.sin,
             bvy = frame.disc_vy * frame.cos - frame.disc_vx * frame.sin;
-    const T vx = at.rate_x - at.y * frame.spin, vy = at.rate_y + at.x * frame.spin;
+    const T vx = at.rate_x - at.y * frame.theta_dot, vy = at.rate_y + at.x * frame.theta_dot;
     touch.gap_rate = touch.nx * (vx - bvx) + touch.ny * (vy - bvy);  // (S26)
     // t = (n_y, −n_x)
     touch.cam_n = touch.nx * bvx + touch.ny * bvy;
     touch.cam_t = touch.ny * bvx - touch.nx * bvy + rim_;
     const T square = at.tangent_x * at.tangent_x + at.tangent_y * at.tangent_y;
-    const T v1x = at.tangent_rate_x - at.tangent_y * frame.spin, v1y = at.tangent_rate_y + at.tangent_x * frame.spin;
+    const T v1x = at.tangent_rate_x - at.tangent_y * frame.theta_dot,
+            v1y = at.tangent_rate_y + at.tangent_x * frame.theta_dot;
     touch.slip = touch.ny * vx - touch.nx * vy - touch.cam_t +
                  offset_ * (at.tangent_x * v1y - at.tangent_y * v1x) / square;  // (S27)
     touch.hub = touch.ny * at.x - touch.nx * at.y;

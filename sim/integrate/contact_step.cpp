@@ -96,7 +96,7 @@ double ContactStep::solve(const StepTable& table) {
     s.changed();
     step_.place_hub(h);
     linearize(table);
-    // The last attempt's places serve this one, unless it lost them.
+    // The feet of the last attempt are the first guess, unless they left the expansion.
     for (int k = 0; k < kNodes; ++k)
         if (!(std::fabs(load.contact.dx[k]) <= expansion_.range())) place_at_start();
     guess(table);
@@ -129,7 +129,7 @@ void ContactStep::place_at_start() {
     load.contact.dx = Lanes{} + start.dx;
 }
 
-// The force that the start's penetration and rate lead to.
+// The force by extrapolation of the penetration and its rate at the start.
 void ContactStep::guess(const StepTable& table) {
     ExponentialSegment& s = step_.segment;
     for (int k = 0; k < kNodes; ++k) {
@@ -145,7 +145,7 @@ void ContactStep::guess(const StepTable& table) {
     load.friction = Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
-    s.push = load.force * start.hub - form_.gravity * form_.S * step_.cos + step_.torque;
+    s.p_dot = load.force * start.hub - form_.gravity * form_.S * step_.cos + step_.torque;
     if (!form_.prescribed) step_.hub_from_load(table.h);
 }
 
@@ -156,8 +156,8 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     step_.propagate_rates(table);
     step_.place_coordinates();
     place_contact(corrections);
-    known_theta_ = step_.theta;
-    known_theta_dot_ = s.spin;
+    contact_theta_ = step_.theta;
+    contact_theta_dot_ = s.theta_dot;
     const ContactKinematics<Lanes>& contact = load.contact;
     Lanes residual, by_depth, by_rate;
     for (int k = 0; k < kNodes; ++k) {
@@ -184,7 +184,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
 void ContactStep::place_contact(int corrections) {
     frame_.sin = step_.sin;
     frame_.cos = step_.cos;
-    frame_.spin = step_.frame_rate();
+    frame_.theta_dot = step_.frame_rate();
     ContactKinematics<Lanes>& contact = load.contact;
     expansion_.evaluate(step_.deflection(), step_.deflection_rate(), frame_, gap_offset_, hq_.data(), contact,
                         corrections);
@@ -201,13 +201,13 @@ void ContactStep::place_contact(int corrections) {
     if (load.rough) to_modes(contact.hub_t, load.jt);
 }
 
-// Takes out of the gap and its rates what the present state contributes, or puts it in: called around the last
-// change of the state, it moves the contact along. The ledger counts the work of the force at these rates.
+// Subtracts the contribution of the present state from the gap and its rates (sign −1), or adds it (+1): around the
+// last change of the state, this moves the contact with it. The ledger takes the work of the force at these rates.
 void ContactStep::move(double sign) {
     const ExponentialSegment& s = step_.segment;
     Lanes gap{}, rate{}, slip{};
     if (sign > 0) {
-        const Lanes turn = step_.theta - known_theta_, faster = s.spin - known_theta_dot_;
+        const Lanes turn = step_.theta - contact_theta_, faster = s.theta_dot - contact_theta_dot_;
         gap = load.contact.hub * turn;
         rate = load.contact.hub * faster;
         slip = load.contact.hub_t * faster;
@@ -222,7 +222,7 @@ void ContactStep::move(double sign) {
     load.contact.slip += slip;
 }
 
-// −∂gap/∂force and −∂(gap rate)/∂force between the nodes, with the rows at the start: what Newton's method needs.
+// −∂gap/∂force and −∂(gap rate)/∂force between the nodes, with the rows at the start, for Newton's method.
 void ContactStep::linearize(const StepTable& table) {
     const Collocation& gauss = Collocation::get();
     const double h = table.h;

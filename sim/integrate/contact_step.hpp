@@ -13,14 +13,14 @@ class ContactStep {
 
     // A touch begins, not at an end of the beam.
     void begin_touch(const ContactState& c);
-    // Geometry and force at the start of the step.
+    // The contact at the start of the step.
     void begin();
-    // Solves for the nodal forces; the error in units of the tolerance, kNoSolution if Newton's method fails or the
-    // contact leaves the range of its expansion.
+    // Solves for the nodal forces. Returns the error in units of the tolerance, kNoSolution if Newton's method fails or
+    // the contact leaves the range of its expansion.
     double solve(const StepTable& table);
     // The contact at one state, in coordinates.
     void evaluate(double t, const double* state, ContactKinematics<double>& touch);
-    // Half way to the centre of the disc the contact is beyond its geometry; another method continues.
+    // The contact is deeper than half of the disc's radius, beyond its geometry; another method continues.
     bool deep() const;
     ForceAndSlopes force(const ContactKinematics<double>& at) const {
         return law_.linearized(-at.gap, -at.gap_rate, approach);
@@ -48,11 +48,11 @@ class ContactStep {
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
     double gap_offset_ = 0, centred_ = -1;
-    double force_rounding_ = 0;  // what rounding of the penetration makes of the force [N]
-    double decays_ = 0;          // by how much the contact's own damping decays within the step [–]
+    double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
+    double decays_ = 0;          // decay of the contact's own damping within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
     Frame<Lanes> frame_;
-    Lanes known_theta_{}, known_theta_dot_{};  // where the contact was evaluated last
+    Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last
     std::array<Lanes, kNodes> compliance_, compliance_rate_;
     std::vector<double> hq_end_, state_;
     std::vector<Lanes> hq_, coordinate_rows_;

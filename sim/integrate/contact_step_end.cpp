@@ -11,9 +11,9 @@ namespace beamcam::sim {
 
 double ContactStepEnd::cut(double error, Ending& ending) {
     const double end = event_at_nodes(step_.segment.h, ending);
-    // A step far beyond the release is of no use but to tell how long the next try is.
+    // A step far beyond the release only shows how long the next one is.
     if (ending != Ending::open) error = solve_to(end, ending);
-    // Again as long as the shorter step has an event that no node shows.
+    // Repeated while the shorter step has an event that no node shows.
     for (int cuts = 0; error <= 1; ++cuts) {
         Ending found = Ending::open;
         const double earlier = event_between_nodes(ending, found);
@@ -59,14 +59,14 @@ double ContactStepEnd::event_at_nodes(double h, Ending& ending) const {
 }
 
 // When the first event between the nodes falls in the step just solved, and which: the gap opens, or the clamp of
-// the force sets in or lets go.                                                                            (S58)
+// the force begins or ends.                                                                            (S58)
 double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
     const Collocation& gauss = Collocation::get();
     const ContactKinematics<Lanes>& nodes = contact_.load.contact;
     const double h = step_.segment.h, deep = kGapRounding * step_.form->length;
     const bool clamps = law_.damping > 0;
     const double level = clamps ? -contact_.approach / law_.damping : 0, none = kZeroFactor * -level;
-    ripples_known_ = step_.n;
+    ripples_from_ = step_.n;
     const auto probe = [&](double t) { return penetration_at(t); };
     const auto ripple = [&](double span) { return unresolved(span); };
     Guard a{0, std::max(0.0, -contact_.start.gap), -contact_.start.gap_rate};
@@ -88,7 +88,7 @@ double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
         }
         if (clamps && !between.keeps_side(level, start_side_, none)) {
             auto at = first_passing(probe, a, c, level, start_side_, none, ripple);
-            // It starts on the kink, and was taken to be on the wrong side of it.
+            // It starts on the kink, and the assumed side was wrong.
             if (at && std::fabs(a.rate - level) <= none && *at - a.t <= kOnKink * (c.t - a.t)) {
                 start_side_ = -start_side_;
                 at = first_passing(probe, a, c, level, start_side_, none, ripple);
@@ -118,18 +118,18 @@ Guard ContactStepEnd::penetration_at(double after) {
     return {after, -touch.gap, -touch.gap_rate};
 }
 
-// What of the penetration turns by more than two radians in `span`: the free vibration of a mode, about the
-// deflection that its forcing holds, keeps its amplitude.
+// The vibration of the penetration that turns by more than two radians in `span`: the free vibration of a mode, about
+// the deflection by its forcing, keeps its amplitude.
 Ripple ContactStepEnd::unresolved(double span) {
     Ripple ripple;
     const ExponentialSegment& s = step_.segment;
     for (std::size_t i = step_.n; i-- > 0 && step_.form->oscillators[i].omega * span > kResolvedTurn;) {
         const double w = step_.form->oscillators[i].omega, inverse = 1 / (w * w);
-        if (ripples_known_ > i) {
+        if (ripples_from_ > i) {
             const Lanes free = s.q[i] - inverse * s.f[i];
             ripples_[i] =
                 2 * std::fabs(contact_.row[i]) * std::sqrt(largest(free * free + inverse * (s.v[i] * s.v[i])));
-            ripples_known_ = i;
+            ripples_from_ = i;
         }
         ripple.value += ripples_[i];
         ripple.rate += w * ripples_[i];
@@ -150,7 +150,7 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
         if (!std::isfinite(dt)) return kNoSolution;
         if (std::fabs(dt) < kEndRounding * h + kLeastShift || std::fabs(dt) >= closest) return error;
         if (ending == Ending::clamp && std::fabs(dt) < kOnKink * h) return error;
-        // So near that the force in between changes nothing: the state is carried over.
+        // So near that the force in between has no effect: the state is carried over.
         if (ending == Ending::release && std::fabs(dt) < kCarried * h &&
             law_.elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) * contact_.kick <
                 kCarriedKick * step_.scale_modes) {

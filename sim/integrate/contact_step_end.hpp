@@ -1,5 +1,5 @@
-// Where a step in contact must end: the gap opens, or the clamp of the force sets in or lets go, at its nodes or
-// between them. MODEL.md §12, (S58).
+// The end of a step in contact: where the gap opens, or the clamp of the force begins or ends, at its nodes or between
+// them. MODEL.md §12, (S58).
 #pragma once
 
 #include "sim/integrate/contact_step.hpp"
@@ -16,10 +16,10 @@ class ContactStepEnd {
     // A touch begins, or a step ends on the kink of the clamp.
     void reset_side() { side_ = 1; }
     void accept(Ending ending) { side_ = ending == Ending::clamp ? -start_side_ : start_side_; }
-    // The step just solved has the error `error`. Cuts it at its first event, by solving shorter ones; the error of
-    // what is left.
+    // Cuts the step just solved, of error `error`, at its first event by solving shorter ones. Returns the error of the
+    // last.
     double cut(double error, Ending& ending);
-    // How far the end of the step lies from the event: to be carried over without solving again [s].
+    // Distance from the end of the step to the event, bridged without solving again [s].
     double carry = 0;
 
   private:
@@ -35,9 +35,9 @@ class ContactStepEnd {
     ContactStep& contact_;
     const NormalLaw& law_;
     StepTable table_;
-    double side_ = 1, start_side_ = 1;  // of the kink of the clamp: +1 pushes; where the next step starts, the last did
-    std::vector<double> scratch_, ripples_;  // ripples_: of the modes from `ripples_known_` on
-    std::size_t ripples_known_ = 0;
+    double side_ = 1, start_side_ = 1;       // of the kink of the clamp at the next start and the last: +1 pushes
+    std::vector<double> scratch_, ripples_;  // ripples_: of the modes from `ripples_from_` on
+    std::size_t ripples_from_ = 0;
 };
 
 }  // namespace beamcam::sim

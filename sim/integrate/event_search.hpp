@@ -1,12 +1,11 @@
 // Events inside a step: where a smooth function of time falls through zero, or its rate passes a level, however
 // briefly.
 //
-// Between two instants whose value and rate are known the function is taken as the cubic through them and an error
-// E s²(1 − s)², E its largest second difference: more than any vibration that turns by up to two radians in between
-// leaves. In Bernstein coefficients of degree four only the middle one is then uncertain. A polynomial lies within the
-// hull of its coefficients and has no more zeros than they change sign: either this decides, or the interval is halved
-// and the function evaluated in the middle. What vibrates faster than the instants resolve comes in as a `Ripple`.
-// MODEL.md (S58).
+// Between two instants with value and rate the function is the cubic through them and an error E s²(1 − s)², E its
+// largest second difference: more than the error of any vibration that turns by up to two radians in between. In
+// Bernstein coefficients of degree four only the middle one is then uncertain. A polynomial lies within the hull of its
+// coefficients and has no more zeros than they change sign: either this decides, or the interval is halved and the
+// function evaluated in the middle. Faster vibration enters as a `Ripple`. MODEL.md (S58).
 //
 // Source: Farin, "Curves and Surfaces for CAGD", ch. 5 (convex hull and variation diminishing property).
 #pragma once
@@ -26,11 +25,11 @@ struct Guard {
     double t = 0, value = 0, rate = 0;
 };
 
-// By how much value and rate may differ from a smooth interpolation, at most.
+// Bounds of the distance of value and rate from a smooth interpolation.
 struct Ripple {
     double value = 0, rate = 0;
 };
-// Where the instants resolve everything, however far apart.
+// For functions that the instants resolve, however far apart.
 struct NoRipple {
     Ripple operator()(double /*span*/) const { return {}; }
 };
@@ -75,7 +74,7 @@ struct Bracket {
     Guard above, below;
 };
 
-// The first place between a and b where the value is known to be below −deep.
+// The first bracket between a and b with a value below −deep at its end.
 template <class Probe, class RippleOf>
 std::optional<Bracket> first_dip(Probe& probe, const Guard& a, const Guard& b, double deep, RippleOf& ripple,
                                  int halvings) {
@@ -120,7 +119,7 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b, 
 }
 
 // The first instant in (a, b] where the rate passes `level`; `side` is the sign of rate − level before. Differences up
-// to `none` from the level have no side: a search that starts there begins when it has left it.
+// to `none` from the level have no side: a search that starts there begins where the rate leaves it.
 template <class Probe, class RippleOf = NoRipple>
 std::optional<double> first_passing(Probe&& probe, const Guard& a, const Guard& b, double level, double side,
                                     double none, RippleOf ripple = {}, int halvings = 0) {

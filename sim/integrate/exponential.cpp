@@ -32,7 +32,7 @@ std::unique_ptr<Integrator> make_fallback(Method method, System& system, double 
                                  : make_sundials(method, system, kShareOfBdf * rtol, kShareOfBdf * atol);
 }
 
-// Solves for the nodal forcing; returns the error in units of the tolerance, kNoSolution if the iteration fails.
+// Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
     step.segment.h = table.h;
     step.segment.changed();
@@ -53,13 +53,13 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     return step.forcing_error(table.h, nullptr);
 }
 
-// How many levels a step of an error beyond the tolerance is too long, for a method of this order.
+// By how many levels a step with this error > 1 is too long, for a method of this order; `most` without an error.
 int levels_down(double error, int order, int most) {
     return std::isfinite(error) ? std::clamp(static_cast<int>(std::ceil(std::log2(error) / (0.5 * order))), 1, 4)
                                 : most;
 }
 
-// The tables of the ladder of step lengths, each built when it is first used, and one of another length.
+// The step tables of the ladder of step lengths, each built when it is first used, and one of any other length.
 class StepTables {
   public:
     explicit StepTables(const ModalForm& form) : form_(form), ladder_(kHighestLevel - kLowestLevel + 1) {}
@@ -80,7 +80,7 @@ class StepTables {
     StepTable other_;
 };
 
-// The method itself, where the problem has the modal form.
+// The parts of the method, where the problem has the modal form.
 struct ModalMethod {
     ModalMethod(System& system, std::shared_ptr<const ModalForm> form, double rtol, double atol, long& evaluations)
         : step(system, std::move(form), rtol, atol, evaluations), tables(*step.form) {
@@ -132,8 +132,8 @@ class Exponential final : public Integrator {
             return counted(fallback_->step());
         }
         if (!(touching_ ? touch_step() : flight())) {
-            // The motion has left what this method covers: the rest of the contact, or some of the flight, goes to the
-            // other.
+            // This method no longer covers the motion: the fallback takes the rest of the contact, or some steps of
+            // flight.
             if (touching_) ++counters.handed_over;
             if (!touching_) steps_to_retry_ = std::exchange(retry_after_, 2 * retry_after_);
             flight_level_ = kFirstFlightLevel;
@@ -148,8 +148,8 @@ class Exponential final : public Integrator {
         ExponentialSegment& s = segment();
         BEAMCAM_ASSERT(at > s.t0);
         if (at == s.t1) return s;
-        // The dense output is as accurate as the step, but where a force of contact is cut short: its step is solved
-        // anew unless the difference is rounding.
+        // The dense output is as accurate as the step, except in contact: there the step is solved again unless the
+        // difference is rounding.
         if (touching_ && std::fabs(at - s.t1) > 2 * kCarried * s.h)
             solve_up_to(at);
         else
@@ -160,7 +160,7 @@ class Exponential final : public Integrator {
   private:
     ExponentialSegment& segment() { return method_->step.segment; }
 
-    // The other method goes on from (t, y), by a step of at most `first` to begin with.
+    // The fallback continues from (t, y), with a first step of at most `first`.
     void hand_over(double t, const double* y, double first) {
         falling_back_ = true;
         fallback_->limit_first_step(first);
@@ -183,7 +183,8 @@ class Exponential final : public Integrator {
         seen_ = now;
     }
 
-    // The longest step of flight from here: on the ladder, or as long as the first step or the rest may be.
+    // The longest step of flight from here: on the ladder, or shorter where the first step or the rest of the interval
+    // is.
     const StepTable& flight_table(bool& last) {
         const double level = step_length(flight_level_);
         const double h = std::min(level, std::max(first_step_, kLeastStep * std::fabs(t_)));
@@ -192,8 +193,7 @@ class Exponential final : public Integrator {
         return h < level ? method_->tables.length(h) : method_->tables.level(flight_level_);
     }
 
-    // Where the modes are coupled so strongly that this method has to resolve their vibration, the other one is
-    // cheaper.
+    // Where the modes are coupled so strongly that this method has to resolve their vibration, the fallback is cheaper.
     bool too_short(double h) const {
         const ModalForm& form = *method_->step.form;
         return !form.by_arrays() && h * form.oscillators.back().omega < kLeastTurns;
@@ -220,7 +220,7 @@ class Exponential final : public Integrator {
             while (flight_level_ > kLowestLevel && step_length(flight_level_) > table.h) --flight_level_;
             flight_level_ -= levels_down(error, kFlightOrder, 4);
             if (flight_level_ < kLowestLevel || step_length(flight_level_) < kShortestFlight * std::fabs(t_))
-                throw StepFailure(vanished(std::isfinite(error)));
+                throw StepFailure(step_failure_reason(std::isfinite(error)));
         }
         ++counters.steps;
         method_->step.finish(nullptr);
@@ -237,7 +237,7 @@ class Exponential final : public Integrator {
         return true;
     }
 
-    // One step; false when the contact is not for this method (the state is then that of the start).
+    // One step; false when this method cannot take the contact (the state is then that of the start).
     bool touch_step() {
         if (sharp_ && crawls_ > kMostCrawls) return false;
         method_->step.begin(t_);
@@ -293,14 +293,14 @@ class Exponential final : public Integrator {
         }
     }
 
-    // Ends the step at `at` instead, for the caller, by solving it again.
+    // Ends the step at `at` by solving it again.
     void solve_up_to(double at) {
         if (!std::isfinite(method_->contact->solve(method_->tables.length(at - segment().t0))))
             throw StepFailure("the contact force could not be solved for");
         accept_touch(TouchSamples::Ending::open);
     }
 
-    // The same by the dense output.
+    // Ends the step at `at` by the dense output.
     void carry_to(double at) {
         ExponentialSegment& s = segment();
         scratch_.resize(s.end.size());
@@ -311,18 +311,18 @@ class Exponential final : public Integrator {
     }
 
     System& system_;
-    std::optional<ModalMethod> method_;  // absent: all phases go to the other method
+    std::optional<ModalMethod> method_;  // absent: the fallback takes all phases
     std::unique_ptr<Integrator> fallback_;
     IntegratorCounters seen_;
     bool falling_back_ = true, touching_ = false, sharp_ = false;
     double t_ = 0;
     int flight_level_ = kFirstFlightLevel, touch_level_ = kFirstTouchLevel;
-    // [s] The next step of flight, and in contact one of the other method, is at most this long.
+    // [s] Limit of the next step of flight, and in contact of one of the fallback.
     double first_step_ = std::numeric_limits<double>::infinity();
-    const Segment* last_ = nullptr;  // of the other method
-    long steps_to_retry_ = -1;       // of the other method, before this one is tried again; -1: never
+    const Segment* last_ = nullptr;  // of the fallback
+    long steps_to_retry_ = -1;       // of the fallback, before this method is tried again; -1: never
     long retry_after_ = 0;
-    long crawls_ = 0;   // steps of this touch shorter than…
+    long crawls_ = 0;   // steps of this touch that were shorter than `crawl_`
     double crawl_ = 0;  // [s]
     std::vector<double> scratch_;
 };

@@ -1,4 +1,4 @@
-// What a step of the exponential collocation cannot exceed between its nodes. MODEL.md §12.
+// Bounds of a step of the exponential collocation between its nodes. MODEL.md §12.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -6,6 +6,7 @@
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/lane_kernels.hpp"
+#include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
 // Bounds of a function of the modes, of its rate and of its second derivative.
@@ -18,13 +19,13 @@ struct Bounded {
     }
 };
 
-// Over all modes: how far and how fast the beam's points, its tangent and its hub may go by vibrating.
+// Sums over all modes: bounds of displacement and speed of the beam's points, its tangent and its hub by vibration.
 struct VibrationBounds {
     double deflection_speed = 0, deflection_acceleration = 0, slope_speed = 0;  // by the shapes' crude bounds
     Bounded deflection, stretch;                                                // stretch: √∫v′²
     double turn = 0, turn_rate = 0, hub_second = 0;
     double slope = 0, slope_rate = 0, curvature = 0;
-    double inertia = 0, inertia_rate = 0;  // √|qᵀBq| and what q̇ᵀBq is below it times
+    double inertia = 0, inertia_rate = 0;  // √|qᵀBq|, √|q̇ᵀBq̇|
 
     void add(const ModalForm& form, std::size_t i, const Bounded& mode) {
         const double shape = 3 + 3 * std::fabs(form.radius) / form.length;
@@ -45,12 +46,26 @@ struct VibrationBounds {
     }
 };
 
-// Bound of √(q² + (q̇/ω)²).
-double ExponentialSegment::largest_amplitude(std::size_t i, double force) const {
-    const double w = form_->oscillators[i].omega;
-    const Lanes square = q[i] * q[i] + v[i] * v[i] / (w * w);
-    const double at_nodes = std::sqrt(std::max(largest(square), q0[i] * q0[i] + v0[i] * v0[i] / (w * w)));
-    return at_nodes + force / w * std::min(kFarthestFromNode * h, 2 / w);
+// Bounds of |f|, √(q² + (q̇/ω)²) and |q̇| of the modes of a group. Between two nodes the second, the amplitude of the
+// vibration, changes by at most ∫|f|/ω, and by twice the static deflection |f|/ω². Polynomials between nodes stay near
+// their nodal values (Lebesgue's constant of Gauss nodes is 3: the spread is added on either side).        (S53)
+void ExponentialSegment::find_largest(std::size_t g) const {
+    transpose();
+    const OscillatorLanes& group = form_->groups[g];
+    Lanes force{}, squares{};
+    for (std::size_t k = 0; k < kPoints; ++k) {
+        const Lanes &x = lanes_q_[g * kPoints + k], &dx = lanes_v_[g * kPoints + k];
+        squares = larger(squares, x * x + dx * dx / group.square);
+        if (k > 0) force = larger(force, magnitude(lanes_f_[g * kNodes + k - 1]));
+    }
+    for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
+        const int lane = static_cast<int>(i % kNodes);
+        const double w = group.omega[lane];
+        Largest& of = largest_[i];
+        of.force = kNodeOvershoot * force[lane];
+        of.amplitude = std::sqrt(squares[lane]) + of.force / w * std::min(kFarthestFromNode * h, 2 / w);
+        of.rate = largest_rate(i, of.amplitude, of.force);
+    }
 }
 
 // Bound of |q̇| where √(q² + (q̇/ω)²) <= amplitude: from a node on, with s <= 1/(fast − slow) and |ṡ| <= 1, decays move
@@ -63,9 +78,6 @@ double ExponentialSegment::largest_rate(std::size_t i, double amplitude, double 
     return std::min(vibrating, at_nodes + (o.omega * vibrating + 2 * force) / decays_of(o).apart());
 }
 
-// Between two nodes the amplitude √(q² + (q̇/ω)²) of a mode changes by at most ∫|f|/ω, and by twice the static
-// deflection |f|/ω²; polynomials between nodes stay near their nodal values (Lebesgue's constant of Gauss nodes
-// is 3: the spread is added on either side).                                                             (S53)
 const MotionBounds* ExponentialSegment::bounds() const {
     if (bounds_known_) return &bounds_;
     bounds_known_ = true;
@@ -73,28 +85,27 @@ const MotionBounds* ExponentialSegment::bounds() const {
     b = {};
     VibrationBounds sum;
     double speeds[kMaxModes];
+    for (std::size_t g = 0; g < form_->groups.size(); ++g) find_largest(g);
     for (std::size_t i = 0; i < n_; ++i) {
-        const double w = form_->oscillators[i].omega;
-        const double force = kNodeOvershoot * largest(f[i]), amplitude = largest_amplitude(i, force);
-        const double speed = largest_rate(i, amplitude, force);
-        largest_[i] = {force, amplitude, speed};
-        sum.add(*form_, i, {amplitude, speed, w * w * amplitude + force + 2 * form_->oscillators[i].gamma * speed});
+        const auto& [force, amplitude, speed] = largest_[i];
+        const Oscillator& o = form_->oscillators[i];
+        sum.add(*form_, i, {amplitude, speed, o.omega * o.omega * amplitude + force + 2 * o.gamma * speed});
         speeds[i] = form_->shape[i] * speed;
     }
-    double low = spin[0], high = spin[0];
+    double low = theta_dot[0], high = theta_dot[0];
     for (int k = 1; k < kNodes; ++k) {
-        low = std::min(low, spin[k]);
-        high = std::max(high, spin[k]);
+        low = std::min(low, theta_dot[k]);
+        high = std::max(high, theta_dot[k]);
     }
     const double spread = (high - low) + 1e-6 * std::max(std::fabs(low), std::fabs(high));
     low -= spread;
     high += spread;
     b.ripple = sum.turn;
     b.ripple_rate = sum.turn_rate;
-    b.spin = std::max(std::fabs(low), std::fabs(high));
-    b.spin_acceleration = form_->prescribed ? 4 * (high - low) / h
-                                            : std::max(2 * largest(push) / form_->J, hub_acceleration(sum, b.spin));
-    const double whole = b.spin * (std::fabs(form_->radius) + form_->length) + sum.deflection.rate;
+    b.theta_dot = std::max(std::fabs(low), std::fabs(high));
+    b.theta_ddot = form_->prescribed ? 4 * (high - low) / h
+                                     : std::max(2 * largest(p_dot) / form_->J, hub_acceleration(sum, b.theta_dot));
+    const double whole = b.theta_dot * (std::fabs(form_->radius) + form_->length) + sum.deflection.rate;
     double faster = 0;
     for (std::size_t i = n_; i-- > 0 && b.fastest == 0;)
         if ((faster += speeds[i]) > kVibrationRounding * whole) b.fastest = form_->oscillators[i].omega;
@@ -107,11 +118,11 @@ const MotionBounds* ExponentialSegment::bounds() const {
     return &b;
 }
 
-// Θ̈ = [ṗ − 2Θ̇qᵀBq̇]/(J + qᵀBq); no bound where bending may take the inertia away.
-double ExponentialSegment::hub_acceleration(const VibrationBounds& sum, double fastest_spin) const {
+// Θ̈ = [ṗ − 2Θ̇qᵀBq̇]/(J + qᵀBq); no bound where bending may make the inertia zero.
+double ExponentialSegment::hub_acceleration(const VibrationBounds& sum, double fastest) const {
     const double least = form_->J - sum.inertia * sum.inertia;
     if (!(least > 0)) return std::numeric_limits<double>::infinity();
-    return (kNodeOvershoot * largest(push) + 2 * fastest_spin * sum.inertia * sum.inertia_rate) / least;
+    return (kNodeOvershoot * largest(p_dot) + 2 * fastest * sum.inertia * sum.inertia_rate) / least;
 }
 
 // The beam shortens, u = −½∫v′² − ½aα², and its points are up to √(reach² + v²) away from the hinge.
@@ -124,27 +135,46 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
                                       a * (sum.turn_rate * sum.turn_rate + sum.turn * sum.hub_second);
     b.slope = sum.slope;
     b.curvature = sum.curvature * (1 + sum.slope);
-    b.deflection_speed = std::max(sum.deflection_speed, sum.deflection.rate + axial + b.spin * beyond);
+    b.deflection_speed = std::max(sum.deflection_speed, sum.deflection.rate + axial + b.theta_dot * beyond);
     b.deflection_acceleration =
         std::max(sum.deflection_acceleration,
-                 sum.deflection.second + axial_acceleration + (b.spin_acceleration + b.spin * b.spin) * beyond);
+                 sum.deflection.second + axial_acceleration + (b.theta_ddot + b.theta_dot * b.theta_dot) * beyond);
     b.slope_speed = std::max(sum.slope_speed, sum.slope_rate * (1 + sum.slope));
 }
 
-// The oscillation about f/ω² is driven by −(f″ + 2γf′)/ω² and so changes its amplitude between two nodes by at most
-// (|f″| + 2γ|f′|)/ω³ times half their distance; f is bounded by the derivatives of its Legendre polynomials.   (S59)
-ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* legendre) const {
-    const Collocation& gauss = Collocation::get();
+// Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
+// by those of its Legendre polynomials, and the largest vibration √(x² + (ẋ/ω)²) at the nodes, x = q − f/ω².
+struct ExponentialSegment::ForcingBounds {
+    Lanes mean, range{}, rate{}, second{}, vibration{};
+};
+
+ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t g, const Lanes* legendre) const {
+    const OscillatorLanes& group = form_->groups[g];
+    ForcingBounds out{.mean = legendre[0]};
+    for (int j = 1; j < kNodes; ++j) {
+        const Lanes c = magnitude(legendre[j]);
+        out.range += c;
+        out.rate += c * j * (j + 1) / h;
+        out.second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
+    }
+    Lanes slope[kNodes];
+    lane_kernels().combine(Collocation::get().slope_at.data(), lanes_f_.data() + g * kNodes, slope);
+    const Lanes per_square = 1 / group.square, per_omega = 1 / group.omega, per_step = 1 / (h * group.square);
+    for (std::size_t k = 0; k < kNodes; ++k) {
+        const Lanes x = lanes_q_[g * kPoints + k + 1] - per_square * lanes_f_[g * kNodes + k],
+                    dx = per_omega * (lanes_v_[g * kPoints + k + 1] - per_step * slope[k]);
+        out.vibration = larger(out.vibration, x * x + dx * dx);
+    }
+    for (int lane = 0; lane < kNodes; ++lane) out.vibration[lane] = std::sqrt(out.vibration[lane]);
+    return out;
+}
+
+// The vibration x about f/ω² is driven by −(f″ + 2γf′)/ω² and so changes its amplitude between two nodes by at most
+// (|f″| + 2γ|f′|)/ω³ times half their distance.                                                           (S59)
+ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const ForcingBounds& forcing) const {
     const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
-    const double force = largest_[i].force, square = o.omega * o.omega;
-    double force_range = 0, force_rate = 0, force_second = 0;  // the first: about the mean
-    for (int j = 1; j < kNodes; ++j) {
-        const double c = std::fabs(legendre[j][lane]);
-        force_range += c;
-        force_rate += c * j * (j + 1) / h;
-        force_second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
-    }
+    const double force = largest_[i].force, square = o.omega * o.omega, force_rate = forcing.rate[lane];
     ModalBounds::Mode mode;
     mode.amplitude = largest_[i].amplitude;
     mode.rate = largest_[i].rate;
@@ -152,14 +182,12 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* le
     mode.low = -mode.amplitude;
     mode.high = mode.amplitude;
     if (o.omega > 0 && !decays(o)) {
-        Lanes slope{};
-        for (int l = 0; l < kNodes; ++l) slope += f[i][l] * gauss.slope[static_cast<std::size_t>(l)];
-        const Lanes free = q[i] - (1 / square) * f[i], free_rate = (1 / o.omega) * (v[i] - (1 / (h * square)) * slope);
         const double decay = o.gamma > 0 ? std::exp(o.gamma * kFarthestFromNode * h) : 1;
-        const double driven = kFarthestFromNode * h * (force_second + 2 * o.gamma * force_rate) / (square * o.omega);
-        const double swing = std::sqrt(largest(free * free + free_rate * free_rate)) * decay + driven;
-        // q̇ = ḟ/ω² + ẋ and q̈ + 2γq̇ = −ω²x of the oscillation x about f/ω².
-        const double mean = legendre[0][lane] / square, range = force_range / square + swing;
+        const double driven =
+            kFarthestFromNode * h * (forcing.second[lane] + 2 * o.gamma * force_rate) / (square * o.omega);
+        const double swing = forcing.vibration[lane] * decay + driven;
+        // q̇ = ḟ/ω² + ẋ and q̈ + 2γq̇ = −ω²x.
+        const double mean = forcing.mean[lane] / square, range = forcing.range[lane] / square + swing;
         mode.low = std::max(mode.low, mean - range);
         mode.high = std::min(mode.high, mean + range);
         mode.rate = std::min(mode.rate, o.omega * swing + force_rate / square);
@@ -174,6 +202,21 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const Lanes* le
     return mode;
 }
 
+// Power of the forcing that the nodes miss, on the modes of a group. Its first term is the Legendre polynomial P₈,
+// whose coefficient is extrapolated from the last two pairs.
+double ExponentialSegment::missed_power(std::size_t g, const Lanes* legendre) const {
+    const Lanes last = larger(magnitude(legendre[6]), magnitude(legendre[7])),
+                before = larger(magnitude(legendre[4]), magnitude(legendre[5]));
+    Lanes speed{};
+    for (std::size_t k = 0; k < kPoints; ++k) speed = larger(speed, magnitude(lanes_v_[g * kPoints + k]));
+    double power = 0;
+    for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
+        const int lane = static_cast<int>(i % kNodes);
+        if (last[lane] > 0) power += form_->mass * speed[lane] * last[lane] * std::min(1.0, last[lane] / before[lane]);
+    }
+    return power;
+}
+
 const ModalBounds* ExponentialSegment::modal_bounds() const {
     if (!form_->by_arrays()) return nullptr;
     if (modal_bounds_known_) return &modal_bounds_;
@@ -181,20 +224,25 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     bounds();
     ModalBounds& b = modal_bounds_;
     b.modes.resize(n_);
-    turn();
-    for (std::size_t g = 0; g < begin_q_.size(); ++g) {
+    const LegendreDecay torque = legendre_decay(p_dot);
+    double missed = largest(theta_dot) * torque.last * torque.ratio;
+    for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes legendre[kNodes];
-        lane_kernels().combine(Collocation::get().legendre.data(), turned_.data() + g * kNodes, legendre);
-        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) b.modes[i] = mode_bounds(i, legendre);
+        lane_kernels().combine(Collocation::get().legendre.data(), lanes_f_.data() + g * kNodes, legendre);
+        const ForcingBounds forcing = forcing_bounds(g, legendre);
+        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) b.modes[i] = mode_bounds(i, forcing);
+        missed += missed_power(g, legendre);
     }
+    // The missed forcing changes its sign at every node; its work between two nodes counts.
+    b.balance_error = missed * h / (kNodes + 1);
     b.q = q;
     b.rate = v;
     b.force = f;
-    b.spin = b.angle = spin;
+    b.theta_dot = b.angle = theta_dot;
     if (!form_->prescribed) {
         b.angle = Lanes{} + theta0;
         for (int l = 0; l < kNodes; ++l)
-            b.angle += (h * spin[l]) * Collocation::get().integrate[static_cast<std::size_t>(l)];
+            b.angle += (h * theta_dot[l]) * Collocation::get().integrate[static_cast<std::size_t>(l)];
     }
     b.h = h;
     b.power_cam = ledger_changes ? kNodeOvershoot * largest(rate[kWorkCam]) : 0;

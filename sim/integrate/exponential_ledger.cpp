@@ -1,4 +1,5 @@
-// The energy balance inside a step of the exponential collocation, also of what the nodes do not resolve. MODEL.md §12.
+// The energy balance within a step of the exponential collocation, including vibration that the nodes do not resolve.
+// MODEL.md §12.
 #include <algorithm>
 #include <cmath>
 
@@ -6,16 +7,6 @@
 #include "sim/integrate/exponential_segment.hpp"
 
 namespace beamcam::sim {
-
-// What the nodes miss of a forcing is of the size of its last Legendre coefficient and changes its sign at every node:
-// so long it does work.
-double ExponentialSegment::balance_error() const {
-    const Lanes& last = Collocation::get().legendre[kNodes - 1];
-    double power = largest(spin) * std::fabs(sum(last * push));
-    for (std::size_t i = 0; i < n_; ++i)
-        power += form_->mass * std::max(std::fabs(v0[i]), largest(v[i])) * std::fabs(sum(last * f[i]));
-    return power * h / (kNodes + 1);
-}
 
 bool ExponentialSegment::resolved(std::size_t i) const {
     const Oscillator& o = form_->oscillators[i];
@@ -29,7 +20,7 @@ Lanes ExponentialSegment::resolved_rate(std::size_t i) const {
     return d.slow * h < kResolvedRadians ? (-d.slow / d.apart()) * (v[i] + d.fast * q[i]) : Lanes{};
 }
 
-// ∫₀ g q̇ up to s for a polynomial g(z), z = 2s − 1, of what of q̇ the nodes do not resolve.
+// ∫₀ˢ g q̇ for a polynomial g(z), z = 2s − 1, and the part of q̇ that the nodes do not resolve.
 double ExponentialSegment::work_on(std::size_t i, const double* g, double s, const double* y) const {
     if (!decays(form_->oscillators[i])) return work_on_vibration(i, g, s, y);
     const double fast = work_on_decay(i, true, g, s, y);
@@ -37,7 +28,7 @@ double ExponentialSegment::work_on(std::size_t i, const double* g, double s, con
     return slow_resolved ? fast : fast + work_on_decay(i, false, g, s, y);
 }
 
-// The part −r x of q̇: ẋ = −rx + cf has a polynomial solution, and what decays is integrated by parts.        (S52a)
+// The part −r x of q̇: ẋ = −rx + cf has a polynomial solution; the decaying rest is integrated by parts.      (S52a)
 double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const double* g, double s, const double* y) const {
     const Decays d = decays_of(form_->oscillators[i]);
     const double r = fast ? d.fast : d.slow, other = fast ? d.slow : d.fast, c = (fast ? -1 : 1) / d.apart();
@@ -78,8 +69,8 @@ double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const double*
     return -r * (integral(2 * s - 1, x1) - integral(-1, x0));
 }
 
-// Where all of q̇ vibrates: the particular solution is a polynomial too, and the free oscillation v_h is integrated by
-// parts against g.                                                                                              (S54)
+// Below critical damping: the particular solution is a polynomial, and the free vibration v_h is integrated by parts
+// against g.                                                                                              (S54)
 double ExponentialSegment::work_on_vibration(std::size_t i, const double* g, double s, const double* y) const {
     const Oscillator& o = form_->oscillators[i];
     const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
@@ -125,7 +116,7 @@ double ExponentialSegment::work_on_vibration(std::size_t i, const double* g, dou
     return integral(2 * s - 1, x1, dx1) - integral(-1, q0[i], v0[i]);
 }
 
-// Loss of one mode up to s: what its energy lost and the forcing put in, ∫2γmv² = m{E(0) − E(t) + ∫f v},
+// Loss of one mode up to s: the fall of its energy and the work of the forcing, ∫2γmv² = m{E(0) − E(t) + ∫f v},
 // E = ½(v² + ω²q²).                                                                                       (S54)
 double ExponentialSegment::structural_loss(std::size_t i, double s, const double* y) const {
     const Oscillator& o = form_->oscillators[i];
@@ -137,7 +128,7 @@ double ExponentialSegment::structural_loss(std::size_t i, double s, const double
     return form_->mass * (fell + work_on(i, force, s, y));
 }
 
-// Work of the torque on the vibration α̇ that the nodes do not resolve.
+// Work of the torque on the part of the vibration α̇ that the nodes do not resolve.
 double ExponentialSegment::torque_on_vibration(double s, const double* y) const {
     const Collocation& gauss = Collocation::get();
     Lanes torque;

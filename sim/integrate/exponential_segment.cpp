@@ -1,6 +1,8 @@
 #include "sim/integrate/exponential_segment.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 #include <stdexcept>
 
 #include "sim/integrate/lane_kernels.hpp"
@@ -18,8 +20,8 @@ void ExponentialSegment::each_number(Visit&& visit) {
     for (double* one : {&h, &theta0, &p0, &boundary0}) number(*one);
     for (std::vector<double>* all : {&q0, &v0, &end}) numbers(*all);
     for (std::vector<Lanes>* all : {&q, &v, &f}) lanes(*all);
-    lanes({&spin, 1});
-    lanes({&push, 1});
+    lanes({&theta_dot, 1});
+    lanes({&p_dot, 1});
     numbers(ledger0);
     const auto flag = [&](bool& on) {
         double value = on;
@@ -55,41 +57,11 @@ void ExponentialSegment::load(double begin, double end_time, std::span<const dou
     changed();
 }
 
-namespace {
-
-class StoredExponential final : public StoredSegment {
-  public:
-    explicit StoredExponential(const Problem& problem)
-        : system_(problem), segment_(form(system_), system_.drive(), system_.size) {}
-    void load(double begin, double end, std::span<const double> numbers) override {
-        t0 = begin;
-        t1 = end;
-        segment_.load(begin, end, numbers);
-    }
-    void value(double t, double* y) const override { segment_.value(t, y); }
-    double coordinate(double t, std::size_t index, double* y) const override {
-        return segment_.coordinate(t, index, y);
-    }
-    const MotionBounds* bounds() const override { return segment_.bounds(); }
-    const ModalBounds* modal_bounds() const override { return segment_.modal_bounds(); }
-    double balance_error() const override { return segment_.balance_error(); }
-    SegmentKind numbers(std::vector<double>& out) const override { return segment_.numbers(out); }
-    const TouchSamples* touch() const override { return segment_.touch(); }
-
-  private:
-    static std::shared_ptr<const ModalForm> form(System& system) {
-        auto made = ModalForm::of(system);
-        if (!made) throw std::invalid_argument("the trajectory does not belong to this problem");
-        return made;
-    }
-    System system_;
-    ExponentialSegment segment_;
-};
-
-}  // namespace
-
 std::unique_ptr<StoredSegment> make_stored_exponential(const Problem& problem) {
-    return std::make_unique<StoredExponential>(problem);
+    System system(problem);
+    auto form = ModalForm::of(system);
+    if (!form) throw std::invalid_argument("the trajectory does not belong to this problem");
+    return std::make_unique<ExponentialSegment>(std::move(form), system.drive(), system.size);
 }
 
 ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law,
@@ -104,13 +76,13 @@ ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_fo
     largest_.resize(n_);
     end.resize(static_cast<std::size_t>(state_size));
     const std::size_t groups = form_->groups.size();
-    turned_.resize(groups * kNodes);
+    lanes_q_.resize(groups * kPoints);
+    lanes_v_.resize(groups * kPoints);
+    lanes_f_.resize(groups * kNodes);
     taylor_.resize(groups * kNodes);
-    begin_q_.resize(groups);
-    begin_v_.resize(groups);
 }
 
-double ExponentialSegment::spin_at(double p, const double* x) const {
+double ExponentialSegment::theta_dot_at(double p, const double* x) const {
     double quadratic = 0;
     for (std::size_t g = 0; g < form_->inertia_rows.size(); g += n_) {
         Lanes rows{};
@@ -122,57 +94,70 @@ double ExponentialSegment::spin_at(double p, const double* x) const {
     return p / (form_->J + quadratic);
 }
 
-// The forcing at the nodes, in lanes over eight modes.
-void ExponentialSegment::turn() const {
-    if (turned_known_) return;
-    turned_known_ = true;
-    for (std::size_t i = 0; i < n_; ++i)
-        for (int l = 0; l < kNodes; ++l)
-            turned_[i / kNodes * kNodes + static_cast<std::size_t>(l)][static_cast<int>(i % kNodes)] = f[i][l];
+void ExponentialSegment::transpose() const {
+    if (transposed_) return;
+    transposed_ = true;
+    for (std::size_t i = 0; i < n_; ++i) {
+        const std::size_t group = i / kNodes;
+        const int lane = static_cast<int>(i % kNodes);
+        lanes_q_[group * kPoints][lane] = q0[i];
+        lanes_v_[group * kPoints][lane] = v0[i];
+        for (int k = 0; k < kNodes; ++k) {
+            const auto point = static_cast<std::size_t>(k) + 1;
+            lanes_q_[group * kPoints + point][lane] = q[i][k];
+            lanes_v_[group * kPoints + point][lane] = v[i][k];
+            lanes_f_[group * kNodes + static_cast<std::size_t>(k)][lane] = f[i][k];
+        }
+    }
 }
 
-// Derivatives of the forcing at the start of the step or at a node, and where the modes are there.
+// The start of the step or the last node before t = t0 + sh, or at t but for its rounding.
+int ExponentialSegment::last_point(double t, double s) const {
+    const Collocation& gauss = Collocation::get();
+    const double at = s + std::numeric_limits<double>::epsilon() * std::fabs(t) / h;
+    int point = 0;
+    while (point < kNodes && gauss.point[static_cast<std::size_t>(point) + 1] <= at) ++point;
+    return point;
+}
+
+// Derivatives of the forcing at the start of the step or at a node.
 void ExponentialSegment::expand(int at) const {
     if (expanded_ == at) return;
     expanded_ = at;
-    turn();
     std::array<Lanes, kNodes> factors = Collocation::get().derive[static_cast<std::size_t>(at)];
     double inverse = 1;
     for (Lanes& factor : factors) {
         factor *= inverse;
         inverse /= h;
     }
-    for (std::size_t g = 0; g < begin_q_.size(); ++g) {
-        lane_kernels().combine(factors.data(), turned_.data() + g * kNodes, taylor_.data() + g * kNodes);
-        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
-            const int lane = static_cast<int>(i % kNodes);
-            begin_q_[g][lane] = at == 0 ? q0[i] : q[i][at - 1];
-            begin_v_[g][lane] = at == 0 ? v0[i] : v[i][at - 1];
-        }
+    for (std::size_t g = 0; g < form_->groups.size(); ++g)
+        lane_kernels().combine(factors.data(), lanes_f_.data() + g * kNodes, taylor_.data() + g * kNodes);
+}
+
+// q and q̇ of a group at t = t0 + sh, from the last point before.
+void ExponentialSegment::evolve(std::size_t g, double t, double s, Lanes& x, Lanes& dx) const {
+    transpose();
+    const int point = last_point(t, s);
+    const double tau = (s - Collocation::get().point[static_cast<std::size_t>(point)]) * h;
+    const Lanes& from_q = lanes_q_[g * kPoints + static_cast<std::size_t>(point)];
+    const Lanes& from_v = lanes_v_[g * kPoints + static_cast<std::size_t>(point)];
+    if (!(tau > std::numeric_limits<double>::epsilon() * std::fabs(t))) {
+        x = from_q;
+        dx = from_v;
+        return;
     }
-}
-
-// About the nearest node before t0 + sh; returns how long it lies back.
-double ExponentialSegment::expand_before(double s) const {
-    const Collocation& gauss = Collocation::get();
-    int at = 0;
-    while (at < kNodes && gauss.point[static_cast<std::size_t>(at) + 1] <= s) ++at;
-    expand(at);
-    return (s - gauss.point[static_cast<std::size_t>(at)]) * h;
-}
-
-void ExponentialSegment::evolve(std::size_t g, double tau, Lanes& x, Lanes& dx) const {
+    expand(point);
     Lanes r[kResponse];
     const OscillatorLanes& group = form_->groups[g];
     respond(group, tau, r);
-    lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, begin_q_[g], begin_v_[g], x, dx);
+    lane_kernels().evolve(group, r, taylor_.data() + g * kNodes, from_q, from_v, x, dx);
 }
 
 double ExponentialSegment::coordinate(double t, std::size_t index, double* y) const {
     if (!form_->by_arrays() || index == 0 || t == t1) return Segment::coordinate(t, index, y);
     const std::size_t mode = index - 1;
     Lanes x, dx;
-    evolve(mode / kNodes, expand_before((t - t0) / h), x, dx);
+    evolve(mode / kNodes, t, (t - t0) / h, x, dx);
     return x[static_cast<int>(mode % kNodes)];
 }
 
@@ -182,11 +167,11 @@ void ExponentialSegment::value(double t, double* y) const {
         return;
     }
     const Collocation& gauss = Collocation::get();
-    const double s = (t - t0) / h, tau = expand_before(s);
+    const double s = (t - t0) / h;
     double* rates = y + 1 + n_;
-    for (std::size_t g = 0; g < begin_q_.size(); ++g) {
+    for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes x, dx;
-        evolve(g, tau, x, dx);
+        evolve(g, t, s, x, dx);
         for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
             y[1 + i] = x[static_cast<int>(i % kNodes)];
             rates[1 + i] = dx[static_cast<int>(i % kNodes)];
@@ -199,8 +184,8 @@ void ExponentialSegment::value(double t, double* y) const {
         y[0] = hub.angle;
         rates[0] = hub.rate;
     } else {
-        y[0] = theta0 + h * sum(weights * spin);
-        rates[0] = spin_at(p0 + h * sum(weights * push), y + 1);
+        y[0] = theta0 + h * sum(weights * theta_dot);
+        rates[0] = theta_dot_at(p0 + h * sum(weights * p_dot), y + 1);
     }
     for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);

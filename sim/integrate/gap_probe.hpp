@@ -1,6 +1,6 @@
-// The gap in flight at many instants: the shapes are expanded about the foot of the contact, so that a look costs as
-// many operations as there are modes (the integral of v′², their square), and shapes are evaluated only when the foot
-// has moved on. Beams that ModalForm covers and that are nearly straight; System::contact serves what is left.
+// The gap in flight at many instants: the shapes are expanded about the foot of the contact, so that an evaluation
+// costs as many operations as there are modes (the integral of v′², their square), and shapes are evaluated only when
+// the foot leaves the range of the expansion. For nearly straight beams; otherwise it calls System::contact.
 #pragma once
 
 #include <memory>
@@ -12,13 +12,13 @@ namespace beamcam::sim {
 
 class GapProbe {
   public:
-    // The system outlives the probe. `apart`: looks follow each other by no order.
+    // The system must outlive the probe. `apart`: consecutive instants are not close to each other.
     explicit GapProbe(System& system, bool apart = false);
 
     // Gap, its rate, x and the normal of the contact as System::contact has them, to rounding; nothing else is filled
-    // in. `search`: where the foot is, is not known from the look before.
+    // in. `search`: the foot is not near that of the last evaluation.
     ContactState evaluate(double t, const double* y, bool search);
-    // What comes next does not depend, not even by rounding, on what was asked before.
+    // Later results do not depend, not even by rounding, on earlier evaluations.
     void forget();
 
   private:
@@ -26,7 +26,7 @@ class GapProbe {
 
     System& system_;
     bool apart_;
-    std::unique_ptr<ContactExpansion> expansion_;  // null: all looks are the system's
+    std::unique_ptr<ContactExpansion> expansion_;  // null: System::contact is always used
     std::vector<double> hq_;
     double x_ = -1;
 };

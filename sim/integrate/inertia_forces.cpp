@@ -64,14 +64,14 @@ class ModalInertia final : public InertiaForces {
 
     void evaluate(const NodalMotion& s, Lanes* out) override {
         const Lanes *q = s.position + 1, *rate = s.rate + 1, *acceleration = s.acceleration + 1;
-        const Lanes& spin = s.rate[0];
-        const Lanes spin2 = spin * spin;
+        const Lanes& theta_dot = s.rate[0];
+        const Lanes theta_dot2 = theta_dot * theta_dot;
         inertia_.times(q, bq_.data());
         Lanes second = gravity_ * s.sin, fall{};
         const Lanes* turned = bq_.data();
         if (paper_) {
             const Lanes l = length_ * s.cos;
-            second = -spin2 * (radius_ * l + 0.5 * l * l);
+            second = -theta_dot2 * (radius_ * l + 0.5 * l * l);
             spinning_.times(q, rq_.data());
             turned = rq_.data();
         }
@@ -80,10 +80,10 @@ class ModalInertia final : public InertiaForces {
         const Lanes pull = gravity_ * s.cos;
         for (std::size_t i = 0; i < n_; ++i)
             out[1 + i] = m_.U[static_cast<Eigen::Index>(i)] * s.acceleration[0] + mass_ * acceleration[i] -
-                         spin2 * turned[i] - second * gq_[i] + m_.W[static_cast<Eigen::Index>(i)] * pull;
+                         theta_dot2 * turned[i] - second * gq_[i] + m_.W[static_cast<Eigen::Index>(i)] * pull;
         gain_ = dot(n_, bq_.data(), q);
         out[0] = (m_.J + gain_) * s.acceleration[0] + dot(n_, m_.U.data(), acceleration) +
-                 2.0 * spin * dot(n_, bq_.data(), rate) +
+                 2.0 * theta_dot * dot(n_, bq_.data(), rate) +
                  gravity_ * (m_.S * s.cos - dot(n_, m_.W.data(), q) * s.sin - 0.5 * s.cos * fall);
     }
 
@@ -99,8 +99,7 @@ class ModalInertia final : public InertiaForces {
     std::vector<Lanes> bq_, rq_, gq_;
 };
 
-// What both projected models share: Gauss nodes, weights ρAw, ∫₀ˣ to the nodes (P), and what PᵀW makes of ones and of
-// the arc positions.
+// Shared by both projected models: Gauss nodes, weights ρAw, the matrix P of ∫₀ˣ to the nodes, and PᵀW times ones.
 struct BeamQuadrature {
     BeamQuadrature(const Problem& problem, int nodes)
         : rule(gauss_legendre(nodes, problem.beam.length)),
@@ -116,7 +115,7 @@ struct BeamQuadrature {
     std::size_t count;
 };
 
-// (S17) by hand as far as the integrals go: with s = v′, u = −½∫s² − ½aα², and B = r̈ + g in the frame, the force on q_i
+// (S17) with the integrals worked out: with s = v′, u = −½∫s² − ½aα², and B = r̈ + g in the frame, the force on q_i
 // is ∫φ_i B_y − ∫φ_i′ s F − aαh_i F(0), F(x) the integral of B_x from x to the tip.
 class SecondOrderInertia final : public InertiaForces {
   public:
@@ -155,23 +154,24 @@ class SecondOrderInertia final : public InertiaForces {
 
     void evaluate(const NodalMotion& m, Lanes* out) override {
         const Lanes *q = m.position + 1, *dq = m.rate + 1, *ddq = m.acceleration + 1;
-        const Lanes &spin = m.rate[0], &turn = m.acceleration[0];
-        const Lanes spin2 = spin * spin;
+        const Lanes &theta_dot = m.rate[0], &theta_ddot = m.acceleration[0];
+        const Lanes theta_dot2 = theta_dot * theta_dot;
         shorten(q, dq, ddq);
         // −½aα² and its rates.
         const Lanes alpha = dot(n_, hub_row_.data(), q), dalpha = dot(n_, hub_row_.data(), dq),
                     ddalpha = dot(n_, hub_row_.data(), ddq);
         const Lanes e = (-0.5 * radius_) * alpha * alpha, de = -radius_ * alpha * dalpha,
                     dde = -radius_ * (dalpha * dalpha + alpha * ddalpha);
-        const Lanes along = dde - spin2 * e + gravity_ * m.sin, across = 2.0 * spin * de + turn * e + gravity_ * m.cos;
+        const Lanes along = dde - theta_dot2 * e + gravity_ * m.sin,
+                    across = 2.0 * theta_dot * de + theta_ddot * e + gravity_ * m.cos;
         // F at the nodes, and F(0)
-        for (std::size_t i = 0; i < n_; ++i) combined_[i] = -2.0 * spin * dq[i] - turn * q[i];
+        for (std::size_t i = 0; i < n_; ++i) combined_[i] = -2.0 * theta_dot * dq[i] - theta_ddot * q[i];
         beyond_.times(combined_.data(), force_.data());
         for (std::size_t k = 0; k < at_.count; ++k) square_[k] *= 0.5;
         at_.double_integral.times(square_.data(), stretch_.data());  // ½C s²
         const Lanes stretched_rate = dot(at_.count, stretch_.data(), mixed_.data()),
                     stretched = dot(at_.count, stretch_.data(), square_.data());
-        for (std::size_t k = 0; k < at_.count; ++k) force_[k] += spin2 * stretch_[k];
+        for (std::size_t k = 0; k < at_.count; ++k) force_[k] += theta_dot2 * stretch_[k];
         beyond_transposed_.times(square_.data(), by_square_.data());
         beyond_transposed_.times(mixed_.data(), by_mixed_.data());
         beyond_transposed_.times(bent_.data(), by_bent_.data());
@@ -179,37 +179,38 @@ class SecondOrderInertia final : public InertiaForces {
                     mass_mixed = dot(at_.count, at_.beyond.data(), mixed_.data()),
                     arm_square = dot(at_.count, arm_beyond_.data(), square_.data()),
                     arm_mixed = dot(at_.count, arm_beyond_.data(), mixed_.data());
-        const Lanes whole = spin2 * mass_square - dot(at_.count, at_.beyond.data(), bent_.data()) +
-                            dot(n_, weight_.data(), combined_.data()) + mass_ * along - lever_ * spin2;
+        const Lanes whole = theta_dot2 * mass_square - dot(at_.count, at_.beyond.data(), bent_.data()) +
+                            dot(n_, weight_.data(), combined_.data()) + mass_ * along - lever_ * theta_dot2;
         at_.double_integral.times(bent_.data(), stretch_.data());
         for (std::size_t k = 0; k < at_.count; ++k) {
             force_[k] += at_.beyond[static_cast<Eigen::Index>(k)] * along -
-                         arm_beyond_[static_cast<Eigen::Index>(k)] * spin2 - stretch_[k];
+                         arm_beyond_[static_cast<Eigen::Index>(k)] * theta_dot2 - stretch_[k];
             force_[k] *= s_[k];
         }
         slopes_transposed_.times(force_.data(), lateral_.data());
         // ∫φ_i B_y, B_y = v̈ − Θ̇²v + 2Θ̇u̇ + Θ̈(a + x + u) + g cos Θ
-        for (std::size_t i = 0; i < n_; ++i) combined_[i] = ddq[i] - spin2 * q[i];
+        for (std::size_t i = 0; i < n_; ++i) combined_[i] = ddq[i] - theta_dot2 * q[i];
         products_.times(combined_.data(), mq_.data());
-        const Lanes hub = hub_inertia_ * (turn + ddalpha);
+        const Lanes hub = hub_inertia_ * (theta_ddot + ddalpha);
         for (std::size_t i = 0; i < n_; ++i) {
             const auto j = static_cast<Eigen::Index>(i);
-            out[1 + i] = mq_[i] + coupling_[j] * turn + weight_[j] * across - 2.0 * spin * by_mixed_[i] -
-                         turn * by_square_[i] - lateral_[i] + hub_row_[j] * (hub - radius_ * alpha * whole);
+            out[1 + i] = mq_[i] + coupling_[j] * theta_ddot + weight_[j] * across - 2.0 * theta_dot * by_mixed_[i] -
+                         theta_ddot * by_square_[i] - lateral_[i] + hub_row_[j] * (hub - radius_ * alpha * whole);
         }
         // ∫(a + x + u)B_y − ∫vB_x
-        const Lanes lateral_all = dot(n_, weight_.data(), combined_.data()) - 2.0 * spin * mass_mixed -
-                                  turn * mass_square + lever_ * turn + mass_ * across;
-        Lanes moment = dot(n_, coupling_.data(), combined_.data()) - 2.0 * spin * arm_mixed - turn * arm_square +
-                       inertia_ * turn + lever_ * across + e * lateral_all;
+        const Lanes lateral_all = dot(n_, weight_.data(), combined_.data()) - 2.0 * theta_dot * mass_mixed -
+                                  theta_ddot * mass_square + lever_ * theta_ddot + mass_ * across;
+        Lanes moment = dot(n_, coupling_.data(), combined_.data()) - 2.0 * theta_dot * arm_mixed -
+                       theta_ddot * arm_square + inertia_ * theta_ddot + lever_ * across + e * lateral_all;
         // −½∫s² ∫ₓB_y
-        moment -= dot(n_, by_square_.data(), combined_.data()) - 2.0 * spin * stretched_rate - turn * stretched +
-                  turn * arm_square + across * mass_square;
+        moment -= dot(n_, by_square_.data(), combined_.data()) - 2.0 * theta_dot * stretched_rate -
+                  theta_ddot * stretched + theta_ddot * arm_square + across * mass_square;
         products_.times(q, mq_.data());
         for (std::size_t i = 0; i < n_; ++i) {
             const auto j = static_cast<Eigen::Index>(i);
-            moment -= q[i] * (spin2 * by_square_[i] - by_bent_[i] + weight_[j] * along - coupling_[j] * spin2) -
-                      mq_[i] * (2.0 * spin * dq[i] + turn * q[i]);
+            moment -=
+                q[i] * (theta_dot2 * by_square_[i] - by_bent_[i] + weight_[j] * along - coupling_[j] * theta_dot2) -
+                mq_[i] * (2.0 * theta_dot * dq[i] + theta_ddot * q[i]);
         }
         out[0] = moment + hub;
     }
@@ -259,19 +260,20 @@ class ExactInertia final : public InertiaForces {
     }
 
     void evaluate(const NodalMotion& m, Lanes* out) override {
-        const Lanes &spin = m.rate[0], &turn = m.acceleration[0];
+        const Lanes &theta_dot = m.rate[0], &theta_ddot = m.acceleration[0];
         shapes_.times(m.position + 1, bend_.data());
         for (std::size_t k = 0; k < at_.count; ++k) sine_and_cosine(bend_[k], sin_[k], cos_[k]);
         shapes_.times(m.rate + 1, rate_.data());
         shapes_.times(m.acceleration + 1, bend_.data());
         for (std::size_t k = 0; k < at_.count; ++k) {
-            const Lanes rate = rate_[k] + spin, square = rate * rate, bend = bend_[k] + turn;
+            const Lanes rate = rate_[k] + theta_dot, square = rate * rate, bend = bend_[k] + theta_ddot;
             rate_[k] = -bend * sin_[k] - square * cos_[k];
             bend_[k] = bend * cos_[k] - square * sin_[k];
         }
         at_.double_integral.times(rate_.data(), x_.data());
         at_.double_integral.times(bend_.data(), y_.data());
-        const Lanes along = gravity_ * m.sin - radius_ * spin * spin, across = gravity_ * m.cos + radius_ * turn;
+        const Lanes along = gravity_ * m.sin - radius_ * theta_dot * theta_dot,
+                    across = gravity_ * m.cos + radius_ * theta_ddot;
         Lanes moment{}, whole = mass_ * across;
         for (std::size_t k = 0; k < at_.count; ++k) {
             const double beyond = at_.beyond[static_cast<Eigen::Index>(k)];
@@ -280,7 +282,7 @@ class ExactInertia final : public InertiaForces {
             moment += x_[k];
         }
         shapes_transposed_.times(x_.data(), out + 1);
-        out[0] = moment + radius_ * whole + hub_inertia_ * turn;
+        out[0] = moment + radius_ * whole + hub_inertia_ * theta_ddot;
     }
 
   private:

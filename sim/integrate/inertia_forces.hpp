@@ -1,5 +1,5 @@
-// Generalized forces of inertia and gravity at the eight nodes of a step, for given accelerations (d'Alembert): what is
-// left of the equations of motion beside damping, bending, torque and contact. No inertia matrix is built or solved.
+// Generalized forces of inertia and gravity at the eight nodes of a step, for given accelerations (d'Alembert): the
+// equations of motion without damping, bending, torque and contact. No inertia matrix is built or solved.
 // MODEL.md §§4–5, §12.
 #pragma once
 
@@ -22,8 +22,8 @@ class InertiaForces {
     virtual ~InertiaForces() = default;
     // out ← d(∂T/∂ξ̇)/dt − ∂T/∂ξ + ∂V_g/∂ξ, one entry a coordinate.
     virtual void evaluate(const NodalMotion& motion, Lanes* out) = 0;
-    // By how much bending changes the inertia about the hub, ∂²T/∂Θ̇², as far as the model tells: where the coupling
-    // with the shapes leaves little of that, this is what keeps the accelerations from settling by themselves.
+    // By how much bending changes the inertia about the hub, ∂²T/∂Θ̇², if the model has it: where the coupling with the
+    // shapes leaves little of that inertia, the fixed-point iteration of the accelerations diverges without it.
     virtual Lanes hub_inertia_gain() const { return {}; }
 };
 

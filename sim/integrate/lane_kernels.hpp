@@ -17,7 +17,7 @@ struct LaneKernels {
     void (*propagate)(std::size_t count, const StepTable::Row* rows, const Lanes* f, const Lanes* base, Lanes* out);
     void (*propagate_rates)(std::size_t count, const StepTable::Row* rows, const Lanes* f, const Lanes* base,
                             Lanes* out);
-    // `respond` of a group (oscillator.hpp) that swings, while ωτ stays below kMostRadians; decay = exp(−γτ).
+    // `respond` of a group (oscillator.hpp) below critical damping, for ωτ < kMostRadians; decay = exp(−γτ).
     void (*respond)(const OscillatorLanes& group, double tau, const Lanes& decay, Lanes* r);
     // out[j] = Σ_l factor[j][l] x[l], j and l from 0 to 7.
     void (*combine)(const Lanes* factors, const Lanes* x, Lanes* out);
@@ -29,7 +29,7 @@ struct LaneKernels {
 };
 inline constexpr double kMostRadians = 1e5;
 
-// The fastest that this machine runs; and all that it runs.
+// The fastest kernels that this machine can run; and all that it can run.
 const LaneKernels& lane_kernels();
 std::vector<LaneKernels> runnable_lane_kernels();
 

@@ -42,7 +42,7 @@ std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& m
 
 namespace {
 
-bool told_by_arrays(System& system) {
+bool has_array_form(System& system) {
     const auto* model = dynamic_cast<const ModalModel*>(&system.model());
     return model && (!model->coupled() || system.drive().prescribed());
 }
@@ -50,12 +50,12 @@ bool told_by_arrays(System& system) {
 }  // namespace
 
 std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
-    if (told_by_arrays(system)) return by_arrays_of(system);
+    if (has_array_form(system)) return by_arrays_of(system);
     return system.drive().prescribed() ? nullptr : of_natural_modes(system);
 }
 
 bool ModalForm::exists(System& system) {
-    if (!told_by_arrays(system)) return of(system) != nullptr;
+    if (!has_array_form(system)) return of(system) != nullptr;
     return !system.model().damped() || system.model().diagonal_damping();
 }
 
@@ -80,7 +80,7 @@ std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
         form->beta.push_back(model->shapes().beta(i));
         form->shape.push_back(model->shapes().bound(i));
     }
-    form->groups = side_by_side(form->oscillators);
+    form->groups = pack_oscillators(form->oscillators);
     if (n == 0) return form;
     if (form->shortening) {
         std::vector<double> h(static_cast<std::size_t>(n * n));
@@ -116,7 +116,7 @@ void ModalForm::transform(const Eigen::MatrixXd& by, double* state) const {
     }
 }
 
-// Without its vibration Θ = z₀; a mode turns the frame against the mean rigid turn, and its modal mass is that of the
+// Without vibration Θ = z₀; a mode rotates the frame against the mean rigid rotation, and its modal mass is that of the
 // beam.
 std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     const std::unique_ptr<Model> model = system.model().clone();
@@ -125,8 +125,8 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     auto form = begin(system, *model);
     Eigen::MatrixXd mass(n + 1, n + 1), stiffness(n + 1, n + 1), centrifugal(n + 1, n + 1);
     model->linearize(mass.data(), stiffness.data(), centrifugal.data());
-    const Eigen::VectorXd turning = mass.bottomLeftCorner(n, 1) / mass(0, 0);
-    const Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n) - turning * mass.topRightCorner(1, n);
+    const Eigen::VectorXd rotation = mass.bottomLeftCorner(n, 1) / mass(0, 0);
+    const Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n) - rotation * mass.topRightCorner(1, n);
     const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
     const Eigen::MatrixXd shapes = std::sqrt(form->mass) * modes.shapes;
     Eigen::VectorXd gamma = Eigen::VectorXd::Zero(n);
@@ -141,10 +141,10 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     }
     form->natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
     form->natural.bottomRightCorner(n, n) = shapes;
-    form->natural.topRightCorner(1, n) = -turning.transpose() * shapes;
+    form->natural.topRightCorner(1, n) = -rotation.transpose() * shapes;
     form->to_natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
     form->to_natural.bottomRightCorner(n, n) = shapes.transpose() * inertia / form->mass;
-    form->to_natural.topRightCorner(1, n) = turning.transpose();
+    form->to_natural.topRightCorner(1, n) = rotation.transpose();
     form->mode_rows.assign(form->natural.data() + (n + 1), form->natural.data() + (n + 1) * (n + 1));
     const Eigen::MatrixXd rows = form->natural.rightCols(n).transpose();
     form->mode_columns.assign(rows.data(), rows.data() + rows.size());
@@ -154,7 +154,7 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
         if (!(modes.omega_squared[i] > 0)) return nullptr;
         form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), gamma[i]});
     }
-    form->groups = side_by_side(form->oscillators);
+    form->groups = pack_oscillators(form->oscillators);
     form->bound_shapes(*model, system.problem().beam.bending_stiffness());
     form->weigh(*model);
     const auto count = static_cast<std::size_t>(n);
@@ -163,7 +163,7 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     return form;
 }
 
-// What gravity does to the straight beam that points along X.
+// Generalized forces of gravity on the straight beam along X.
 void ModalForm::weigh(Model& model) {
     double force[kMaxSize];
     const double none[kMaxSize] = {};
@@ -175,8 +175,8 @@ void ModalForm::weigh(Model& model) {
     for (Eigen::Index i = 1; i <= n; ++i) weight.push_back(inverse * pull[i] / mass);
 }
 
-// By the largest of many places: what the straight beam's points move, its tangent turns and its curvature is for each
-// mode by itself. The largest between two places is hardly larger.
+// Largest displacement, rotation of the tangent and curvature of the straight beam for each mode, from many places; a
+// margin covers the values between them.
 void ModalForm::bound_shapes(Model& model, double bending_stiffness) {
     const Eigen::Index count = n + 1, places = kPlacesPerWave * count;
     const double none[kMaxSize] = {};

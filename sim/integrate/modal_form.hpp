@@ -1,7 +1,7 @@
-// The equations of motion as an exponential integrator reads them: oscillators, and what couples them. Of a modal model
-// with a free hub in hub–beam shapes (no coupling through the inertia), or with a prescribed hub in any shapes, the
-// coupling is told by plain arrays; of all others with a free hub it is what their inertia and gravity (InertiaForces)
-// add to the vibration of the straight beam.
+// The equations of motion in the form of an exponential integrator: oscillators and their coupling. The coupling is
+// given by plain arrays for modal models with a free hub in hub–beam shapes (no coupling through the inertia) or with a
+// prescribed hub in any shapes. For all others with a free hub it is the difference between their forces of inertia and
+// gravity (InertiaForces) and those of the vibrating straight beam.
 #pragma once
 
 #include <Eigen/Core>
@@ -14,15 +14,15 @@
 namespace beamcam::sim {
 
 struct ModalForm {
-    // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub
-    // of other models.
+    // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub of
+    // another model.
     static std::shared_ptr<const ModalForm> of(System& system);
-    // The same question; nothing is worked out to answer it where the coupling is told by arrays.
+    // Whether `of` would return a form; costs nothing where the coupling is given by arrays.
     static bool exists(System& system);
 
     int n = 0;  // modes
     // Natural modes of the straight beam with its hub, in columns: ξ = natural z, z = to_natural ξ, z₀ the rigid turn.
-    // Empty where the coordinates are the natural ones and the coupling is told by the arrays below.
+    // Empty where the coordinates are the natural ones and the coupling is given by the arrays below.
     Eigen::MatrixXd natural, to_natural;
     std::vector<double> mode_columns, mode_rows;  // of z₁…z_n: row-major (n + 1) × n, and transposed
     bool by_arrays() const { return natural.size() == 0; }

@@ -21,42 +21,6 @@ Lanes integral(double start, double h, const Lanes& rate) {
 
 double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
 
-LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
-    const auto& legendre = Collocation::get().legendre;
-    const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
-    // In this order of arguments: what is no number stays so, and no step is taken with it.
-    const double last = std::max(std::max(size(6), size(7)) - rounding, 0.0), before = std::max(size(4), size(5));
-    return {last, last == 0 ? 0 : std::min(1.0, last / before)};
-}
-
-double interpolation_error(const Lanes& nodal) {
-    const auto [last, ratio] = legendre_decay(nodal);
-    return last * ratio * std::max(ratio, kLeastDecay);
-}
-
-double quadrature_error(const Lanes& nodal, double rounding) {
-    const auto [last, ratio] = legendre_decay(nodal, rounding);
-    const double r2 = ratio * ratio;
-    return last * std::max(r2 * r2, kLeastQuadratureDecay);
-}
-
-FixedPoint::Status FixedPoint::add(double change) {
-    if (!std::isfinite(change)) return Status::failed;
-    const int sweep = sweeps_++;
-    const double ratio = change / before_;
-    before_ = change;
-    if (sweep > 0) {
-        const bool contracts = ratio < 0.5;
-        enough_ = enough_ || change == 0 || (contracts && change * ratio / (1 - ratio) < kShareOfIteration);
-        if (enough_ && (!contracts || change * std::max(ratio, contraction_) / (1 - ratio) < share_))
-            return Status::settled;
-        if (ratio > kStalled && change <= rounding_ * largest_) return Status::settled;
-        if (ratio > growth_ && sweep > patience_) return enough_ ? Status::settled : Status::failed;
-    }
-    largest_ = std::max(largest_, change);
-    return Status::going;
-}
-
 NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, double relative, double absolute,
                      long& count)
     : system(of),
@@ -90,7 +54,7 @@ void NodalStep::begin(double t) {
     s.theta0 = y[0];
     theta_dot0 = y[1 + n];
     // Θ̇ = p/(J + qᵀBq) inverted.
-    s.p0 = form->prescribed ? 0 : theta_dot0 / s.spin_at(1, y + 1);
+    s.p0 = form->prescribed ? 0 : theta_dot0 / s.theta_dot_at(1, y + 1);
     set_scales(y, y);
 }
 
@@ -122,8 +86,8 @@ void NodalStep::arrive(const StepTable& table) {
         next[0] = hub.angle;
         next[1 + n] = hub.rate;
     } else {
-        next[0] = s.theta0 + h * sum(gauss.b * s.spin);
-        next[1 + n] = s.spin_at(s.p0 + h * sum(gauss.b * s.push), next.data() + 1);
+        next[0] = s.theta0 + h * sum(gauss.b * s.theta_dot);
+        next[1 + n] = s.theta_dot_at(s.p0 + h * sum(gauss.b * s.p_dot), next.data() + 1);
     }
 }
 
@@ -135,14 +99,14 @@ void NodalStep::place_hub(double h) {
         for (int k = 0; k < kNodes; ++k) {
             const HubMotion hub = system.drive().motion(time[k]);
             theta[k] = hub.angle;
-            s.spin[k] = hub.rate;
+            s.theta_dot[k] = hub.rate;
             acceleration_[k] = hub.acceleration;
         }
     } else {
         const double acceleration = -form->gravity * form->S * std::cos(s.theta0) / form->J;
         const Lanes tau = h * gauss.c;
         theta = s.theta0 + tau * (theta_dot0 + 0.5 * acceleration * tau);
-        s.spin = theta_dot0 + acceleration * tau;
+        s.theta_dot = theta_dot0 + acceleration * tau;
         acceleration_ = Lanes{};
     }
     torque = Lanes{};
@@ -150,7 +114,7 @@ void NodalStep::place_hub(double h) {
         for (int k = 0; k < kNodes; ++k) torque[k] = system.drive().torque(time[k]);
     frame_angle_ = theta;
     evaluate_angle();
-    if (inertia_) s.push = torque - form->gravity * form->S * cos;
+    if (inertia_) s.p_dot = torque - form->gravity * form->S * cos;
 }
 
 void NodalStep::evaluate_angle() {
@@ -160,7 +124,7 @@ void NodalStep::evaluate_angle() {
     }
 }
 
-// The same for an angle that has changed by a little: a rotation, to rounding up to kSmallRotation.
+// The same for a small change of the angle: a rotation, exact to rounding up to kSmallRotation.
 void NodalStep::advance_angle(const Lanes& to) {
     const Lanes by = to - frame_angle_;
     frame_angle_ = to;
@@ -172,7 +136,7 @@ void NodalStep::advance_angle(const Lanes& to) {
     sin = turned;
 }
 
-// What of the forcing does not depend on q, per mass.
+// The part of the forcing that does not depend on q, per mass.
 void NodalStep::smooth_force(std::size_t i, Lanes& f) const {
     f = (-form->gravity * form->weight[i]) * cos + (form->h[i] / form->mass) * torque;
     if (form->prescribed) f -= (form->U[i] / form->mass) * acceleration_;
@@ -192,7 +156,7 @@ double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* lo
     ExponentialSegment& s = segment;
     const double h = table.h;
     evaluations += kNodes;
-    Lanes x = s.spin * s.spin, second = form->gravity * sin;
+    Lanes x = s.theta_dot * s.theta_dot, second = form->gravity * sin;
     if (form->paper) {
         const Lanes l = form->length * cos;
         second = -x * (form->radius * l + 0.5 * l * l);
@@ -217,17 +181,17 @@ double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* lo
     const double modal = std::sqrt(change2) / scale_modes;
     if (form->prescribed) return modal;
     quadratic *= form->mass;
-    s.push = -form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall)) + torque;
-    if (load) s.push += load->torque();
+    s.p_dot = -form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall)) + torque;
+    if (load) s.p_dot += load->torque();
     return std::max(modal, turn_hub(h, form->J + quadratic));
 }
 
 // Θ̇ and Θ at the nodes from ṗ; returns how much changed, in units of the tolerance.
 double NodalStep::turn_hub(double h, const Lanes& inertia) {
     ExponentialSegment& s = segment;
-    const Lanes theta_dot = integral(s.p0, h, s.push) / inertia;
-    const double rate_change = largest(theta_dot - s.spin) / scale_theta_dot;
-    s.spin = theta_dot;
+    const Lanes theta_dot = integral(s.p0, h, s.p_dot) / inertia;
+    const double rate_change = largest(theta_dot - s.theta_dot) / scale_theta_dot;
+    s.theta_dot = theta_dot;
     return std::max(rate_change, set_angle(h) / scale_theta);
 }
 
@@ -237,11 +201,11 @@ void NodalStep::place_coordinates() {
     kernels_.multiply(n + 1, n, form->mode_columns.data(), s.q.data(), position_.data());
     kernels_.multiply(n + 1, n, form->mode_columns.data(), s.v.data(), rate_.data());
     position_[0] += theta;
-    rate_[0] += s.spin;
+    rate_[0] += s.theta_dot;
     advance_angle(position_[0]);
 }
 
-// The forcing is what the equations of motion at the nodal accelerations leave of the forces, added to these.
+// The residual of the equations of motion at the nodal accelerations, added to these, is the forcing.
 double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* load) {
     ExponentialSegment& s = segment;
     const double h = table.h, per_mass = 1 / form->mass;
@@ -251,7 +215,7 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
         mode_acceleration_[i] = s.f[i] - 2 * o.gamma * s.v[i] - o.omega * o.omega * s.q[i];
     }
     kernels_.multiply(n + 1, n, form->mode_columns.data(), mode_acceleration_.data(), coordinate_acceleration_.data());
-    coordinate_acceleration_[0] += (1 / form->J) * s.push;
+    coordinate_acceleration_[0] += (1 / form->J) * s.p_dot;
     inertia_->evaluate({position_.data(), rate_.data(), coordinate_acceleration_.data(), sin, cos}, forces_.data());
     kernels_.multiply(n, n + 1, form->mode_rows.data(), forces_.data(), bq_.data());
     // The moment on the rigid turn that is out of balance, and the forcing that would balance the modes.
@@ -263,7 +227,7 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
         bq_[i] = mode_acceleration_[i] + per_mass * force;
     }
     share_by_bent_inertia(hub);
-    s.push += hub;
+    s.p_dot += hub;
     double change2 = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const double d = largest(bq_[i] - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
@@ -273,8 +237,8 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
     return std::max(std::sqrt(change2) / scale_modes, turn_hub(h, Lanes{} + form->J));
 }
 
-// Both by the inertia D of the straight beam, corrected for what bending adds to it: of the inertia D + g rrᵀ, g about
-// the hub and r the hub's row, the inverse is D⁻¹ − D⁻¹r g/(1 + g rᵀD⁻¹r) rᵀD⁻¹.
+// Both by the inertia D of the straight beam, corrected for the inertia g about the hub that bending adds: the inverse
+// of D + g rrᵀ, r the hub's row, is D⁻¹ − D⁻¹r g/(1 + g rᵀD⁻¹r) rᵀD⁻¹.
 void NodalStep::share_by_bent_inertia(Lanes& hub) {
     const double* row = form->mode_columns.data();
     const double per_mass = 1 / form->mass;
@@ -291,13 +255,13 @@ void NodalStep::share_by_bent_inertia(Lanes& hub) {
 
 void NodalStep::hub_from_load(double h) {
     ExponentialSegment& s = segment;
-    s.spin = integral(s.p0, h, s.push) * (theta_dot0 != 0 ? theta_dot0 / s.p0 : 1 / form->J);
+    s.theta_dot = integral(s.p0, h, s.p_dot) * (theta_dot0 != 0 ? theta_dot0 / s.p0 : 1 / form->J);
     set_angle(h);
 }
 
 // Θ at the nodes from Θ̇; returns its largest change.
 double NodalStep::set_angle(double h) {
-    const Lanes changed = integral(segment.theta0, h, segment.spin), by = changed - theta;
+    const Lanes changed = integral(segment.theta0, h, segment.theta_dot), by = changed - theta;
     theta = changed;
     if (!inertia_) advance_angle(changed);
     return largest(by);
@@ -326,9 +290,9 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
     }
     const double modal = std::sqrt(errors) / scale_modes;
     if (form->prescribed) return modal;
-    const double torque_error = interpolation_error(load ? s.push - load->torque() : s.push) * h / form->J;
+    const double torque_error = interpolation_error(load ? s.p_dot - load->torque() : s.p_dot) * h / form->J;
     // The contact turns Θ̇ by a polynomial of the degree of its force, whose error is that of the force.
-    const double turn = load ? quadrature_error(s.spin) : interpolation_error(s.spin);
+    const double turn = load ? quadrature_error(s.theta_dot) : interpolation_error(s.theta_dot);
     return std::max({modal, torque_error / scale_theta_dot, turn * h / scale_theta});
 }
 
@@ -365,14 +329,14 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
     s.ledger_at(s.t1, (s.t1 - s.t0) / s.h, weights, s.end.data());
 }
 
-// Power of the drive at the nodes, but for what `drive_boundary` integrates in closed form        (S55)
+// Power of the drive at the nodes, without the part that `drive_boundary` has in closed form       (S55)
 void NodalStep::drive_power(const ContactLoad* load) {
     ExponentialSegment& s = segment;
     const Collocation& gauss = Collocation::get();
     if (system.drive().has_torque()) {
-        Lanes turning = s.spin;  // and what of α̇ the nodes resolve
-        for (std::size_t i = 0; i < n; ++i) turning += form->h[i] * s.resolved_rate(i);
-        s.rate[kWorkDrive] = torque * turning;
+        Lanes hub_rate = s.theta_dot;  // and the part of α̇ that the nodes resolve
+        for (std::size_t i = 0; i < n; ++i) hub_rate += form->h[i] * s.resolved_rate(i);
+        s.rate[kWorkDrive] = torque * hub_rate;
     }
     if (!form->prescribed) return;
     Lanes quadratic{}, fall{}, weighted{}, follow{};
@@ -390,9 +354,9 @@ void NodalStep::drive_power(const ContactLoad* load) {
     const Lanes gravity = form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall));
     Lanes jerk{};  // of the hub
     for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
-    s.rate[kWorkDrive] = jerk * follow - acceleration_ * (form->J + quadratic) * s.spin + s.spin * gravity;
-    // What the contact pushes, the drive holds.
-    if (load) s.rate[kWorkDrive] -= s.spin * load->torque();
+    s.rate[kWorkDrive] = jerk * follow - acceleration_ * (form->J + quadratic) * s.theta_dot + s.theta_dot * gravity;
+    // The drive balances the moment of the contact.
+    if (load) s.rate[kWorkDrive] -= s.theta_dot * load->torque();
 }
 
 }  // namespace beamcam::sim

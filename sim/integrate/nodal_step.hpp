@@ -1,5 +1,5 @@
-// A step of the exponential collocation: the forcing at its nodes, the oscillators' exact answer to it, and the hub.
-// Flight and contact share it; contact adds its load. MODEL.md §12.
+// A step of the exponential collocation: the forcing at its nodes, the exact response of the oscillators to it, and the
+// hub. Flight and contact share it; contact adds its load. MODEL.md §12.
 #pragma once
 
 #include <limits>
@@ -10,6 +10,7 @@
 #include "sim/integrate/contact_lanes.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/inertia_forces.hpp"
+#include "sim/integrate/step_errors.hpp"
 
 namespace beamcam::sim {
 
@@ -26,43 +27,6 @@ struct ContactLoad {
 
 double step_length(int level);  // [s] on the ladder of step lengths
 
-// How the Legendre coefficients of nodal values end: the size of the last two, and by how much they fell from the two
-// before (at most 1).
-struct LegendreDecay {
-    double last, ratio;
-};
-LegendreDecay legendre_decay(const Lanes& nodal, double rounding = 0);
-// Interpolation error of a forcing with these nodal values. Coefficients that fall show a resolved forcing, whose error
-// the integration smooths as well; coefficients that do not are vibration sampled too seldom, and count in full.
-double interpolation_error(const Lanes& nodal);
-// Error of what a step leaves of a nodal force: coefficients that fall by r from pair to pair make the quadrature of
-// order sixteen err by the last times r⁴; where the force starts like a power of time it is that power which falls.
-// What is below `rounding` of the last coefficients is no error.
-double quadrature_error(const Lanes& nodal, double rounding = 0);
-
-// Convergence of a fixed-point iteration by its changes, in units of the tolerance.
-class FixedPoint {
-  public:
-    enum class Status { going, settled, failed };
-    // Fails once changes grow by more than `growth` after `patience` sweeps, unless they are `rounding` of the largest.
-    FixedPoint(double rounding, double growth, int patience)
-        : rounding_(rounding), growth_(growth), patience_(patience) {}
-    // Goes on, while changes still contract, until it leaves only this share of the tolerance, where it contracts at
-    // best by `contraction`, whatever the last two changes say.
-    void demand(double share, double contraction) {
-        share_ = share;
-        contraction_ = contraction;
-    }
-    Status add(double change);
-    bool enough() const { return enough_; }
-
-  private:
-    double rounding_, growth_, before_ = 0, largest_ = 0;
-    double share_ = kShareOfIteration, contraction_ = 0;
-    bool enough_ = false;  // changes were once so small that they would do
-    int patience_, sweeps_ = 0;
-};
-
 inline constexpr double kNoSolution = std::numeric_limits<double>::infinity();  // an error beyond any tolerance
 
 struct NodalStep {
@@ -72,25 +36,25 @@ struct NodalStep {
     void begin(double t);
     // The hub at the nodes: as prescribed, or guessed as a rigid pendulum.
     void place_hub(double h);
-    // What the step does to q and q̇ without forcing, and the forcing that does not depend on them.
+    // The free motion of q and q̇, and the part of the forcing that does not depend on them.
     void propagate_unforced(const StepTable& table);
     void propagate(const StepTable& table);
     void propagate_rates(const StepTable& table);
-    // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates; returns how much changed, in
+    // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates. Returns the largest change in
     // units of the tolerance. `load`: null in flight.
     double update_forcing(const StepTable& table, const ContactLoad* load);
     // Where the modes are not the coordinates: coordinates and rates at the nodes from the modes.
     void place_coordinates();
     const Lanes* deflection() const { return inertia_ ? position_.data() + 1 : segment.q.data(); }
     const Lanes* deflection_rate() const { return inertia_ ? rate_.data() + 1 : segment.v.data(); }
-    const Lanes& frame_rate() const { return inertia_ ? rate_[0] : segment.spin; }
+    const Lanes& frame_rate() const { return inertia_ ? rate_[0] : segment.theta_dot; }
     // ṗ at the nodes → Θ̇, Θ.
     void hub_from_load(double h);
     // next ← the state at the end.
     void arrive(const StepTable& table);
-    // What errors are measured by: modes by their vibration as a whole, (q̇, ωq); the hub by itself.
+    // Scales of errors: of the modes the whole vibration (q̇, ωq), of the hub its own angle and rate.
     void set_scales(const double* a, const double* b);
-    // Error of the forcing but for that of the contact, in units of the tolerance; sets the scales.
+    // Error of the forcing without that of the contact, in units of the tolerance; sets the scales.
     double forcing_error(double h, const ContactLoad* load);
     // Ledger and end state of the accepted step.
     void finish(const ContactLoad* load);

@@ -30,7 +30,7 @@ void descend(double w2, double damping, double tau, const double* power, double*
 
 // ∫₀^τ e^{−r(τ−u)} u^{k−1}/(k−1)! du = ψ_k(rτ) τᵏ/k!, k = 1…8: ψ₁(x) = (1 − e^{−x})/x, ψ_{k+1} = (k+1)(1 − ψ_k)/x,
 // upwards where x is large and downwards, from the series of the last, where it is small.
-void decay_shares(double x, double* psi) {
+void scaled_phi_functions(double x, double* psi) {
     if (x >= kSeriesRadians) {
         psi[0] = -std::expm1(-x) / x;
         for (int k = 1; k < kNodes; ++k) psi[k] = (k + 1) * (1 - psi[k - 1]) / x;
@@ -48,8 +48,8 @@ void decay_shares(double x, double* psi) {
 // The responses as the difference of two decays.                                                          (S52a)
 void respond_by_decays(const Decays& d, const double* power, double tau, double* r) {
     double slow[kNodes], fast[kNodes];
-    decay_shares(d.slow * tau, slow);
-    decay_shares(d.fast * tau, fast);
+    scaled_phi_functions(d.slow * tau, slow);
+    scaled_phi_functions(d.fast * tau, fast);
     for (int j = 0; j < kNodes; ++j) r[2 + j] = power[j + 1] * (slow[j] - fast[j]) / d.apart();
 }
 
@@ -99,7 +99,7 @@ void respond(const Oscillator& o, double tau, double* r) {
     for (int j = -1; j + 1 < kNodes; ++j) r[3 + j] = (power[j + 1] - damping * r[2 + j] - r[1 + j]) * inverse;
 }
 
-std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators) {
+std::vector<OscillatorLanes> pack_oscillators(const std::vector<Oscillator>& oscillators) {
     std::vector<OscillatorLanes> groups((oscillators.size() + kNodes - 1) / kNodes);
     for (std::size_t i = 0; i < groups.size() * kNodes; ++i) {
         const Oscillator& o = oscillators[std::min(i, oscillators.size() - 1)];
@@ -111,8 +111,8 @@ std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscilla
         group.inverse_square[lane] = 1 / w2;
         group.gamma[lane] = o.gamma;
         group.damping[lane] = 2 * o.gamma;
-        group.turning[lane] = o.gamma == 0 ? o.omega : std::sqrt(std::fabs(w2 - o.gamma * o.gamma));
-        group.inverse_turning[lane] = 1 / group.turning[lane];
+        group.damped_omega[lane] = o.gamma == 0 ? o.omega : std::sqrt(std::fabs(w2 - o.gamma * o.gamma));
+        group.inverse_damped[lane] = 1 / group.damped_omega[lane];
         group.slowest = lane == 0 ? o.omega : std::min(group.slowest, o.omega);
         group.fastest = std::max(group.fastest, o.omega);
         group.damped = group.damped || o.gamma > 0;

@@ -14,7 +14,7 @@ struct Oscillator {
     double gamma = 0;  // γ [1/s], >= 0
 };
 
-// Well beyond critical damping q is the sum of two decays, ẋ = −rx ± f/(fast − slow), told apart by
+// Well beyond critical damping q is the sum of two decays, ẋ = −rx ± f/(fast − slow), separated by
 // x_slow = (q̇ + fast q)/(fast − slow), x_fast = −(q̇ + slow q)/(fast − slow).                              (S52a)
 struct Decays {
     double slow = 0, fast = 0;  // [1/s]
@@ -30,12 +30,12 @@ void respond(const Oscillator& oscillator, double tau, double* r);
 // Eight oscillators side by side; a group that is not full repeats its last.
 struct OscillatorLanes {
     Lanes omega, square, inverse_square, damping, gamma;  // ω, ω², 1/ω², 2γ, γ
-    Lanes turning, inverse_turning;                       // √(ω² − γ²) and its inverse
+    Lanes damped_omega, inverse_damped;                   // √(ω² − γ²) and its inverse
     double slowest = 0, fastest = 0;                      // of the group [rad/s]
     bool damped = false;
-    bool alone = false;  // one is damped beyond half of the critical: each answers by itself
+    bool alone = false;  // damping beyond half of the critical: each response is computed by itself
 };
-std::vector<OscillatorLanes> side_by_side(const std::vector<Oscillator>& oscillators);
+std::vector<OscillatorLanes> pack_oscillators(const std::vector<Oscillator>& oscillators);
 // The same of a whole group: r[kResponse], in lanes over oscillators.
 void respond(const OscillatorLanes& group, double tau, Lanes* r);
 
@@ -49,7 +49,7 @@ struct StepTable {
     };
     double h = 0;
     std::vector<Row> rows;
-    // `groups`: the same oscillators side by side.
+    // `groups`: the same oscillators packed in lanes.
     void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
 
   private:

@@ -1,6 +1,6 @@
 // CVODE and ARKODE behind the one-step view of integrator.hpp: Adams with fixed-point iteration, BDF with Newton
-// and a dense differenced Jacobian (a handful to eighty unknowns: differencing costs as much as a few
-// steps and serves dozens of them). The only file that sees SUNDIALS.
+// and a dense differenced Jacobian (a few to eighty unknowns: differencing costs as much as a few steps, and dozens of
+// steps use it). The only file that includes SUNDIALS.
 //
 // A segment is CVODE's Nordsieck polynomial of the step, or ARKODE's interpolant of degree 5: with
 // Fehlberg's 8(7) pair events are as accurate as that interpolant, not as the step.
@@ -54,7 +54,7 @@ struct Suite {
 };
 constexpr Suite kCvode{"CVODE", CVodeGetReturnFlagName}, kArkode{"ARKODE", ARKStepGetReturnFlagName};
 
-// What both solvers do to the right-hand side and to its norm.
+// Right-hand side and error norm of both solvers.
 struct Callbacks {
     Ode& ode;
     double rtol, atol;
@@ -72,7 +72,7 @@ struct Callbacks {
         const auto& me = *static_cast<Callbacks*>(self);
         const double* value = N_VGetArrayPointer(y);
         double* weight = N_VGetArrayPointer(w);
-        // The norm averages over all components; only the controlled ones shall count.
+        // The norm averages over all components; only the controlled ones must count.
         const double share = std::sqrt(static_cast<double>(me.ode.size) / me.ode.controlled);
         for (int i = 0; i < me.ode.size; ++i)
             weight[i] = i < me.ode.controlled ? share / (me.rtol * std::fabs(value[i]) + me.atol) : kIgnoredWeight;
@@ -93,7 +93,17 @@ struct Callbacks {
     }
 };
 
-// Adds what a solver's count has grown by; it starts anew with every restart of the solver.
+// y_i = Σ_k row(k)_i sᵏ
+template <class Row>
+void horner(double s, std::size_t order, std::size_t n, Row&& row, double* y) {
+    for (std::size_t i = 0; i < n; ++i) {
+        double v = row(order)[i];
+        for (std::size_t k = order; k-- > 0;) v = v * s + row(k)[i];
+        y[i] = v;
+    }
+}
+
+// Adds the growth of a solver's count, which restarts at zero with the solver.
 void grow(long& total, long now, long& last) {
     total += now >= last ? now - last : now;
     last = now;
@@ -103,12 +113,12 @@ SUNContext make_context() {
     SUNContext context = nullptr;
     if (SUNContext_Create(BEAMCAM_NO_COMM, &context) != 0) throw StepFailure("the integrator could not be set up");
 #if SUNDIALS_VERSION_MAJOR >= 7
-    SUNContext_ClearErrHandlers(context);  // failures come back as flags and are told once, by us
+    SUNContext_ClearErrHandlers(context);  // failures are returned as flags and reported by the caller
 #endif
     return context;
 }
 
-// What CVODE and ARKODE have in common: vectors, the start, the end of a step.
+// Common to CVODE and ARKODE: vectors, start and end of a step.
 class SundialsSolver : public Integrator, protected Segment {
   public:
     SundialsSolver(const SundialsSolver&) = delete;
@@ -127,7 +137,7 @@ class SundialsSolver : public Integrator, protected Segment {
     }
 
     const Segment& shorten(double at) final {
-        // The polynomial is as good as the step; no history to re-take it from.
+        // The polynomial is as accurate as the step; no history is kept to repeat it.
         value(at, end_.data());
         t1 = at;
         return *this;
@@ -151,7 +161,7 @@ class SundialsSolver : public Integrator, protected Segment {
         t1 = t;
         std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
     }
-    // Counts start anew with every restart of the solver: add up the differences.
+    // Adds the solver's counts to `counters`.
     virtual void collect() = 0;
     virtual void set_up(double t) = 0;
     virtual void restart(double t) = 0;
@@ -202,12 +212,7 @@ class Cvode final : public SundialsSolver {
     }
 
     void value(double t, double* y) const override {
-        const double s = t - base_;
-        for (std::size_t i = 0; i < n_; ++i) {
-            double v = taylor_[static_cast<std::size_t>(order_)][i];
-            for (int k = order_ - 1; k >= 0; --k) v = v * s + taylor_[static_cast<std::size_t>(k)][i];
-            y[i] = v;
-        }
+        horner(t - base_, static_cast<std::size_t>(order_), n_, [&](std::size_t k) { return taylor_[k].data(); }, y);
     }
 
     SegmentKind numbers(std::vector<double>& out) const override {
@@ -225,7 +230,7 @@ class Cvode final : public SundialsSolver {
             case CV_TOO_MUCH_ACC:
                 return kBelowRounding;
             case CV_ERR_FAILURE:
-                return vanished(true);
+                return step_failure_reason(true);
             case CV_CONV_FAILURE:
                 return "the iteration of an implicit step does not converge, however short the step";
             case CV_LSETUP_FAIL:
@@ -235,7 +240,7 @@ class Cvode final : public SundialsSolver {
             case CV_FIRST_RHSFUNC_ERR:
             case CV_REPTD_RHSFUNC_ERR:
             case CV_UNREC_RHSFUNC_ERR:
-                return vanished(false);
+                return step_failure_reason(false);
             default:
                 return kGaveUp;
         }
@@ -269,7 +274,7 @@ class Cvode final : public SundialsSolver {
         kCvode.check(CVodeWFtolerances(memory_, &Callbacks::weights), "the tolerances");
         kCvode.check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
-        // Failures come back as flags and are told once, by us.
+        // Failures are returned as flags and reported by the caller.
         kCvode.check(CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr),
                      "the start");
 #endif
@@ -292,7 +297,7 @@ class Cvode final : public SundialsSolver {
     double base_ = 0;
 };
 
-// The instant it is expanded about, and its coefficients from the constant on.
+// A stored polynomial of CVODE: the instant of expansion, and the coefficients from the constant on.
 class StoredTaylor final : public StoredSegment {
   public:
     explicit StoredTaylor(int size) : n_(static_cast<std::size_t>(size)) {}
@@ -305,13 +310,7 @@ class StoredTaylor final : public StoredSegment {
         rows_ = numbers.subspan(1);
     }
     void value(double t, double* y) const override {
-        const double s = t - base_;
-        const std::size_t order = rows_.size() / n_ - 1;
-        for (std::size_t i = 0; i < n_; ++i) {
-            double v = rows_[order * n_ + i];
-            for (std::size_t k = order; k-- > 0;) v = v * s + rows_[k * n_ + i];
-            y[i] = v;
-        }
+        horner(t - base_, rows_.size() / n_ - 1, n_, [&](std::size_t k) { return rows_.data() + k * n_; }, y);
     }
 
   private:
@@ -353,12 +352,12 @@ class Arkode final : public SundialsSolver {
             case ARK_TOO_MUCH_ACC:
                 return kBelowRounding;
             case ARK_ERR_FAILURE:
-                return vanished(true);
+                return step_failure_reason(true);
             case ARK_RHSFUNC_FAIL:
             case ARK_FIRST_RHSFUNC_ERR:
             case ARK_REPTD_RHSFUNC_ERR:
             case ARK_UNREC_RHSFUNC_ERR:
-                return vanished(false);
+                return step_failure_reason(false);
             default:
                 return kGaveUp;
         }

@@ -13,7 +13,7 @@ ChannelEvaluator::ChannelEvaluator(const System& system)
 void ChannelEvaluator::set(double t, const double* y) {
     t_ = t;
     std::copy_n(y, y_.size(), y_.begin());
-    balance_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
+    balance_known_ = energies_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
     system_.set_state(t, y_.data());
 }
 
@@ -33,16 +33,26 @@ const System::EnergyBalance& ChannelEvaluator::energy_balance() {
     return balance_;
 }
 
+// In contact the whole balance needs the gap.
+const Energies& ChannelEvaluator::energies() {
+    if (balance_known_ || !system_.phase().touching) return energy_balance().energies;
+    if (!energies_known_) energies_ = system_.model().energies();
+    energies_known_ = true;
+    return energies_;
+}
+
 void ChannelEvaluator::set_contact(const ContactState& contact) {
     contact_ = contact;
     contact_known_ = true;
     forces_known_ = !system_.phase().touching || system_.friction().kinetic == 0;
 }
 
-void ChannelEvaluator::set_gap(double gap) {
-    balance_ = system_.energy_balance(t_, y_.data(), gap);
+void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) {
+    balance_ = balance;
     balance_known_ = true;
 }
+
+void ChannelEvaluator::set_gap(double gap) { set_energy_balance(system_.energy_balance(t_, y_.data(), gap)); }
 
 double ChannelEvaluator::value(Channel channel) {
     const Model& model = system_.model();
@@ -59,15 +69,15 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::q:
             return channel.index < system_.coordinates() ? y_[static_cast<std::size_t>(channel.index)] : kNan;
         case ChannelKind::energy_kinetic:
-            return energy_balance().energies.kinetic;
+            return energies().kinetic;
         case ChannelKind::energy_potential:
-            return energy_balance().energies.gravity;
+            return energies().gravity;
         case ChannelKind::energy_elastic:
-            return energy_balance().energies.elastic;
+            return energies().elastic;
         case ChannelKind::loss_structural:
-            return energy_balance().loss_structural;
+            return ledger(kLossStructural);
         case ChannelKind::work_drive:
-            return energy_balance().work_drive;
+            return ledger(kWorkDrive);
         case ChannelKind::energy_residual:
             return energy_balance().total() - start_total_;
         case ChannelKind::contact_force:
@@ -122,7 +132,7 @@ double ChannelEvaluator::value_with_cam(ChannelKind kind) {
         case ChannelKind::loss_friction:
             return energy_balance().loss_friction;
         case ChannelKind::work_cam:
-            return energy_balance().work_cam;
+            return ledger(kWorkCam);
         default:
             return separation(kind);
     }

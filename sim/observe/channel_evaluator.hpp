@@ -9,7 +9,7 @@
 
 namespace beamcam::sim {
 
-// Channel values at one instant; remembers what it already worked out for that instant.
+// Channel values at one instant; energies, contact and accelerations are computed once.
 class ChannelEvaluator {
   public:
     explicit ChannelEvaluator(const System& system);
@@ -20,12 +20,15 @@ class ChannelEvaluator {
     Pose pose(int stations);
     System& system() { return system_; }
     const System::EnergyBalance& energy_balance();
-    // Spare a look at the contact where it is known.
+    // Each of these spares a computation whose result at this instant is available.
+    void set_energy_balance(const System::EnergyBalance& balance);
     void set_gap(double gap);
     void set_contact(const ContactState& contact);
     const ContactState& contact();
 
   private:
+    const Energies& energies();
+    double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double tip(ChannelKind kind);
     double value_with_cam(ChannelKind kind);
     double separation(ChannelKind kind);
@@ -34,9 +37,10 @@ class ChannelEvaluator {
     System system_;
     double t_ = 0, start_total_ = 0;
     std::vector<double> y_;
-    bool balance_known_ = false, contact_known_ = false, acceleration_known_ = false;
-    bool forces_known_ = false;  // of the contact, which was given
+    bool balance_known_ = false, energies_known_ = false, contact_known_ = false, acceleration_known_ = false;
+    bool forces_known_ = false;  // of the contact set by `set_contact`
     System::EnergyBalance balance_;
+    Energies energies_;
     ContactState contact_;
     double hub_acceleration_ = 0;
 };

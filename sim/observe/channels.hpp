@@ -1,4 +1,4 @@
-// Scalar functions of time that a trajectory can be asked for, by the names of the CSV header.
+// Channels: scalar functions of time along a trajectory, named as in the CSV header.
 // Signs and frames: MODEL.md, "Definitions".
 #pragma once
 
@@ -50,7 +50,7 @@ inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();  // the
 std::string name(Channel channel);                          // "theta", "q1"
 const char* unit(Channel channel, const Problem& problem);  // "rad", "m", "" for none
 bool needs_cam(ChannelKind kind);                           // undefined without a cam
-// The channel of that name, or nothing. q indices are checked against the problem by `all_channels`.
+// The channel of that name, or nothing; the index of q is not checked against the problem.
 std::optional<Channel> channel_named(std::string_view name);
 // Every channel of this problem in the order of DESIGN's list (q1…qN expanded).
 std::vector<Channel> all_channels(const Problem& problem);
@@ -64,7 +64,7 @@ struct ComparedAngle {
 };
 ComparedAngle compared_angle(const Problem& problem);
 
-// Rows in the order asked for; `values[c][row]`; NaN where undefined (written as an empty cell).
+// Rows in the order of the request; `values[c][row]`; NaN where undefined (written as an empty cell).
 struct Table {
     std::vector<Channel> channels;
     std::vector<std::vector<double>> values;

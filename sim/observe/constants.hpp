@@ -1,4 +1,4 @@
-// Numerical constants of what is observed of a run, each with its reason: extrema and their bounds, curves, warnings.
+// Numerical constants of extrema and their bounds, curves, stored trajectories and warnings, each with its reason.
 #pragma once
 
 #include <cstddef>
@@ -6,15 +6,16 @@
 namespace beamcam::sim {
 
 // ---- the search of extrema ----
-// Of the best value: a rise by less is not searched for. The error of the energy balance is rounding and what steps
-// miss: its digits do not matter.
+// Share of the best value below which a rise is not searched for. The error of the energy balance is rounding and
+// truncation: its digits do not matter.
 inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
-// Intervals that a search halves in one step, at most, and for each radian of the fastest vibration: many times more
-// than a sound step needs, so that a damaged one ends.
+// The most intervals that a search halves in one step: these, and these for each radian of the fastest vibration. Many
+// times more than a valid step needs, so that a damaged one ends.
 inline constexpr double kFewestHalvings = 4000, kHalvingsPerRadian = 32, kMostIntervals = 1e8;
-inline constexpr double kMostStepParts = 1e4;  // of a step without bounds of its modes: more cost more than the motion
+inline constexpr double kMostStepParts = 1e4;  // of a step without bounds of its modes: more would exceed the motion
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
-// A costly channel is evaluated where its bound is so many times the highest so far: later steps are beaten sooner.
+// A costly channel is evaluated where its bound is this many times the highest so far, so that later steps are excluded
+// sooner.
 inline constexpr double kHigherPromise = 1.2;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.
 inline constexpr int kMostParabolas = 8;
@@ -23,38 +24,38 @@ inline constexpr double kParabolaConverged = 1e-9;  // of the interval: √ of r
 inline constexpr double kSignRounding = 1e-14;      // of the sum of magnitudes: values below it have no sign
 
 // ---- bounds within a step ----
-inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration, which a polynomial of degree 7 follows to 10⁻⁷
+inline constexpr double kFollowedRadians = 2;   // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
 inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
 inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
 inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode
 inline constexpr double kWidestNodeGap = 0.2;   // of the step: no instant is farther from a node than half of this
-// Beyond the outer nodes the line through two of them goes on for a quarter of their distance.
+// Beyond the outer nodes the line through two of them is extended by a quarter of their distance.
 inline constexpr double kBeyondNodes = 1.25;
-inline constexpr double kWholeStep = 1e-9;   // of the step: what rounding may take from it
+inline constexpr double kWholeStep = 1e-9;   // of the step: rounding of its ends
 inline constexpr double kSlopeProbe = 1e-3;  // of the penetration: the slope of the law just beyond the deepest point
 
 // ---- curves ----
 inline constexpr int kMostCurveHalvings = 8;     // of the piece between two rows
-inline constexpr long kMostCurveRows = 400'000;  // 10 MB of three channels; more would be solid ink
+inline constexpr long kMostCurveRows = 400'000;  // 10 MB of three channels; more than a page resolves
 inline constexpr double kBesideMiddle = 0.31;    // of a piece: no vibration has a node here and in the middle
 
 // ---- records ----
-// Poses are taken within the first steps of a contact: a collision is over by then, a lasting contact moves slowly.
+// Poses are taken within the first steps of a contact: after them a collision is over, and a lasting contact is slow.
 inline constexpr int kContactPoseSteps = 4;
 inline constexpr std::size_t kWrittenAtOnce = 1 << 16, kReadAtOnce = 1 << 15;  // numbers of a stored trajectory
 
 // ---- chatter ----
-// Model `restitution`: bounces slower than this share of the approach floor are summed up in closed form where
-// nothing but they changes meanwhile (MODEL.md (S57)).
+// Model `restitution`: bounces slower than this share of the approach floor are summed in closed form where nothing
+// else changes meanwhile (MODEL.md (S57)).
 inline constexpr double kSummedShare = 0.1;
 // Elsewhere a rebound slower than this share ends the chatter in sustained contact. A bouncing point then rests at
 // most 2v/(g(1 − e)) too early (MODEL.md §9).
 inline constexpr double kChatterShare = 1e-3;
 
 // ---- warnings ----
-inline constexpr double kLedgerTolerances = 10;   // of rtol: the promise of `auto`; whatever misses it is told
+inline constexpr double kLedgerTolerances = 10;   // times rtol: the accuracy of `auto`; a larger error is a warning
 inline constexpr double kEnergyRounding = 1e-12;  // of the energy scale
-inline constexpr double kReportedGap = 1e-10;     // of the length, left at an event: 1000 times what rounding leaves
+inline constexpr double kReportedGap = 1e-10;     // of the length, left at an event: 1000 times rounding
 inline constexpr double kForeshorteningSlope = 0.3;  // [rad] beyond which the modal models' u ≈ −½∫v′² misses 2 %
 
 }  // namespace beamcam::sim

@@ -13,10 +13,10 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-// How far a vibration of amplitude 1 strays from a straight line while it turns so far.
+// Largest distance of a vibration of amplitude 1 from a straight line while it turns by these radians.
 double strays(double radians) { return std::min(2.0, radians * radians / 8); }
 
-bool touches(ChannelKind kind) {
+bool depends_on_gap(ChannelKind kind) {
     return kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || kind == ChannelKind::gap ||
            kind == ChannelKind::energy_contact;
 }
@@ -69,9 +69,8 @@ bool ModalChannels::set(const Segment& segment, double from, double to) {
     to_ = to;
     whole_ = from == segment.t0 && std::fabs(from + bounds_->h - to) <= kWholeStep * bounds_->h &&
              !system_.drive().prescribed();
-    balance_error_ = segment.balance_error();
     deflection_ = inclination_ = alpha_ = inertia_root_ = weight_root_ = 0;
-    hub_acceleration_ = motion_->spin_acceleration;
+    hub_acceleration_ = motion_->theta_ddot;
     for (std::size_t i = 0; i < modes_.size(); ++i) {
         const double amplitude = bounds_->modes[i].amplitude;
         deflection_ += modes_[i].shape * amplitude;
@@ -89,15 +88,15 @@ bool ModalChannels::set(const Segment& segment, double from, double to) {
     const DriveLaw& drive = system_.drive();
     torque_ = drive.has_torque() ? std::max(std::fabs(drive.torque(from)), std::fabs(drive.torque(to))) : 0;
     if (!system_.has_cam()) return true;
-    const double speed = motion_->spin * reach_ + disc_speed_;
+    const double speed = motion_->theta_dot * reach_ + disc_speed_;
     place_contact();
-    foot_speed_ = kBentContactShift * (speed + motion_->spin * away_);
+    foot_speed_ = kBentContactShift * (speed + motion_->theta_dot * away_);
     slide_ = foot_speed_ + kBentContactShift * (motion_->slope_speed * away_ + motion_->deflection_speed);
     if (touch_) set_contact();
     return true;
 }
 
-// How far the disc's centre is from the beam, and the contact from the root: of a straight beam, and by bending.
+// Distance of the disc's centre from the beam, and of the contact from the root: for a straight beam, plus bending.
 void ModalChannels::place_contact() {
     const double angle = 0.5 * (motion_->angle_low + motion_->angle_high),
                  turn = 0.5 * (motion_->angle_high - motion_->angle_low), h = to_ - from_;
@@ -158,7 +157,7 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
         case ChannelKind::theta:
             return weigh(bounds_->angle, bounds_->q, &Mode::turn);
         case ChannelKind::theta_dot:
-            return weigh(bounds_->spin, bounds_->rate, &Mode::turn);
+            return weigh(bounds_->theta_dot, bounds_->rate, &Mode::turn);
         case ChannelKind::tip_deflection:
             return weigh({}, bounds_->q, &Mode::tip);
         case ChannelKind::tip_rate:
@@ -168,12 +167,12 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
     }
 }
 
-// Of the inertia: a mode swings in the shape that the others give the beam.
+// Of the inertia: a mode vibrates about the shape of the others.
 double ModalChannels::turning(std::size_t i) const {
-    return motion_->spin * modes_[i].inertia * inertia_root_ * bounds_->modes[i].amplitude;
+    return motion_->theta_dot * modes_[i].inertia * inertia_root_ * bounds_->modes[i].amplitude;
 }
 
-// Of the contact's place: a slope turns the normal, which meets the disc's centre `away_`.
+// Of the place of contact: a slope rotates the normal, which passes the disc's centre at the distance `away_`.
 double ModalChannels::foot(const Mode& m) const {
     return kBentContactShift * (m.slope * away_ + m.shape * inclination_);
 }
@@ -194,17 +193,17 @@ BEAMCAM_INLINE ModalChannels::Sensitivity ModalChannels::in_contact(ChannelKind 
 
 BEAMCAM_INLINE ModalChannels::Sensitivity ModalChannels::of_energy(ChannelKind kind, const Mode& m,
                                                                    const ModalBounds::Mode& b, double turning) const {
-    const double spin = motion_->spin;
+    const double theta_dot = motion_->theta_dot;
     if (kind == ChannelKind::energy_kinetic)
-        return {.rate = spin * m.U, .mixed = 0.25 * mass_ * b.rate * b.rate + spin * turning};
+        return {.rate = theta_dot * m.U, .mixed = 0.25 * mass_ * b.rate * b.rate + theta_dot * turning};
     if (kind == ChannelKind::energy_potential)
-        return {.q = gravity_ * m.W, .mixed = gravity_ * m.weight * weight_root_ * b.amplitude, .shift = 2 * spin};
+        return {.q = gravity_ * m.W, .mixed = gravity_ * m.weight * weight_root_ * b.amplitude, .shift = 2 * theta_dot};
     if (kind == ChannelKind::energy_elastic) return {.mixed = 0.25 * m.stiffness * b.amplitude * b.amplitude};
     if (!system_.drive().prescribed()) return {.q = torque_ * m.h};  // work_drive (S55)
-    return {.q = m.U * motion_->spin_acceleration, .rate = 2 * spin * m.U, .mixed = 2 * spin * turning};
+    return {.q = m.U * motion_->theta_ddot, .rate = 2 * theta_dot * m.U, .mixed = 2 * theta_dot * turning};
 }
 
-// Calls `visit` with |∂c/∂q_i|, |∂c/∂q̇_i|, |∂c/∂q̈_i| of every mode i: a loop of its own for each channel.
+// Calls `visit` with |∂c/∂q_i|, |∂c/∂q̇_i|, |∂c/∂q̈_i| of every mode i: a separate loop for each channel.
 template <class Visit>
 void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
     const auto each = [&](auto&& sensitivity) {
@@ -265,26 +264,26 @@ void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
 
 // Bound of |dc/dt| with the modes at rest; zero where the channel is monotone.
 double ModalChannels::drift(ChannelKind kind) const {
-    const double spin = motion_->spin, acceleration = motion_->spin_acceleration;
+    const double theta_dot = motion_->theta_dot, acceleration = motion_->theta_ddot;
     switch (kind) {
         case ChannelKind::theta:
-            return spin;
+            return theta_dot;
         case ChannelKind::theta_dot:
             return acceleration;
         case ChannelKind::gap:
-            return spin * reach_ + disc_speed_;
+            return theta_dot * reach_ + disc_speed_;
         case ChannelKind::contact_x:
             return foot_speed_;
         case ChannelKind::contact_s:
-            return cam_radius_ * (spin + cam_speed_) + spin * reach_ + disc_speed_;
+            return cam_radius_ * (theta_dot + cam_speed_) + theta_dot * reach_ + disc_speed_;
         case ChannelKind::energy_kinetic:
-            return inertia_ * spin * acceleration;
+            return inertia_ * theta_dot * acceleration;
         case ChannelKind::energy_potential:
-            return gravity_ * lever_ * spin;
+            return gravity_ * lever_ * theta_dot;
         case ChannelKind::work_cam:
             return bounds_->power_cam;
         case ChannelKind::work_drive:
-            return bounds_->power_drive + (system_.drive().prescribed() ? 2 * inertia_ * spin * acceleration : 0);
+            return bounds_->power_drive + (system_.drive().prescribed() ? 2 * inertia_ * theta_dot * acceleration : 0);
         default:
             return 0;
     }
@@ -296,7 +295,7 @@ double ModalChannels::swing(std::size_t i) const {
     return omega > 0 ? std::min(2 * amplitude, bounds_->modes[i].acceleration / (omega * omega)) : amplitude;
 }
 
-// Products of modes swing by what each of them swings, as a share of it.
+// The vibrating share of products of modes, from that of each mode.
 double ModalChannels::swinging_share(std::size_t i) const {
     const ModalBounds::Mode& b = bounds_->modes[i];
     const double x = strays_[i].swing, speed = modes_[i].omega * x;
@@ -304,10 +303,10 @@ double ModalChannels::swinging_share(std::size_t i) const {
     return swings ? kProductSwing * std::max(x / b.amplitude, speed / b.rate) : 1;
 }
 
-// Calls add(amplitude, frequency) with what a polynomial of degree 7 over the part does not resolve.
+// Calls add(amplitude, frequency) with every vibration that a polynomial of degree 7 over the part does not resolve.
 template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
-    if (touches(channel.kind) && channel.kind != ChannelKind::gap && !touch_) return;
+    if (depends_on_gap(channel.kind) && channel.kind != ChannelKind::gap && !touch_) return;
     const double least = kFollowedRadians / (to_ - from_);
     each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
         const ModalBounds::Mode& b = bounds_->modes[i];
@@ -324,7 +323,7 @@ void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
     each_unresolved(channel, [&](double amplitude, double frequency) { out.add(amplitude, frequency); });
 }
 
-// How far the channel leaves the lines between neighbouring nodes: what their polynomial does, and what it misses.
+// Distance of the channel from the lines between neighbouring nodes: of their polynomial, and of unresolved vibration.
 double ModalChannels::strays_between_nodes(Channel channel, const Variation& polynomial) const {
     const double length = kWidestNodeGap * bounds_->h;
     double stray = polynomial.strays(length);
@@ -340,9 +339,9 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         return {-most, most};
     }
     if (channel.kind == ChannelKind::energy_residual)
-        return {std::min(first, last) - balance_error_, std::max(first, last) + balance_error_};
-    if (touch_ && touches(channel.kind)) return contact_range(channel);
-    if (touches(channel.kind) && channel.kind != ChannelKind::gap) return {0, 0};
+        return {std::min(first, last) - bounds_->balance_error, std::max(first, last) + bounds_->balance_error};
+    if (touch_ && depends_on_gap(channel.kind)) return contact_range(channel);
+    if (depends_on_gap(channel.kind) && channel.kind != ChannelKind::gap) return {0, 0};
     double stray = 0.5 * drift(channel.kind) * h;
     const bool tip = channel.kind == ChannelKind::tip_deflection || channel.kind == ChannelKind::tip_rate;
     each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
@@ -361,18 +360,18 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
     if (channel.kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
-    // The arc begins anew at the mark on the disc.
+    // The arc jumps at the mark on the disc.
     const double around = 2 * std::numbers::pi * cam_radius_;
     if (channel.kind == ChannelKind::contact_s &&
         (range.low < 0 || range.high > around || range.high - range.low > 0.5 * around))
-        return {-kInfinity, kInfinity};
+        return {0, around};
     return range;
 }
 
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
     const bool separation = channel.kind == ChannelKind::separation || channel.kind == ChannelKind::separation_paper;
     if (separation && whole_) {
-        if (!separation_) separation_ = work_out_separation();
+        if (!separation_) separation_ = separation_range();
         return separation_;
     }
     Lanes nodes;
@@ -388,9 +387,9 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
     return Range{range.low - stray, range.high + stray};
 }
 
-// θ̈ = Θ̈ + h·q̈ times the arm, and what gravity adds. Before the first node and after the last the line through the two
+// θ̈ = Θ̈ + h·q̈ times the arm, and gravity. Before the first node and after the last the line through the two
 // nearest goes on: there vibrations leave it by at most 5/4 of what they do between two nodes.
-ModalChannels::Range ModalChannels::work_out_separation() const {
+ModalChannels::Range ModalChannels::separation_range() const {
     Lanes nodes{};
     Variation variation;
     for (std::size_t i = 0; i < modes_.size(); ++i) {
@@ -399,7 +398,7 @@ ModalChannels::Range ModalChannels::work_out_separation() const {
         if (m.omega * (to_ - from_) > kFollowedRadians) variation.add(m.h * bounds_->modes[i].acceleration, m.omega);
     }
     variation.add_polynomial(nodes, bounds_->h);
-    const double stray = kBeyondNodes * variation.strays(kWidestNodeGap * bounds_->h) + motion_->spin_acceleration;
+    const double stray = kBeyondNodes * variation.strays(kWidestNodeGap * bounds_->h) + motion_->theta_ddot;
     const auto beyond = [&](int last, int before) {
         return nodes[last] + (kBeyondNodes - 1) * (nodes[last] - nodes[before]);
     };

@@ -1,6 +1,6 @@
 // How each channel depends on the modes within one step: bounds of |∂c/∂q|, |∂c/∂q̇| and |∂c/∂q̈|, which turn the
-// bounds of each mode (ModalBounds) into vibrations of the channel; and how fast the channel changes besides. For the
-// modal models. MODEL.md §12, (S59).
+// bounds of each mode (ModalBounds) into vibrations of the channel; and how fast the channel drifts. For the modal
+// models. MODEL.md §12, (S59).
 #pragma once
 
 #include <optional>
@@ -23,7 +23,7 @@ class ModalChannels {
     struct Range {
         double low, high;
     };
-    // The tip's deflection or its rate in the state y, but for what is not linear in the modes.
+    // The part of the tip's deflection or its rate in the state y that is linear in the modes.
     double tip(ChannelKind kind, const double* y) const;
     // The hub's angle or rate in that state.
     double hub(ChannelKind kind, const double* y) const;
@@ -31,7 +31,7 @@ class ModalChannels {
     bool at_nodes(Channel channel, Lanes& values) const;
     // Of a channel within that part, from its values at the ends.
     Range range(Channel channel, double first, double last) const;
-    // The same from its values at the nodes, too: closer and dearer; nothing where `at_nodes` is false.
+    // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.
     std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
     // Of q alone, by the bounds of its mode: cheap.
     Range mode_range(Channel channel) const {
@@ -42,7 +42,7 @@ class ModalChannels {
     void add_unresolved(Channel channel, Variation& out) const;
 
   private:
-    // To one mode. `mixed`: what products of modes contribute; `shift`: how fast the factor of q itself turns [rad/s].
+    // To one mode. `mixed`: contribution of products of modes; `shift`: frequency of the factor of q [rad/s].
     struct Sensitivity {
         double q = 0, rate = 0, acceleration = 0, mixed = 0, shift = 0;
     };
@@ -64,13 +64,13 @@ class ModalChannels {
     void place_contact();
     void set_contact();
     Range contact_range(Channel channel) const;
-    Range work_out_separation() const;
+    Range separation_range() const;
     double contact_value(ChannelKind kind, int sample) const;
 
     System& system_;
-    struct Strays {  // how far q, q̇ and products of modes stray within the step, the last by amplitude 1
+    struct Strays {  // of q, q̇ and products of modes from a line within the step; the last for amplitude 1
         double q, rate, mixed;
-        double swing, share;  // of the mode, and what of products with it swings
+        double swing, share;  // of the vibrating mode, and of products with it
     };
     std::vector<Mode> modes_;
     std::vector<Strays> strays_;
@@ -81,7 +81,7 @@ class ModalChannels {
     const ModalBounds* bounds_ = nullptr;
     const MotionBounds* motion_ = nullptr;
     const TouchSamples* touch_ = nullptr;
-    double from_ = 0, to_ = 0, balance_error_ = 0;
+    double from_ = 0, to_ = 0;
     bool whole_ = false;                                   // all of the collocation step, whose hub moves freely
     double deflection_ = 0, inclination_ = 0, alpha_ = 0;  // bounds of |v|, |v′|, |α|
     double inertia_root_ = 0, weight_root_ = 0;            // of √|qᵀBq|, √|qᵀGq|

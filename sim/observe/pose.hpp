@@ -1,5 +1,4 @@
-// Where everything is at one instant: what a picture needs to know of the mechanics, in metres.
-// True geometry, never exaggerated.
+// The mechanism at one instant, for pictures: true geometry in metres, never exaggerated.
 #pragma once
 
 #include <optional>

@@ -5,71 +5,52 @@
 
 namespace beamcam::sim {
 
-double end_of(const Request& request) {
-    double end = request.end_time;
-    const auto extend = [&](const std::vector<double>& times) {
-        for (double t : times) end = std::max(end, t);
-    };
-    for (const TableRequest& table : request.tables) extend(table.times);
-    for (const PoseRequest& poses : request.poses) extend(poses.times);
-    for (const PointRequest& points : request.points) extend(points.times);
-    return end;
-}
-
-RecorderSet::RecorderSet(const System& system, std::span<const Request> requests) : done_(requests.size(), 0) {
-    recorders_.reserve(requests.size());
+RecorderSet::RecorderSet(const System& system, std::span<const Request> requests)
+    : y_(static_cast<std::size_t>(system.size)) {
     for (const Request& request : requests) {
-        recorders_.emplace_back(system, request, end_of(request));
+        recorders_.emplace_back(system, request);
         end_ = std::max(end_, recorders_.back().end());
     }
 }
 
-bool RecorderSet::done() const {
-    return std::ranges::all_of(done_, [](char done) { return done != 0; });
+bool RecorderSet::done() const { return std::ranges::all_of(recorders_, &Recorder::finished); }
+
+template <class F>
+void RecorderSet::each_unfinished(F&& visit) {
+    for (Recorder& r : recorders_)
+        if (!r.finished()) visit(r);
 }
 
 void RecorderSet::begin(const Phase& phase, const std::vector<double>& y) {
-    y_.resize(y.size());
     for (Recorder& r : recorders_) r.begin(phase, y);
-}
-
-void RecorderSet::finish(Recorder& recorder, double t, const double* y, const StatisticsSource& statistics) {
-    recorder.finish(t, y, statistics());
-    done_[static_cast<std::size_t>(&recorder - recorders_.data())] = 1;
 }
 
 const SegmentSummary* RecorderSet::record(const Segment& segment, double from, double to, bool event,
                                           const StatisticsSource& statistics, const SegmentSummary* known) {
-    for (Recorder& r : recorders_) {
-        if (!is_recording(r)) continue;
-        const bool ends = r.end() < to || (r.end() == to && !event);
-        if (ends) {
+    each_unfinished([&](Recorder& r) {
+        if (r.end() < to || (r.end() == to && !event)) {
             r.record({&segment, from, r.end(), true});
             segment.value(r.end(), y_.data());
-            finish(r, r.end(), y_.data(), statistics);
-        } else if (known) {
-            r.record({&segment, from, to, false}, *known);
+            r.finish(r.end(), y_.data(), statistics());
         } else {
-            r.record({&segment, from, to, false}, &summary_);
-            known = &summary_;
+            r.record({&segment, from, to, false}, known);
+            if (!known) known = &r.summary();
         }
-    }
+    });
     return known;
 }
 
 void RecorderSet::touch(double t, const double* y, const ContactState& contact) {
-    for (Recorder& r : recorders_)
-        if (is_recording(r)) r.touch(t, y, contact);
+    each_unfinished([&](Recorder& r) { r.touch(t, y, contact); });
 }
 
 void RecorderSet::release(double t, const double* y, const ContactState& contact) {
-    for (Recorder& r : recorders_)
-        if (is_recording(r)) r.release(t, y, contact);
+    each_unfinished([&](Recorder& r) { r.release(t, y, contact); });
 }
 
 namespace {
 
-// The end of a run that falls on an instant without a segment of its own.
+// The end of a run that falls on an instant without a segment.
 struct PointSegment final : Segment {
     PointSegment(double t, const std::vector<double>& state) : y(state) { t0 = t1 = t; }
     void value(double, double* out) const override { std::copy(y.begin(), y.end(), out); }
@@ -80,19 +61,17 @@ struct PointSegment final : Segment {
 
 void RecorderSet::resume(double t, const std::vector<double>& y, const Phase& phase,
                          const StatisticsSource& statistics) {
-    for (Recorder& r : recorders_) {
-        if (!is_recording(r)) continue;
-        r.phase(phase);
-        if (r.end() > t && !r.has_enough()) continue;
+    each_unfinished([&](Recorder& r) {
+        r.set_phase(phase);
+        if (r.end() > t && !r.has_enough()) return;
         const PointSegment point(t, y);
         r.record({&point, t, t, true});
-        finish(r, t, y.data(), statistics);
-    }
+        r.finish(t, y.data(), statistics());
+    });
 }
 
 void RecorderSet::give_up(double t, const std::vector<double>& y, const StatisticsSource& statistics) {
-    for (Recorder& r : recorders_)
-        if (is_recording(r)) finish(r, t, y.data(), statistics);
+    each_unfinished([&](Recorder& r) { r.finish(t, y.data(), statistics()); });
 }
 
 std::vector<Result> RecorderSet::results() {

@@ -1,5 +1,5 @@
-// Instants at which a plane curve that is known at any time is looked at, so that straight pieces between them follow
-// it: a piece is halved until the curve stays near it.
+// Chooses instants of a plane curve so that straight pieces between them follow it: a piece is halved until the curve
+// stays near it.
 #pragma once
 
 #include <algorithm>
@@ -13,8 +13,8 @@ namespace beamcam::sim {
 
 class CurveRefiner {
   public:
-    // Between the instants a < b. `at(t)` is the curve; `keep(t)` takes the instants to be added, in order.
-    // `stray`: how far from a piece, in shares of the range so far.
+    // Between the instants a < b. `at(t)` is the curve; `keep(t)` receives the added instants, in order. `stray`: the
+    // largest distance from a piece, as a share of the range so far.
     template <class At, class Keep>
     void refine(double a, double b, double stray, At&& at, Keep&& keep) {
         most_ = stray;
@@ -27,7 +27,7 @@ class CurveRefiner {
         const double middle = 0.5 * (a + b);
         if (halvings == 0 || added_ >= kMostCurveRows || !(middle > a && middle < b)) return;
         const Vec2 aside = seen(at(a + kBesideMiddle * (b - a))), centre = seen(at(middle));
-        // Where the curve has no value the distance is NaN, and nothing is to be refined.
+        // Where the curve has no value the distance is NaN and nothing is refined.
         if (!(std::max(stray(centre, from, to), stray(aside, from, to)) > most_)) return;
         halve(a, from, middle, centre, halvings - 1, at, keep);
         ++added_;

@@ -1,4 +1,4 @@
-// What is wanted of a motion.
+// Requests to a simulation: tables, poses, points, extrema and events.
 #pragma once
 
 #include <cstddef>
@@ -12,24 +12,23 @@
 
 namespace beamcam::sim {
 
-// What is wanted. Times may lie in any order, must be >= 0, and the run extends to the largest of
-// them and of `end_time`.
+// Times may be in any order and must be >= 0; the run extends to the largest of them and of `end_time`.
 struct TableRequest {
-    std::vector<double> times;  // [s]; rows come in this order
+    std::vector<double> times;  // [s]; rows are in this order
     std::vector<Channel> channels;
-    // Abscissa and ordinate of a curve that is to be drawn: rows are added between the times until pieces between
-    // neighbouring rows follow it. All rows then come in the order of time.
+    // Abscissa and ordinate of a curve: rows are added between the times until straight pieces between neighbouring
+    // rows follow it. All rows are then in the order of time.
     std::optional<std::pair<Channel, Channel>> curve = {};
-    double stray = 0.01;  // of the curve from the pieces, in its range; splines through the rows stray less
+    double stray = 0.01;  // distance of the curve from the pieces, as a share of its range
 };
 struct PoseRequest {
     std::vector<double> times;  // [s]
     int stations = 97;          // points along the centre line, >= 2
-    // Takes each pose, by the row of its time, as soon as it is known: then Result::poses keeps none. A row may be told
-    // again, and not all are told when the run fails.
+    // Receives each pose with the row of its time as soon as it is computed; Result::poses then stays empty. A row may
+    // come twice, and not all come when the run fails.
     std::function<void(std::size_t row, const Pose& pose)> take{};
-    // Also so many poses in contact, between the first and the last of the times: at each touch and within the steps
-    // that follow it. Their rows go on from those of the times, and begin anew when those do.
+    // The most additional poses in contact, between the first and the last of the times: at each touch and within the
+    // steps after it. Their rows follow those of the times.
     std::size_t contacts = 0;
 };
 // The path of a material point of the centre line.
@@ -46,10 +45,10 @@ struct Request {
     std::vector<TableRequest> tables;
     std::vector<PoseRequest> poses;
     std::vector<PointRequest> points;
-    std::vector<Channel> extrema;  // located on the dense output
-    bool turning_points = true;    // apexes and zero crossings of θ, which need a look at every ripple
-    bool horizon = false;          // during which intervals θ is reproducible (horizon.hpp); costs more runs
-    // The run ends at the event with which the motion has had as many of each kind; else at the end above.
+    std::vector<Channel> extrema;                 // searched on the dense output
+    bool apexes = false, zero_crossings = false;  // of θ; each searches every ripple of the hub
+    bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs further runs
+    // The run ends early at the event that completes these counts.
     std::optional<EventCounts> enough = {};
 };
 

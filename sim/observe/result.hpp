@@ -1,4 +1,4 @@
-// What is found of a motion: samples, poses, impacts, extrema, the balance of energy.
+// Results of a simulation: samples, poses, impacts, extrema, the energy balance.
 #pragma once
 
 #include <optional>
@@ -58,7 +58,7 @@ struct Extremum {
     double min = 0, t_min = 0, max = 0, t_max = 0;
 };
 
-// From the last instant before it; no end: up to that of the run.
+// [s]; without `to`: to the end of the run.
 struct Interval {
     double from = 0;
     std::optional<double> to;
@@ -82,19 +82,19 @@ struct Result {
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
     std::vector<Extremum> extrema;   // one per Request::extrema
-    double energy_residual_max = 0;  // at the ends of steps; an extremum of the channel is searched within them [J]
+    double energy_residual_max = 0;  // at the ends of steps [J]; within them: the extremum of that channel
     double energy_scale = 0;         // [J]
     // With Request::horizon:
     std::optional<double> reproducible_until;       // the first loss, or the end [s]
     std::vector<Interval> not_reproducible;         // [s]
     std::optional<double> reproducible_again_from;  // after the last of these, where it ends before the run [s]
     std::string compared_with;                      // methods and tolerances of the other runs
-    std::string reproducibility;                    // all of it in a sentence
+    std::string reproducibility;                    // a sentence on the four above
     Counters counters;
     std::vector<std::pair<Method, long>> steps_by_method;  // accepted steps of each method that took any
     double wall_seconds = 0;
-    bool beyond_model = false;          // it bends through angles that its model does not hold for
-    std::vector<std::string> warnings;  // in the user's terms
+    bool beyond_model = false;  // the beam bends through larger angles than its model allows
+    std::vector<std::string> warnings;
 };
 
 }  // namespace beamcam::sim

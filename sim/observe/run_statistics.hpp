@@ -1,24 +1,24 @@
-// What an integration has counted: its work, and what it did in another way than asked for.
+// Counts of an integration: its work, and the places where it departed from the request.
 #pragma once
 
 #include "sim/observe/result.hpp"
 
 namespace beamcam::sim {
 
-// What an integration did in another way than asked for, or could not resolve.
+// Departures from the request, and events that could not be resolved.
 struct Fallbacks {
-    long steps = 0;             // by `method` instead of the exponential collocation
-    long handed_over = 0;       // contacts that the collocation could not solve
-    long friction_changes = 0;  // steps in which a bristle's grip stayed though it breaks and catches at one instant
-    long strikes = 0;           // taken as plastic because the step's error swallows the rebound
-    long coarse = 0;            // steps whose vibration is faster than the looks for a touch resolve
-    long left_behind = 0;       // resting starts on a turning cam without a motion along it
-    long searches = 0;          // for an extremum that ended before they were sure
-    double gap = 0;             // largest distance from zero of the gap at an event, taken out of it from there on [m]
+    long steps = 0;        // by `method` instead of the exponential collocation
+    long handed_over = 0;  // contacts that the collocation could not solve
+    long friction_changes = 0;  // steps in which stick and slip alternate at one instant and the grip was left as it was
+    long strikes = 0;      // taken as plastic because the rebound is below the error of the step
+    long coarse = 0;       // steps whose vibration is faster than the touch search resolves
+    long left_behind = 0;  // starts at rest on a turning cam where no motion along with it was found
+    long searches = 0;     // for an extremum that were incomplete
+    double gap = 0;        // largest magnitude of the gap at an event, subtracted from there on [m]
     Method method = Method::rk8;
 };
 
-// What an integration has counted so far.
+// Counts so far.
 struct RunStatistics {
     Counters counters;
     long floored = 0;   // touches slower than the approach floor

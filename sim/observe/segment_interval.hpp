@@ -1,6 +1,7 @@
-// One step of the trajectory as the recorders see it, and what each step adds to every result.
+// One step of the trajectory as the recorders see it, and its contribution to every result.
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "sim/integrate/integrator.hpp"
@@ -16,14 +17,17 @@ struct SegmentInterval {
     bool ends_before(double t) const { return last ? t > to : t >= to; }
 };
 
-// What an interval adds to every result, whatever was asked for. Found once, for all recorders.
-struct SegmentSummary {
-    bool turning_points = false;  // whether the next two were looked for
-    std::vector<Apex> apexes;
-    std::vector<ZeroCrossing> theta_zero;
-    // So far: of the impact still open, of the energy ledger, and the largest bending energy [J].
-    decltype(Impact::force_peak) force_peak{};
-    double penetration_peak = 0, energy_scale = 0, energy_residual_max = 0, largest_elastic = 0;
+// Largest values up to the end of an interval: of the open impact, and of the whole run.
+struct RunPeaks {
+    decltype(Impact::force_peak) force_peak{};                              // [N]
+    double penetration_peak = 0;                                            // [m]
+    double energy_scale = 0, energy_residual_max = 0, largest_elastic = 0;  // [J]; the last: of the bending energy
+};
+
+// Everything about an interval that does not depend on the request; computed once, for all recorders.
+struct SegmentSummary : RunPeaks {
+    std::optional<std::vector<Apex>> apexes;  // absent: not searched
+    std::optional<std::vector<ZeroCrossing>> theta_zero;
 };
 
 }  // namespace beamcam::sim

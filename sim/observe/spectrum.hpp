@@ -8,7 +8,7 @@ namespace beamcam::sim {
 struct Spectrum {
     std::vector<double> frequency;  // [Hz], from 0
     std::vector<double> amplitude;  // of a sine there, in the unit of the samples
-    double resolution = 0;          // [Hz]: the window's equivalent noise bandwidth, 1.5 over the length of the stretch
+    double resolution = 0;          // [Hz]: the window's equivalent noise bandwidth, 1.5 over the length of the record
 };
 
 // Of the samples less their mean, `step` [s] apart; those without a value count as the mean. At least two samples.

@@ -1,9 +1,9 @@
-// A trajectory taken down as plain numbers: every accepted segment with its phase, every event, and the
-// summary that do not depend on what is asked for. Any request that ends where it ends, or before, is
-// answered from it with the bits of the direct run.
+// A trajectory stored as plain numbers: every accepted segment with its phase, every event, and the summaries that do
+// not depend on a request. Any request that ends where it ends, or before, is answered from it with the bits of the
+// direct run.
 //
-// The numbers are doubles in memory order, for this machine and this version of the program; who
-// stores them must see to it that no other reads them, and that none is damaged.
+// The numbers are doubles in memory order, for this machine and this version of the program; the owner of the storage
+// must ensure that nothing else reads them and that damage is detected.
 #pragma once
 
 #include <cstdint>
@@ -12,13 +12,19 @@
 #include <span>
 #include <vector>
 
-#include "sim/observe/recorder_set.hpp"
+#include "sim/dynamics/system.hpp"
+#include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 
+class RecorderSet;
+enum class RecordKind : int;
+struct RunStatistics;
+struct SegmentSummary;
+
 class TrajectoryWriter {
   public:
-    // Hands numbers on in pieces, in order.
+    // Takes the numbers in pieces, in order.
     using Sink = std::function<void(std::span<const double>)>;
     explicit TrajectoryWriter(Sink sink) : sink_(std::move(sink)) {}
 
@@ -30,13 +36,13 @@ class TrajectoryWriter {
     void resume(double t, const std::vector<double>& y, const Phase& phase, const RunStatistics& statistics);
     void end(double t);
 
-    // False once a segment was more than numbers: then nothing more is handed on and the rest is worthless.
+    // False once a segment could not be given by numbers: then nothing more is written and the rest is worthless.
     bool complete() const { return ended_ && !broken_; }
     long steps() const { return steps_; }
     double reached() const { return reached_; }  // where it ended [s]
 
   private:
-    void put_event(int kind, double t, const std::vector<double>& y, const ContactState& contact);
+    void put_event(RecordKind kind, double t, const std::vector<double>& y, const ContactState& contact);
     void flush();
 
     Sink sink_;
@@ -46,7 +52,7 @@ class TrajectoryWriter {
     bool broken_ = false, ended_ = false;
 };
 
-// Numbers in their order, wherever they are kept.
+// Numbers in their order, in memory or in a file.
 class NumberSource {
   public:
     virtual ~NumberSource() = default;
@@ -56,12 +62,12 @@ class NumberSource {
 
 class Trajectory {
   public:
-    // Throws std::invalid_argument when they are no whole trajectory of this problem.
+    // Throws std::invalid_argument when the numbers are no complete trajectory of this problem.
     Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers);
     Trajectory(const Problem& problem, std::span<const double> numbers);  // which must outlive it
     double end() const { return end_; }
-    // Tells it again, as far as the recorders look. Throws std::invalid_argument where it ends before. Few of the
-    // numbers are held at once.
+    // Replays it until the recorders are done. Throws std::invalid_argument where it ends before. Few of the numbers
+    // are in memory at once.
     void play(const Problem& problem, RecorderSet& recorders) const;
 
   private:

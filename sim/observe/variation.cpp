@@ -16,7 +16,7 @@ void Variation::add(double amplitude, double frequency) {
 
 namespace {
 
-// Constants of the Legendre polynomials on [0, 1], worked out once: |P_j| ≤ 1 and |P_j″| ≤ (j − 1)j(j + 1)(j + 2)/2.
+// Constants of the Legendre polynomials on [0, 1], computed once: |P_j| ≤ 1 and |P_j″| ≤ (j − 1)j(j + 1)(j + 2)/2.
 struct Polynomials {
     Lanes coefficients[kNodes];  // [l][j]: what a value at node l contributes to the coefficient of P_j
     double frequency[kNodes];

@@ -15,7 +15,7 @@ class Variation {
     void add(double amplitude, double frequency);
     // The polynomial through values at the Gauss nodes of an interval of length h; its linear part does not stray.
     void add_polynomial(const Lanes& nodes, double h);
-    // What that polynomial misses of the values at both ends.
+    // The error of that polynomial at both ends.
     void add_missed(const Lanes& nodes, double first, double last, double h);
 
     double strays(double length) const;
@@ -25,7 +25,7 @@ class Variation {
     double rises(double length, double difference) const;
     // How far f may be from the parabola through its values at both ends and in the middle.
     double parabola_error(double length) const;
-    // What all vibrations that turn by more than one radian contribute.
+    // The contribution of all vibrations that turn by more than one radian.
     double unresolved(double length) const;
 
   private:

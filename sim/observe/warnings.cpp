@@ -10,7 +10,7 @@
 namespace beamcam::sim {
 namespace {
 
-void tell_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
+void warn_of_chatter(const Problem& problem, const RunStatistics& statistics, std::vector<std::string>& out) {
     if (statistics.chatters == 0) return;
     const double speed = kSummedShare * problem.contact.approach_floor.value;
     out.push_back(
@@ -19,7 +19,7 @@ void tell_chatter(const Problem& problem, const RunStatistics& statistics, std::
                     counted(statistics.chatters, "time"), speed, kSummedShare));
 }
 
-void tell_ledger(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+void warn_of_ledger(const Problem& problem, const Result& result, std::vector<std::string>& out) {
     const double limit = kLedgerTolerances * problem.solver.rtol * result.energy_scale;
     if (problem.beam.model == ModelKind::paper || !(result.energy_residual_max > limit)) return;
     out.push_back(
@@ -29,13 +29,13 @@ void tell_ledger(const Problem& problem, const Result& result, std::vector<std::
                     problem.solver.method == Method::automatic ? "" : ", or use \"method\": \"auto\""));
 }
 
-// ∫v″² ≥ (slope at the tip)²/L: an upper bound of the slope from the bending energy, whatever the shape [rad].
+// Upper bound of the slope from the bending energy, for any shape: ∫v″² ≥ (slope at the tip)²/L [rad].
 double slope_bound(const Problem& problem, double largest_elastic) {
     const Beam& beam = problem.beam;
     return std::sqrt(2 * largest_elastic * beam.length / beam.bending_stiffness());
 }
 
-void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std::string>& out) {
+void warn_of_slopes(const Problem& problem, double largest_elastic, std::vector<std::string>& out) {
     const double slope = slope_bound(problem, largest_elastic);
     if (bends_beyond(problem, largest_elastic))
         out.push_back(
@@ -45,7 +45,7 @@ void tell_slopes(const Problem& problem, double largest_elastic, std::vector<std
 }
 
 // Newton's law creates energy where friction turns the slip around during an impact (Kane & Levinson 1985).
-void tell_gains(const Problem& problem, const Result& result, std::vector<std::string>& out) {
+void warn_of_gains(const Problem& problem, const Result& result, std::vector<std::string>& out) {
     if (problem.contact.model != ContactModel::restitution) return;
     double gained = 0;
     long count = 0;
@@ -59,8 +59,8 @@ void tell_gains(const Problem& problem, const Result& result, std::vector<std::s
             name(problem.contact.law), gained, count, result.impacts.size()));
 }
 
-void tell_floor(const Problem& problem, const Result& result, const RunStatistics& statistics,
-                std::vector<std::string>& out) {
+void warn_of_floor(const Problem& problem, const Result& result, const RunStatistics& statistics,
+                   std::vector<std::string>& out) {
     if (statistics.floored > 0)
         out.push_back(
             fmt::format("{} of {} touches began slower than contact.approach_floor.value = {} m/s; their "
@@ -68,9 +68,9 @@ void tell_floor(const Problem& problem, const Result& result, const RunStatistic
                         statistics.floored, result.impacts.size(), problem.contact.approach_floor.value));
 }
 
-// What was done in another way than asked for, or left unresolved.
-void tell_fallbacks(const Problem& problem, const Result& result, const RunStatistics& statistics,
-                    std::vector<std::string>& out) {
+// Departures from the request, and events that could not be resolved.
+void warn_of_fallbacks(const Problem& problem, const Result& result, const RunStatistics& statistics,
+                       std::vector<std::string>& out) {
     const Fallbacks& f = statistics.fallbacks;
     if (f.handed_over > 0)
         out.push_back(fmt::format("{} could not be solved by the exponential collocation; {} made {} of {} steps",
@@ -80,29 +80,26 @@ void tell_fallbacks(const Problem& problem, const Result& result, const RunStati
             "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
             "without inertia and may leave the cam");
     if (f.friction_changes > 0)
-        out.push_back(
-            fmt::format("in {} the friction changed between stick and slip again and again at one instant and was left "
-                        "as it was: tighten solver.rtol, or give contact.friction a damping",
-                        counted(f.friction_changes, "step")));
+        out.push_back(fmt::format(
+            "in {} the friction alternated between stick and slip at one instant and kept its state: tighten "
+            "solver.rtol, or give contact.friction a damping",
+            counted(f.friction_changes, "step")));
     if (f.strikes > 0)
         out.push_back(
             fmt::format("{} taken as plastic: the rebound is smaller than the error of a step; tighten "
                         "solver.rtol",
                         counted(f.strikes, "strike")));
     if (f.coarse > 0)
-        out.push_back(
-            fmt::format("in {} the beam vibrates faster than the looks for a touch: a touch may be missed; use "
-                        "fewer modes or tighten solver.rtol",
-                        counted(f.coarse, "step")));
+        out.push_back(fmt::format(
+            "in {} the beam vibrates faster than the search for touches resolves: a touch may be missed; use "
+            "fewer modes or tighten solver.rtol",
+            counted(f.coarse, "step")));
     if (f.searches > 0)
-        out.push_back(
-            fmt::format("extrema were not searched to the end in {}: the true ones may lie beyond those given",
-                        counted(f.searches, "step")));
+        out.push_back(fmt::format("the search for extrema is incomplete in {}: the true ones may exceed those reported",
+                                  counted(f.searches, "step")));
     if (f.gap > kReportedGap * problem.beam.length)
-        out.push_back(
-            fmt::format("a gap of {:.2g} m was left at a touch or release and taken for zero: tighten "
-                        "solver.rtol",
-                        f.gap));
+        out.push_back(fmt::format(
+            "a gap of {:.2g} m remained at a touch or release and was set to zero: tighten solver.rtol", f.gap));
 }
 
 }  // namespace
@@ -116,12 +113,12 @@ bool bends_beyond(const Problem& problem, double largest_elastic) {
 std::vector<std::string> warnings(const Problem& problem, const Result& result, const RunStatistics& statistics,
                                   double largest_elastic) {
     std::vector<std::string> out;
-    tell_chatter(problem, statistics, out);
-    tell_gains(problem, result, out);
-    tell_ledger(problem, result, out);
-    tell_slopes(problem, largest_elastic, out);
-    tell_floor(problem, result, statistics, out);
-    tell_fallbacks(problem, result, statistics, out);
+    warn_of_chatter(problem, statistics, out);
+    warn_of_gains(problem, result, out);
+    warn_of_ledger(problem, result, out);
+    warn_of_slopes(problem, largest_elastic, out);
+    warn_of_floor(problem, result, statistics, out);
+    warn_of_fallbacks(problem, result, statistics, out);
     return out;
 }
 

@@ -1,4 +1,4 @@
-// What a finished run has to say of its own numbers, in the user's terms.
+// Warnings of a finished run about its own accuracy and validity, in the terms of the scene.
 #pragma once
 
 #include <string>
@@ -8,7 +8,8 @@
 
 namespace beamcam::sim {
 
-// Through angles that the model does not hold for. `largest_elastic`: the largest bending energy of the run [J].
+// The beam bends through larger angles than its model allows. `largest_elastic`: the largest bending energy of the run
+// [J].
 bool bends_beyond(const Problem& problem, double largest_elastic);
 
 std::vector<std::string> warnings(const Problem& problem, const Result& result, const RunStatistics& statistics,

@@ -198,7 +198,6 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
         throw std::invalid_argument("exponents need transient >= 0, duration > 0, blocks >= 2 and count >= 0");
     Request span;
     span.end_time = request.transient + request.duration;
-    span.turning_points = false;
     TangentIntegrator* tangents = nullptr;
     std::optional<Stretching> stretching;
     RunOptions options{.start = request.start ? &*request.start : nullptr};

@@ -34,7 +34,6 @@ void require_tangents(const Problem& problem) {
 InitialState motion_end(const Problem& problem, const InitialState& start, double duration, const Progress& progress) {
     Request request;
     request.end_time = duration;
-    request.turning_points = false;
     Run run(problem, {&request, 1}, progress, {.start = &start});
     run.integrate();
     return {run.state().y, run.state().phase, false};
@@ -44,7 +43,6 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
                  const Progress& progress, StartOnCam on_cam) {
     Request request;
     request.end_time = duration;
-    request.turning_points = false;
     TangentIntegrator* tangents = nullptr;
     RunOptions options{.start = &start};
     options.around = [&](System& system, std::unique_ptr<Integrator> motion) {

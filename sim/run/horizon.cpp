@@ -83,7 +83,6 @@ Request horizon_request(const Problem& problem, double end) {
     for (long k = 0; k <= rows; ++k) table.times.push_back(static_cast<double>(k) / kComparedRate);
     table.times.push_back(end);
     Request request;
-    request.turning_points = false;
     request.tables.push_back(std::move(table));
     return request;
 }

@@ -75,11 +75,11 @@ double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) co
     const double near = 0.5 * cam.radius, arm = cam.eccentricity * std::fabs(cam.speed);
     if (!(b.curvature * far < kFootStiffness)) return std::numeric_limits<double>::infinity();
     far = std::max(far, reach() + cam.radius);
-    const double speed = b.spin * reach() + b.deflection_speed + arm;  // |w|, w = ṙ − Ḃ
-    const double turn = b.spin + b.slope_speed;                        // |ṙ′|
-    const double slide = (turn * far + speed) / kFootStiffness;        // |ẋ|
-    const double point = b.deflection_acceleration + b.spin_acceleration * reach() + 2 * b.spin * b.deflection_speed +
-                         b.spin * b.spin * reach() + b.deflection_speed * b.slope_speed;  // |r̈|
+    const double speed = b.theta_dot * reach() + b.deflection_speed + arm;  // |w|, w = ṙ − Ḃ
+    const double turn = b.theta_dot + b.slope_speed;                        // |ṙ′|
+    const double slide = (turn * far + speed) / kFootStiffness;             // |ẋ|
+    const double point = b.deflection_acceleration + b.theta_ddot * reach() + 2 * b.theta_dot * b.deflection_speed +
+                         b.theta_dot * b.theta_dot * reach() + b.deflection_speed * b.slope_speed;  // |r̈|
     return (speed + slide) * speed / near + point + turn * slide + cam.eccentricity * cam.speed * cam.speed;
 }
 
@@ -91,7 +91,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     const double h = segment.t1 - segment.t0;
     const double no_spread[kMaxSize] = {};
     const double speed =
-        bounds.spin * reach() + bounds.deflection_speed + problem().cam->eccentricity * std::fabs(problem().cam->speed);
+        bounds.theta_dot * reach() + bounds.deflection_speed + problem().cam->eccentricity * std::fabs(problem().cam->speed);
     if (lower_bound(segment.t0, 0, probe_.state(segment, segment.t0), no_spread) > h * speed) return {};
 
     double t = segment.t0;
@@ -102,7 +102,7 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     if (t == state_.phase_start) {
         if (!(c.gap_rate > kRestSpeed)) {
             // The beam hardly leaves the surface: sample densely at first.
-            t = std::min(segment.t1, t + 1 / (probe_.system.highest_frequency() + bounds.spin + 1 / h));
+            t = std::min(segment.t1, t + 1 / (probe_.system.highest_frequency() + bounds.theta_dot + 1 / h));
             if (const auto touch = by_pieces(segment, t, 4)) return touch;
             c = probe_.gap(segment, t, true);
         }

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/base/numerics.hpp"
-#include "sim/observe/extrema.hpp"
+#include "sim/observe/crossings.hpp"
 #include "sim/sweep/constants.hpp"
 
 namespace beamcam::sim {
@@ -24,7 +24,7 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
       next_section_(span_.from) {
     motion_.accuracy = kSettledTolerances * system_.problem().solver.rtol;
     if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings)
-        finder_ = std::make_unique<ExtremaFinder>(system, std::vector<Channel>{sampling.channel});
+        step_ = std::make_unique<StepChannels>(system);
 }
 
 Sampler::~Sampler() = default;
@@ -32,7 +32,7 @@ Sampler::~Sampler() = default;
 void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
     phase_ = phase;
     system_.set_phase(phase);
-    if (finder_) finder_->set_phase(phase);
+    if (step_) step_->set_phase(phase);
     if (!phase.touching) left_ = true;
     motion_.end = {y, phase};
 }
@@ -55,7 +55,7 @@ void Sampler::segment(const SegmentInterval& s) {
     strobes(s);
     if (s.to >= span_.t_from()) {
         if (sampling_.kind == SampleKind::section) sections(s);
-        if (finder_ && s.to > s.from) events(s);
+        if (step_ && s.to > s.from) events(s);
     }
     motion_.over_the_top = leaves(s);
     evaluate(s, s.to);
@@ -108,13 +108,12 @@ void Sampler::events(const SegmentInterval& s) {
     std::vector<double> times;
     if (sampling_.kind == SampleKind::apexes) {
         std::vector<Apex> apexes;
-        std::vector<ZeroCrossing> zeros;
-        finder_->turning_points(s, apexes, zeros);
+        find_apexes(*step_, s, apexes);
         for (const Apex& apex : apexes) times.push_back(apex.t);
     } else {
-        std::vector<ExtremaFinder::Crossing> crossings;
-        finder_->crossings(s, sampling_.channel, sampling_.level, crossings);
-        for (const auto& crossing : crossings)
+        std::vector<LevelCrossing> crossings;
+        find_crossings(*step_, s, sampling_.channel, sampling_.level, crossings);
+        for (const LevelCrossing& crossing : crossings)
             if (crossing.rises == sampling_.rising) times.push_back(crossing.t);
     }
     for (const double t : times) {

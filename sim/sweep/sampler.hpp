@@ -8,7 +8,7 @@
 
 namespace beamcam::sim {
 
-class ExtremaFinder;
+class StepChannels;
 
 class Sampler final : public MotionObserver {
   public:
@@ -37,7 +37,7 @@ class Sampler final : public MotionObserver {
     const Sampling& sampling_;
     SampleSpan span_;
     System system_;
-    std::unique_ptr<ExtremaFinder> finder_;  // of apexes and crossings
+    std::unique_ptr<StepChannels> step_;  // for samples at apexes or crossings
     SampledMotion motion_;
     std::vector<double> y_;
     Phase phase_;

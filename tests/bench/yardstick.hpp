@@ -12,7 +12,7 @@
 namespace beamcam::bench {
 
 struct YardstickRun {
-    std::vector<double> theta;  // at the instants asked for [rad]
+    std::vector<double> theta;  // at the instants [rad]
     long steps = 0, rhs = 0, impacts = 0;
 };
 

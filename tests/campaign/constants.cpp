@@ -80,6 +80,7 @@ Problem machine(ModelKind model, int modes) {
 Results of_motion(const Problem& p, double end) {
     Request request;
     request.end_time = end;
+    request.apexes = true;
     for (const Channel& channel : all_channels(p))
         if (channel.kind != ChannelKind::energy_residual) request.extrema.push_back(channel);
     TableRequest table;

@@ -152,7 +152,6 @@ Motion solve(Problem p, double end, Method method, double patience, double rtol 
     const double start = cpu_seconds();
     Request request;
     request.end_time = end;
-    request.turning_points = false;
     try {
         motion.impacts = simulate(p, request, [&](double) { return cpu_seconds() - start < patience; }).impacts;
     } catch (const Interrupted&) {

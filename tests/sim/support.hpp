@@ -56,6 +56,7 @@ inline Channel channel(const char* text) {
 inline Result run(const Problem& problem, double end) {
     Request request;
     request.end_time = end;
+    request.apexes = request.zero_crossings = true;
     return simulate(problem, request);
 }
 

@@ -642,6 +642,7 @@ TEST(Findings, ForeshorteningInGravityMatters) {
         p.solver.atol = 1e-14;
         sim::Request request;
         request.end_time = length > 1 ? 1.2 : 0.4;
+        request.zero_crossings = true;
         return sim::simulate(p, request).theta_zero.at(0).t;
     };
     using sim::ModelKind;
@@ -723,7 +724,6 @@ TEST(LongFindings, TheTransientIsSensitiveAndThenReproducibleAgain) {
         p.solver.rtol = rtol;
         p.solver.atol = 1e-3 * rtol;
         sim::Request request;
-        request.turning_points = false;
         request.tables.push_back({times, {{sim::ChannelKind::theta, 0}}});
         return sim::simulate(p, request).tables[0].values[0];
     };
@@ -755,6 +755,7 @@ TEST(Findings, ReboundsDeclineInTrendWithoutRegularity) {
     p.cam->speed = 5;
     sim::Request request;
     request.end_time = 3;
+    request.apexes = true;
     const sim::Result r = sim::simulate(p, request);
     std::vector<double> heights;
     for (std::size_t i = 0; i + 1 < r.collisions.size(); ++i) {

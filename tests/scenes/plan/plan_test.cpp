@@ -113,7 +113,7 @@ TEST(PlanText, AFilm) {
   video     scene.mp4: 600 frames from 0 s to 9.98333 s at 60 per second, 1920 × 1080, lit; H.264, crf 18, veryfast
 skipped
   20 of 24 channels: no output needs them
-  extrema and turning points: no output is a summary
+  extrema and zero crossings: no output is a summary
   further runs for the reproducible horizon: no output needs it
 )");
 }
@@ -131,7 +131,7 @@ skipped
   21 of 22 channels: no output needs them
   pictures, fonts and OpenGL: no output is a picture
   video encoder: no output is a video
-  extrema and turning points: no output is a summary
+  extrema and zero crossings: no output is a summary
   further runs for the reproducible horizon: no output needs it
 )");
 }
@@ -146,7 +146,7 @@ skipped
   20 of 24 channels: no output needs them
   OpenGL: every view is flat
   video encoder: no output is a video
-  extrema and turning points: no output is a summary
+  extrema and zero crossings: no output is a summary
   further runs for the reproducible horizon: no output needs it
 )");
 }
@@ -206,7 +206,7 @@ skipped
   20 of 24 channels: no output needs them
   OpenGL: every view is flat
   video encoder: no output is a video
-  extrema and turning points: no output is a summary
+  extrema and zero crossings: no output is a summary
   further runs for the reproducible horizon: no output needs it
 )");
     existing.kept_until = 0.4;  // too short

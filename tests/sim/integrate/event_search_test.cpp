@@ -1,4 +1,4 @@
-// Events between two looks, on functions whose zeros are known.
+// Events between two instants, for functions with zeros in closed form.
 #include "sim/integrate/event_search.hpp"
 
 #include <gtest/gtest.h>
@@ -89,7 +89,7 @@ TEST(FirstFall, IgnoresDipsThatAreRounding) {
 }
 
 TEST(FirstFall, LooksCloserWhereRippleMayHide) {
-    // Ten waves between the ends, which both lie on crests: nothing but the bound of the ripple tells of it.
+    // Ten waves between the ends, which both lie on crests: only the bound of the ripple shows it.
     const double w = 20 * std::numbers::pi;
     const auto f = [&](double t) { return Guard{t, 0.5 + std::cos(w * t), -w * std::sin(w * t)}; };
     EXPECT_FALSE(first_fall(f, f(0), f(1)));

@@ -81,7 +81,7 @@ TEST(Oscillators, StepsAreExactForAPolynomialForcing) {
     const double h = 0.003;
     std::vector<Oscillator> oscillators{{0, 0}, {300, 0}, {3000, 40}, {2e5, 0}, {300, 290}, {300, 400}, {3000, 3e6}};
     StepTable table;
-    table.build(oscillators, side_by_side(oscillators), h);
+    table.build(oscillators, pack_oscillators(oscillators), h);
     const Collocation& gauss = Collocation::get();
     for (std::size_t i = 0; i < oscillators.size(); ++i) {
         const StepTable::Row& row = table.rows[i];
@@ -117,7 +117,7 @@ TEST(Oscillators, SideBySideTheyAnswerAsAlone) {
         }
         if (round % 5 == 0) oscillators.front() = {0, 0};
         const double tau = std::pow(10, -4 + 3 * dice.about_zero(1));
-        const std::vector<OscillatorLanes> groups = side_by_side(oscillators);
+        const std::vector<OscillatorLanes> groups = pack_oscillators(oscillators);
         ASSERT_EQ(groups.size(), 2u);
         for (std::size_t i = 0; i < oscillators.size(); ++i) {
             Lanes all[kResponse];
@@ -148,7 +148,7 @@ TEST(LaneKernels, GiveTheSameBitsOnEveryInstructionSet) {
     Dice dice(5);
     constexpr std::size_t kRows = 7, kColumns = 9;
     const OscillatorLanes group =
-        side_by_side({{90, 0}, {300, 5}, {3e3, 2}, {8e3, 0}, {2e4, 0}, {4e4, 7}, {1e5, 0}, {3e5, 9}}).front();
+        pack_oscillators({{90, 0}, {300, 5}, {3e3, 2}, {8e3, 0}, {2e4, 0}, {4e4, 7}, {1e5, 0}, {3e5, 9}}).front();
     std::vector<double> a(kRows * kColumns);
     for (double& value : a) value = dice.about_zero(3);
     std::vector<Lanes> x(kColumns), first, y(kRows);
@@ -319,7 +319,7 @@ Flights flights() {
     return all;
 }
 
-// Those whose coupling only the right-hand side tells.
+// Models whose coupling is not given by arrays.
 Flights flights_of_other_models() {
     Flights all;
     const auto stiff = [](Problem& p) { p.beam.youngs_modulus = 68.952e9; };
@@ -427,7 +427,7 @@ TEST(ExponentialFlight, FindsEveryTurningPointOfASwingingHub) {
             p.solver.atol = 1e-3 * rtol;
             Request request;
             request.end_time = 4;
-            request.turning_points = true;
+            request.apexes = request.zero_crossings = true;
             return simulate(p, request);
         };
         const Result fast = turns(Method::exponential, 1e-9), slow = turns(Method::rk8, 1e-11);
@@ -497,14 +497,14 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
             const MotionBounds* b = segment.bounds();
             ASSERT_NE(b, nullptr);
             ++steps;
-            if (std::isfinite(b->spin_acceleration)) ++finite;
+            if (std::isfinite(b->theta_ddot)) ++finite;
             FlightSample before = flight_sample(system, segment, segment.t0);
             for (int k = 1; k <= kSamples; ++k) {
                 const double h = segment.t1 - segment.t0;
                 const FlightSample s = flight_sample(system, segment, segment.t0 + h * k / kSamples);
                 const double dt = s.t - before.t, rounding = 1e-13 * (1 + std::fabs(s.spin));
-                EXPECT_LE(std::fabs(s.spin), kSlack * b->spin) << repeat;
-                EXPECT_LE(std::fabs(s.spin - before.spin), kSlack * b->spin_acceleration * dt + rounding) << repeat;
+                EXPECT_LE(std::fabs(s.spin), kSlack * b->theta_dot) << repeat;
+                EXPECT_LE(std::fabs(s.spin - before.spin), kSlack * b->theta_ddot * dt + rounding) << repeat;
                 EXPECT_GE(s.angle, b->angle_low - rounding) << repeat;
                 EXPECT_LE(s.angle, b->angle_high + rounding) << repeat;
                 EXPECT_GE(s.rate, b->rate_low - rounding) << repeat;
@@ -558,8 +558,8 @@ TEST(ExponentialFlight, KeepsTheBoundsOfOtherModels) {
             const MotionBounds* b = segment.bounds();
             if (!b) continue;  // a step of the other method
             ++spanning;
-            const double point = b->deflection_acceleration + b->spin_acceleration * reach +
-                                 2 * b->spin * b->deflection_speed + b->spin * b->spin * reach;
+            const double point = b->deflection_acceleration + b->theta_ddot * reach +
+                                 2 * b->theta_dot * b->deflection_speed + b->theta_dot * b->theta_dot * reach;
             std::array<BeamPoint, kPoints> before;
             for (int k = 0; k <= kSamples; ++k) {
                 const double dt = (segment.t1 - segment.t0) / kSamples, t = segment.t0 + k * dt;
@@ -573,12 +573,12 @@ TEST(ExponentialFlight, KeepsTheBoundsOfOtherModels) {
                 for (std::size_t i = 0; i < kPoints; ++i) {
                     BeamPoint c;
                     model.point(p.beam.length * static_cast<double>(i) / (kPoints - 1), c);
-                    const double speed = b->spin * reach + b->deflection_speed;
+                    const double speed = b->theta_dot * reach + b->deflection_speed;
                     EXPECT_LE(norm(c.v), kSlack * speed) << repeat;
                     if (k > 0) {
                         EXPECT_LE(norm(c.v - before[i].v), kSlack * point * dt + 1e-12 * speed) << repeat;
                     }
-                    EXPECT_LE(norm(c.v1), kSlack * (b->spin + b->slope_speed)) << repeat;
+                    EXPECT_LE(norm(c.v1), kSlack * (b->theta_dot + b->slope_speed)) << repeat;
                     EXPECT_LE(norm(c.r2), kSlack * b->curvature) << repeat;
                     before[i] = c;
                 }
@@ -672,7 +672,6 @@ Result solve(Problem p, Method method, double rtol, double end, const std::vecto
     p.solver.atol = 1e-3 * rtol;
     Request request;
     request.end_time = end;
-    request.turning_points = false;
     if (!times.empty()) request.tables.push_back({times, {channel("theta"), channel("energy_residual")}});
     return simulate(p, request);
 }

@@ -15,7 +15,6 @@ const Channel kTime{ChannelKind::t, 0}, kTheta{ChannelKind::theta, 0}, kRate{Cha
 
 Table sampled(const Problem& p, const std::vector<double>& times, bool curve) {
     Request request;
-    request.turning_points = false;
     request.tables.push_back({times, {kTime, kTheta, kRate}});
     if (curve) request.tables[0].curve = {kTheta, kRate};
     return simulate(p, request).tables[0];

@@ -78,7 +78,7 @@ void expect_equal(const Result& a, const Result& b) {
 }
 
 // Asks for something of everything.
-Request curious(const Problem& problem, double end) {
+Request full_request(const Problem& problem, double end) {
     Request request;
     request.end_time = end;
     std::vector<double> times;
@@ -100,7 +100,7 @@ Kept keep(const Problem& problem, double end) {
     Kept kept;
     TrajectoryWriter writer(
         [&](std::span<const double> piece) { kept.numbers.insert(kept.numbers.end(), piece.begin(), piece.end()); });
-    const Request request = curious(problem, end);
+    const Request request = full_request(problem, end);
     kept.result = simulate(problem, {&request, 1}, {}, &writer).front();
     EXPECT_TRUE(writer.complete());
     return kept;
@@ -188,7 +188,7 @@ TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
     EXPECT_EQ(trajectory.end(), end);
     for (const double shorter : ends_for(kept, end)) {
         SCOPED_TRACE(::testing::Message() << "until " << shorter);
-        const Request request = curious(problem, shorter);
+        const Request request = full_request(problem, shorter);
         Effort effort;
         const Result replayed = replay(problem, trajectory, {&request, 1}, {}, &effort).front();
         expect_equal(replayed, simulate(problem, request));
@@ -200,7 +200,7 @@ TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
     const auto& [name, problem, end] = GetParam();
     if (problem.beam.model > ModelKind::paper) SKIP_UNDER_SANITIZERS();
     std::vector<Request> requests;
-    for (double share : {0.3, 1.0, 0.0}) requests.push_back(curious(problem, share * end));
+    for (double share : {0.3, 1.0, 0.0}) requests.push_back(full_request(problem, share * end));
     requests.push_back({});
     requests[3].end_time = 0.97 * end;
     Effort effort;
@@ -215,34 +215,33 @@ TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(Of, Everything, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return std::string(each.param.name); });
 
-// Turning points cost a look at every ripple: a run that nobody asked for them has none to keep, and a later one finds
-// them in the kept steps.
-TEST(KeptTrajectory, FindsTheTurningPointsThatTheRunDidNotLookFor) {
+// Apexes and zero crossings are searched only on request; a later request finds them in the stored steps.
+TEST(KeptTrajectory, FindsApexesAndZerosThatTheRunDidNotSearch) {
     for (const Method method : {Method::automatic, Method::rk8}) {
         Problem problem;
         problem.solver.method = method;
         problem.cam.reset();
         problem.initial.angular_velocity = 2;  // it rises, turns back and falls past the horizontal
-        Request request = curious(problem, 0.8);
+        Request request = full_request(problem, 0.8);
         std::vector<double> numbers;
         TrajectoryWriter writer(
             [&](std::span<const double> piece) { numbers.insert(numbers.end(), piece.begin(), piece.end()); });
-        request.turning_points = false;
+        request.apexes = request.zero_crossings = false;
         const Result without = simulate(problem, {&request, 1}, {}, &writer).front();
         EXPECT_TRUE(without.apexes.empty());
-        request.turning_points = true;
+        request.apexes = request.zero_crossings = true;
         const Result direct = simulate(problem, request);
         ASSERT_FALSE(direct.apexes.empty());
         ASSERT_FALSE(direct.theta_zero.empty());
         expect_equal(replay(problem, Trajectory(problem, numbers), {&request, 1}).front(), direct);
-        // Not looking is all that it changes.
+        // Nothing else depends on the search.
         Result bare = direct;
         bare.apexes.clear(), bare.theta_zero.clear();
         expect_equal(without, bare);
         // Either beside the other in one run.
-        Request ignorant = request;
-        ignorant.turning_points = false;
-        const Request both[] = {ignorant, request};
+        Request without_events = request;
+        without_events.apexes = without_events.zero_crossings = false;
+        const Request both[] = {without_events, request};
         const std::vector<Result> together = simulate(problem, both);
         expect_equal(together[0], bare);
         expect_equal(together[1], direct);
@@ -266,7 +265,7 @@ TEST(KeptTrajectory, GivesTheHorizonAfterTheRunsThatItIsComparedWith) {
     EXPECT_EQ(effort.integrations, 3);
 }
 
-// A run that ends at an event knows of what was before it what a longer one knows, kept or not.
+// A run that ends at an event has the same results up to there as a longer one, stored or not.
 TEST(KeptTrajectory, OfAsManyEventsAsAreEnoughEndsAtTheLastOfThem) {
     const Problem problem;
     Request request;
@@ -311,14 +310,14 @@ TEST(KeptTrajectory, IsRefusedWhenItIsDamagedForeignOrTooShort) {
     const std::span<const double> all(kept.numbers);
     for (std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{10}, all.size() / 2, all.size() - 1})
         EXPECT_THROW(Trajectory(problem, all.first(count)), std::invalid_argument) << count;
-    const Request longer = curious(problem, 0.31);
+    const Request longer = full_request(problem, 0.31);
     EXPECT_THROW(replay(problem, Trajectory(problem, all), {&longer, 1}), std::invalid_argument);
-    const Request request = curious(problem, 0.3);
+    const Request request = full_request(problem, 0.3);
     for (std::size_t at = 1; at < kept.numbers.size(); at += kept.numbers.size() / 37) {
         std::vector<double> bent = kept.numbers;
         bent[at] = -1e300;
         try {
-            replay(problem, Trajectory(problem, bent), {&request, 1});  // told, or a wrong number, never a crash
+            replay(problem, Trajectory(problem, bent), {&request, 1});  // an error or a wrong number, never a crash
         } catch (const std::invalid_argument&) {
         }
     }

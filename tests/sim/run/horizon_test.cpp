@@ -182,7 +182,6 @@ TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
     const Problem p;
     Request request;
     request.end_time = 60;
-    request.turning_points = false;
     Effort motion, both;
     simulate(p, {&request, 1}, {}, nullptr, &motion);
     request.horizon = true;

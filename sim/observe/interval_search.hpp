@@ -1,5 +1,5 @@
-// Searches on one interval for what lies between its ends: the largest value of a function whose variation is bounded,
-// and its changes of sign. Branch and bound by halving, then parabolas.                                     (S59)
+// Searches within one interval, for a function whose variation is bounded: its largest value and its changes of sign.
+// Branch and bound by halving, then parabolas.                                                              (S59)
 #pragma once
 
 #include <algorithm>
@@ -29,7 +29,7 @@ struct BestValue {
     double to_beat() const { return value + left_out(); }
 };
 
-// The crest of sign · f near three samples, if the parabola through them promises a better value.
+// The maximum of sign · f near three samples, if the parabola through them exceeds the best value.
 template <class F>
 void climb_crest(const F& f, const Variation& variation, TimedValue a, TimedValue m, TimedValue b, BestValue& best) {
     double error = variation.parabola_error(b.t - a.t);
@@ -71,7 +71,7 @@ void climb(const F& f, const Variation& variation, const TimedValue& a, const Ti
     if (!left_first) climb(f, variation, a, m, best);
 }
 
-// Calls found(a, b) for intervals, in order, in which f changes its sign once, but for what is rounding.
+// Calls found(a, b) for intervals, in order, in which f changes its sign once. Values below `rounding` have no sign.
 template <class F, class Found>
 void sign_changes(const F& f, const Variation& variation, double rounding, const TimedValue& a, const TimedValue& b,
                   const Found& found) {

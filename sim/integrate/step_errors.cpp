@@ -1,0 +1,44 @@
+#include "sim/integrate/step_errors.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::sim {
+
+LegendreDecay legendre_decay(const Lanes& nodal, double rounding) {
+    const auto& legendre = Collocation::get().legendre;
+    const auto size = [&](std::size_t j) { return std::fabs(sum(legendre[j] * nodal)); };
+    // In this order of arguments NaN stays NaN, and no step is accepted with it.
+    const double last = std::max(std::max(size(6), size(7)) - rounding, 0.0), before = std::max(size(4), size(5));
+    return {last, last == 0 ? 0 : std::min(1.0, last / before)};
+}
+
+double interpolation_error(const Lanes& nodal) {
+    const auto [last, ratio] = legendre_decay(nodal);
+    return last * ratio * std::max(ratio, kLeastDecay);
+}
+
+double quadrature_error(const Lanes& nodal, double rounding) {
+    const auto [last, ratio] = legendre_decay(nodal, rounding);
+    const double r2 = ratio * ratio;
+    return last * std::max(r2 * r2, kLeastQuadratureDecay);
+}
+
+FixedPoint::Status FixedPoint::add(double change) {
+    if (!std::isfinite(change)) return Status::failed;
+    const int sweep = sweeps_++;
+    const double ratio = change / before_;
+    before_ = change;
+    if (sweep > 0) {
+        const bool contracts = ratio < 0.5;
+        enough_ = enough_ || change == 0 || (contracts && change * ratio / (1 - ratio) < kShareOfIteration);
+        if (enough_ && (!contracts || change * std::max(ratio, contraction_) / (1 - ratio) < share_))
+            return Status::settled;
+        if (ratio > kStalled && change <= rounding_ * largest_) return Status::settled;
+        if (ratio > growth_ && sweep > patience_) return enough_ ? Status::settled : Status::failed;
+    }
+    largest_ = std::max(largest_, change);
+    return Status::going;
+}
+
+}  // namespace beamcam::sim

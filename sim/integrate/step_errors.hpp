@@ -1,0 +1,47 @@
+// Error estimates of a collocation step from its nodal values, and the convergence of its iteration. MODEL.md §12.
+#pragma once
+
+#include "sim/integrate/collocation.hpp"
+#include "sim/integrate/constants.hpp"
+
+namespace beamcam::sim {
+
+// The decay of the Legendre coefficients of nodal values: the larger of the last two, and its ratio to the larger of
+// the two before (at most 1).
+struct LegendreDecay {
+    double last, ratio;
+};
+LegendreDecay legendre_decay(const Lanes& nodal, double rounding = 0);
+// Interpolation error of a forcing with these nodal values. Decaying coefficients show a resolved forcing, whose error
+// the integration smooths as well; coefficients that do not decay are aliased vibration, and count in full.
+double interpolation_error(const Lanes& nodal);
+// Error of the impulse of a nodal force: where coefficients decay by r from pair to pair, the quadrature of order
+// sixteen errs by the last times r⁴; where the force starts like a power of time, that power decays. Last coefficients
+// below `rounding` are no error.
+double quadrature_error(const Lanes& nodal, double rounding = 0);
+
+// Convergence of a fixed-point iteration by its changes, in units of the tolerance.
+class FixedPoint {
+  public:
+    enum class Status { going, settled, failed };
+    // Fails once changes grow by more than `growth` after `patience` sweeps, unless they are below `rounding` times the
+    // largest.
+    FixedPoint(double rounding, double growth, int patience)
+        : rounding_(rounding), growth_(growth), patience_(patience) {}
+    // Continues, while changes still contract, until the rest is below this share of the tolerance for a contraction by
+    // `contraction` at best, whatever the last two changes show.
+    void demand(double share, double contraction) {
+        share_ = share;
+        contraction_ = contraction;
+    }
+    Status add(double change);
+    bool enough() const { return enough_; }  // changes were once below the tolerance
+
+  private:
+    double rounding_, growth_, before_ = 0, largest_ = 0;
+    double share_ = kShareOfIteration, contraction_ = 0;
+    bool enough_ = false;
+    int patience_, sweeps_ = 0;
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,100 @@
+#include "sim/observe/impacts.hpp"
+
+#include <algorithm>
+
+namespace beamcam::sim {
+namespace {
+
+std::optional<double> restitution(double v_n_before, double v_n_after) {
+    if (!(v_n_before < 0)) return std::nullopt;
+    return -v_n_after / v_n_before;
+}
+
+}  // namespace
+
+void ImpactRecorder::touch(double t, const double* y, const ContactState& c) {
+    const double* ledger = y + evaluator_.system().controlled;
+    open_ = true;
+    lost_at_touch_ = ledger[kNormalWork] + ledger[kFrictionWork];
+    impulse_n_at_touch_ = ledger[kImpulseN];
+    impulse_t_at_touch_ = ledger[kImpulseT];
+    Impact impact;
+    impact.t_start = t;
+    impact.x = c.x;
+    impact.cam_angle = evaluator_.system().cam(t).angle;
+    impact.v_n_before = c.gap_rate;
+    impact.v_t_before = c.slip;
+    impact.penetration_peak = std::max(0.0, -c.gap);
+    impact.at_touch = touch_state(t, y, c);
+    if (evaluator_.system().problem().contact.model == ContactModel::compliant) impact.force_peak = c.force;
+    Collision& collision = collision_of(t, c);
+    ++collision.count;
+    collision.t_end.reset();
+    collision.v_n_after.reset();
+    collision.restitution.reset();
+    impact.collision = static_cast<int>(result_.collisions.size()) - 1;
+    result_.impacts.push_back(impact);
+}
+
+// The last collision, if the touch is close enough to it; else a new one.
+Collision& ImpactRecorder::collision_of(double t, const ContactState& c) {
+    std::vector<Collision>& all = result_.collisions;
+    if (all.empty() || !(t - all.back().t_end.value_or(t) < collision_gap(evaluator_.system().problem()))) {
+        Collision collision;
+        collision.t_start = t;
+        collision.x = c.x;
+        collision.v_n_before = c.gap_rate;
+        all.push_back(collision);
+    }
+    return all.back();
+}
+
+void ImpactRecorder::release(double t, const double* y, const ContactState& c) {
+    Impact& impact = result_.impacts.back();
+    impact.t_end = t;
+    impact.duration = t - impact.t_start;
+    impact.v_n_after = c.gap_rate;
+    impact.v_t_after = c.slip;
+    impact.at_release = touch_state(t, y, c);
+    impact.restitution = restitution(impact.v_n_before, c.gap_rate);
+    settle(y);
+    open_ = false;
+    Collision& collision = result_.collisions.back();
+    collision.t_end = t;
+    collision.v_n_after = c.gap_rate;
+    collision.restitution = restitution(collision.v_n_before, c.gap_rate);
+}
+
+// Impulses and losses of the open impact up to the state y.
+void ImpactRecorder::settle(const double* y) {
+    Impact& impact = result_.impacts.back();
+    Collision& collision = result_.collisions.back();
+    const double* ledger = y + evaluator_.system().controlled;
+    impact.impulse_n = ledger[kImpulseN] - impulse_n_at_touch_;
+    impact.impulse_t = ledger[kImpulseT] - impulse_t_at_touch_;
+    impact.energy_lost = ledger[kNormalWork] + ledger[kFrictionWork] - lost_at_touch_;
+    if (impact.force_peak) collision.force_peak = std::max(collision.force_peak.value_or(0), *impact.force_peak);
+    collision.energy_lost += impact.energy_lost;
+}
+
+TouchState ImpactRecorder::touch_state(double t, const double* y, const ContactState& c) {
+    evaluator_.set(t, y);
+    evaluator_.set_contact(c);
+    TouchState out;
+    out.theta = evaluator_.value({ChannelKind::theta});
+    out.theta_dot = evaluator_.value({ChannelKind::theta_dot});
+    out.contact_s = evaluator_.value({ChannelKind::contact_s});
+    out.q.assign(y + 1, y + evaluator_.system().coordinates());
+    return out;
+}
+
+void ImpactRecorder::finish(double t, const double* y) {
+    if (!open_) return;
+    evaluator_.set(t, y);
+    settle(y);
+    const double stored = evaluator_.energy_balance().contact;  // not lost
+    result_.impacts.back().energy_lost -= stored;
+    result_.collisions.back().energy_lost -= stored;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,175 @@
+#include "sim/observe/samples.hpp"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <numeric>
+
+#include "sim/observe/constants.hpp"
+
+namespace beamcam::sim {
+
+SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result)
+    : request_(request),
+      evaluator_(evaluator),
+      result_(result),
+      y_(static_cast<std::size_t>(evaluator.system().size)),
+      contact_poses_(request.poses.size(), 0) {
+    for (const TableRequest& table : request.tables) {
+        table_cursors_.push_back(ascending(table.times));
+        result_.tables.push_back({table.channels, {}});
+        result_.tables.back().values.assign(table.channels.size(), std::vector<double>(table.times.size(), kNan));
+        refined_.push_back({{}, {}, std::vector<std::vector<double>>(table.channels.size())});
+    }
+    for (const PoseRequest& poses : request.poses) {
+        pose_cursors_.push_back(ascending(poses.times));
+        result_.poses.emplace_back(poses.take ? 0 : poses.times.size());
+    }
+    for (const PointRequest& points : request.points) {
+        point_cursors_.push_back(ascending(points.times));
+        result_.points.emplace_back(points.times.size());
+    }
+}
+
+SampleRecorder::Cursor SampleRecorder::ascending(const std::vector<double>& times) {
+    Cursor cursor;
+    cursor.order.resize(times.size());
+    std::iota(cursor.order.begin(), cursor.order.end(), std::size_t{0});
+    std::ranges::stable_sort(cursor.order, {}, [&](std::size_t row) { return times[row]; });
+    return cursor;
+}
+
+// Calls visit(row) with the evaluator at each of the times in the interval.
+template <class F>
+void SampleRecorder::sweep(const std::vector<double>& times, Cursor& cursor, const SegmentInterval& s, F&& visit) {
+    for (; cursor.next < cursor.order.size(); ++cursor.next) {
+        const std::size_t row = cursor.order[cursor.next];
+        if (s.ends_before(times[row])) return;
+        evaluate_at(s, times[row]);
+        visit(row);
+    }
+}
+
+void SampleRecorder::evaluate_at(const SegmentInterval& s, double t) {
+    s.segment->value(std::max(t, s.from), y_.data());
+    evaluator_.set(t, y_.data());
+    evaluator_.system().search_again();
+}
+
+void SampleRecorder::step(const SegmentInterval& s) {
+    std::vector<std::size_t> before;
+    for (const Cursor& cursor : table_cursors_) before.push_back(cursor.next);
+    sample_tables(s);
+    refine_curves(s, before);
+    for (std::size_t i = 0; i < request_.poses.size(); ++i)
+        sweep(request_.poses[i].times, pose_cursors_[i], s, [&](std::size_t row) { put_pose(i, row); });
+    for (std::size_t i = 0; i < request_.points.size(); ++i) {
+        const PointRequest& points = request_.points[i];
+        sweep(points.times, point_cursors_[i], s, [&](std::size_t row) {
+            BeamPoint p;
+            evaluator_.system().model().point(points.x, p);
+            result_.points[i][row] = p.r;
+        });
+    }
+}
+
+// Charts and traces ask for the same instants: each is evaluated once for all tables.
+void SampleRecorder::sample_tables(const SegmentInterval& s) {
+    constexpr double kNone = std::numeric_limits<double>::infinity();
+    const auto next = [&](std::size_t i) {
+        const Cursor& cursor = table_cursors_[i];
+        return cursor.next < cursor.order.size() ? request_.tables[i].times[cursor.order[cursor.next]] : kNone;
+    };
+    for (;;) {
+        double t = kNone;
+        for (std::size_t i = 0; i < request_.tables.size(); ++i) t = std::min(t, next(i));
+        if (t == kNone || s.ends_before(t)) return;
+        evaluate_at(s, t);
+        for (std::size_t i = 0; i < request_.tables.size(); ++i) {
+            const std::vector<Channel>& channels = request_.tables[i].channels;
+            for (; next(i) == t; ++table_cursors_[i].next)
+                for (std::size_t c = 0; c < channels.size(); ++c)
+                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] =
+                        evaluator_.value(channels[c]);
+        }
+    }
+}
+
+void SampleRecorder::refine_curves(const SegmentInterval& s, const std::vector<std::size_t>& before) {
+    for (std::size_t i = 0; i < request_.tables.size(); ++i)
+        if (request_.tables[i].curve && !request_.tables[i].times.empty()) refine_curve(s, i, before[i]);
+}
+
+// Between the times of the table and the ends of the interval, where the motion may jump: both ends are rows.
+void SampleRecorder::refine_curve(const SegmentInterval& s, std::size_t i, std::size_t before) {
+    const TableRequest& table = request_.tables[i];
+    const Cursor& cursor = table_cursors_[i];
+    const double from = std::max(s.from, table.times[cursor.order.front()]),
+                 to = std::min(s.to, table.times[cursor.order.back()]);
+    if (!(to > from)) return;
+    RefinedRows& rows = refined_[i];
+    const auto at = [&](double t) {
+        evaluate_at(s, t);
+        return Vec2{evaluator_.value(table.curve->first), evaluator_.value(table.curve->second)};
+    };
+    const auto keep = [&](double t) {
+        evaluate_at(s, t);
+        rows.times.push_back(t);
+        for (std::size_t c = 0; c < table.channels.size(); ++c)
+            rows.values[c].push_back(evaluator_.value(table.channels[c]));
+    };
+    keep(from);
+    double reached = from;
+    for (std::size_t k = before; k <= cursor.next; ++k) {
+        const double t = k < cursor.next ? std::clamp(table.times[cursor.order[k]], from, to) : to;
+        if (!(t > reached)) continue;
+        rows.refiner.refine(reached, t, table.stray, at, keep);
+        reached = t;
+    }
+    keep(to);
+}
+
+void SampleRecorder::finish() {
+    for (std::size_t i = 0; i < refined_.size(); ++i) {
+        const RefinedRows& rows = refined_[i];
+        if (rows.times.empty()) continue;
+        std::vector<double> times = request_.tables[i].times;
+        times.insert(times.end(), rows.times.begin(), rows.times.end());
+        const std::vector<std::size_t> order = ascending(times).order;
+        Table& table = result_.tables[i];
+        for (std::size_t c = 0; c < table.values.size(); ++c) {
+            std::vector<double> all = table.values[c];
+            all.insert(all.end(), rows.values[c].begin(), rows.values[c].end());
+            table.values[c].clear();
+            for (const std::size_t row : order) table.values[c].push_back(all[row]);
+        }
+    }
+}
+
+void SampleRecorder::put_pose(std::size_t i, std::size_t row) {
+    const PoseRequest& poses = request_.poses[i];
+    Pose pose = evaluator_.pose(poses.stations);
+    if (poses.take) return poses.take(row, pose);
+    result_.poses[i].resize(std::max(result_.poses[i].size(), row + 1));
+    result_.poses[i][row] = std::move(pose);
+}
+
+// In the middle of the whole step, which is the same wherever the run ends.
+void SampleRecorder::contact_step(const SegmentInterval& s) {
+    if (contact_steps_ == kContactPoseSteps) return;
+    const std::array instants{contact_steps_ == 0 ? s.from : kNan, 0.5 * (s.segment->t0 + s.segment->t1)};
+    ++contact_steps_;
+    for (std::size_t i = 0; i < request_.poses.size(); ++i) {
+        const PoseRequest& poses = request_.poses[i];
+        if (poses.times.empty()) continue;
+        const double from = std::max(s.from, poses.times[pose_cursors_[i].order.front()]),
+                     to = std::min(s.to, poses.times[pose_cursors_[i].order.back()]);
+        for (const double t : instants) {
+            if (!(t >= from && t <= to) || contact_poses_[i] == poses.contacts) continue;
+            evaluate_at(s, t);
+            put_pose(i, poses.times.size() + contact_poses_[i]++);
+        }
+    }
+}
+
+}  // namespace beamcam::sim

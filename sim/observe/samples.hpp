@@ -1,0 +1,56 @@
+// Tables, poses and points of a request, filled step by step as the motion passes their times.
+#pragma once
+
+#include <vector>
+
+#include "sim/observe/channel_evaluator.hpp"
+#include "sim/observe/refine.hpp"
+#include "sim/observe/request.hpp"
+#include "sim/observe/result.hpp"
+#include "sim/observe/segment_interval.hpp"
+
+namespace beamcam::sim {
+
+class SampleRecorder {
+  public:
+    // All three must outlive it. The evaluator's foot search starts afresh at every sample, so that samples do not
+    // depend on each other.
+    SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result);
+
+    void step(const SegmentInterval& s);
+    void begin_contact() { contact_steps_ = 0; }
+    // A step in contact: poses at its start and middle, within the first steps.
+    void contact_step(const SegmentInterval& s);
+    // Merges the rows between the times of curves with those at the times.
+    void finish();
+
+  private:
+    struct Cursor {
+        std::vector<std::size_t> order;  // indices of the times, ascending
+        std::size_t next = 0;
+    };
+    static Cursor ascending(const std::vector<double>& times);
+    void evaluate_at(const SegmentInterval& s, double t);
+    void sample_tables(const SegmentInterval& s);
+    void refine_curves(const SegmentInterval& s, const std::vector<std::size_t>& before);
+    void refine_curve(const SegmentInterval& s, std::size_t table, std::size_t before);
+    void put_pose(std::size_t request, std::size_t row);
+    template <class F>
+    void sweep(const std::vector<double>& times, Cursor& cursor, const SegmentInterval& s, F&& visit);
+
+    const Request& request_;
+    ChannelEvaluator& evaluator_;
+    Result& result_;
+    std::vector<double> y_;
+    std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
+    struct RefinedRows {  // between the times of a table with a curve
+        CurveRefiner refiner;
+        std::vector<double> times;
+        std::vector<std::vector<double>> values;  // by channel
+    };
+    std::vector<RefinedRows> refined_;        // of each table
+    std::vector<std::size_t> contact_poses_;  // number taken so far, of each pose request
+    int contact_steps_ = 0;                   // of the present contact, from which poses were taken
+};
+
+}  // namespace beamcam::sim

@@ -1,0 +1,192 @@
+#include "sim/observe/step_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/integrate/collocation.hpp"
+#include "sim/observe/constants.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+bool is_of_hub(ChannelKind kind) { return kind == ChannelKind::theta || kind == ChannelKind::theta_dot; }
+
+// While they touch.
+bool needs_gap(ChannelKind kind) {
+    return kind == ChannelKind::energy_contact || kind == ChannelKind::energy_residual ||
+           kind == ChannelKind::loss_contact;
+}
+
+bool needs_contact(ChannelKind kind) {
+    return kind == ChannelKind::gap || kind == ChannelKind::contact_x || kind == ChannelKind::contact_s ||
+           kind == ChannelKind::contact_force || is_separation(kind);
+}
+
+StepChannels::Samples copied(const double* samples) {
+    StepChannels::Samples values;
+    std::copy_n(samples, values.size(), values.begin());
+    return values;
+}
+
+// The contact at the samples, if the step has it there.
+const TouchSamples* touch_at_samples(const SegmentInterval& s) {
+    const TouchSamples* touch = s.segment->touch();
+    return touch && touch->t[0] == s.from && touch->t[StepChannels::kSamples - 1] == s.to ? touch : nullptr;
+}
+
+}  // namespace
+
+double sample_time(const SegmentInterval& s, std::size_t k) {
+    if (k == 0) return s.from;
+    if (k > kNodes) return s.to;
+    return s.from + Collocation::get().c[static_cast<int>(k) - 1] * (s.to - s.from);
+}
+
+bool is_separation(ChannelKind kind) {
+    return kind == ChannelKind::separation || kind == ChannelKind::separation_paper;
+}
+
+bool is_estimated(ChannelKind kind) {
+    return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate || is_separation(kind);
+}
+
+StepChannels::StepChannels(const System& system)
+    : evaluator_(system),
+      probe_(evaluator_.system(), true),
+      modal_channels_(evaluator_.system()),
+      y_(static_cast<std::size_t>(system.size)) {}
+
+void StepChannels::set_phase(const Phase& phase) {
+    evaluator_.set_phase(phase);
+    bounded_from_ = -1;
+}
+
+void StepChannels::begin(const SegmentInterval& s) {
+    if (bounded_from_ != s.from) modal_ = modal_channels_.set(*s.segment, s.from, s.to);
+    bounded_from_ = s.from;
+    probing_ = s.segment->bounds() != nullptr && (modal_ || s.segment->touch());
+    // Results must not depend on where the contact was searched before.
+    evaluator_.system().search_again();
+    probe_.forget();
+}
+
+std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s) {
+    if (modal_ || !s.segment->bounds()) return {s};
+    const double needed = std::ceil((s.to - s.from) * s.segment->bounds()->fastest / kFollowedRadians);
+    const auto count = static_cast<long>(std::clamp(needed, 1.0, kMostStepParts));
+    if (needed > kMostStepParts) ++truncated_;
+    std::vector<SegmentInterval> out;
+    double from = s.from;
+    for (long i = 1; i <= count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count);
+        const double to = i == count ? s.to : s.from + (s.to - s.from) * share;
+        out.push_back({s.segment, from, to, s.last && i == count});
+        from = to;
+    }
+    return out;
+}
+
+// Geometry and normal force: the probe costs less than a search of the whole beam.
+void StepChannels::probe_contact(double t) {
+    ContactState c = probe_.evaluate(t, y_.data(), false);
+    const System& system = evaluator_.system();
+    if (system.phase().touching) c.force = system.normal_law().force(-c.gap, -c.gap_rate, system.phase().approach);
+    evaluator_.set_contact(c);
+}
+
+double StepChannels::value(const SegmentInterval& s, Channel channel, double t) {
+    if (channel.kind == ChannelKind::q)
+        return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
+    s.segment->value(t, y_.data());
+    std::optional<ContactState> contact;
+    return value_of_state(channel, t, contact);
+}
+
+// Of the state in `y_`; takes `contact` if it is there, else computes and keeps it.
+double StepChannels::value_of_state(Channel channel, double t, std::optional<ContactState>& contact) {
+    if (modal_ && is_of_hub(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
+    evaluator_.set(t, y_.data());
+    const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
+    if (probing_ && evaluator_.system().has_cam() && (stored || needs_contact(channel.kind))) {
+        if (contact)
+            evaluator_.set_contact(*contact);
+        else
+            probe_contact(t);
+        contact = evaluator_.contact();
+    }
+    if (probing_ && stored) evaluator_.set_gap(contact->gap);
+    return evaluator_.value(channel);
+}
+
+void StepChannels::values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
+                          const System::EnergyBalance* balance, std::vector<double>& out) {
+    s.segment->value(t, y_.data());
+    evaluator_.set(t, y_.data());
+    if (modal_ && evaluator_.system().has_cam()) {
+        const bool touching = evaluator_.system().phase().touching;
+        if (!touching || evaluator_.system().friction().kinetic == 0) probe_contact(t);
+        if (touching) evaluator_.set_gap(evaluator_.contact().gap);
+    }
+    if (balance) evaluator_.set_energy_balance(*balance);
+    for (std::size_t c = 0; c < channels.size(); ++c) {
+        if (!modal_ || !is_estimated(channels[c].kind))
+            out[c] = evaluator_.value(channels[c]);
+        else if (!is_separation(channels[c].kind))
+            out[c] = modal_channels_.tip(channels[c].kind, y_.data());
+        else
+            out[c] = evaluator_.system().has_cam() ? 0 : kNan;
+    }
+}
+
+StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel channel, SampledStates& sampled) {
+    const TouchSamples* touch = touch_at_samples(s);
+    if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
+    if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
+    if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
+    Samples values;
+    Lanes nodes;
+    const bool linear = channel.kind == ChannelKind::q || is_of_hub(channel.kind);
+    const bool at_nodes = modal_ && linear && modal_channels_.at_nodes(channel, nodes);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        const double t = sample_time(s, k);
+        if (at_nodes && k > 0 && k <= kNodes) {
+            values[k] = nodes[static_cast<int>(k) - 1];
+        } else if (channel.kind == ChannelKind::q) {
+            values[k] = value(s, channel, t);
+        } else {
+            place_sample(s, k, sampled);
+            if (touch && needs_gap(channel.kind)) {
+                evaluator_.set(t, y_.data());
+                evaluator_.set_gap(touch->gap[k]);
+                values[k] = evaluator_.value(channel);
+            } else {
+                values[k] = value_of_state(channel, t, sampled.contacts[k]);
+            }
+        }
+    }
+    return values;
+}
+
+// Puts the state of the sample into `y_`.
+void StepChannels::place_sample(const SegmentInterval& s, std::size_t k, SampledStates& sampled) {
+    std::vector<double>& state = sampled.states[k];
+    if (state.empty()) {
+        state.resize(y_.size());
+        s.segment->value(sample_time(s, k), state.data());
+    }
+    y_ = state;
+}
+
+// The polynomial through the inner samples, its error at the ends, and the vibrations that it does not resolve.
+Variation StepChannels::variation(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    const double h = s.to - s.from;
+    Lanes nodes;
+    for (int k = 0; k < kNodes; ++k) nodes[k] = values[static_cast<std::size_t>(k) + 1];
+    Variation out;
+    out.add_polynomial(nodes, h);
+    out.add_missed(nodes, values[0], values[kSamples - 1], h);
+    if (modal_) modal_channels_.add_unresolved(channel, out);
+    return out;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,73 @@
+// Channels within one step of a trajectory: their values at any instant, and a bound of how far they vary between
+// samples. Searches for extrema and crossings are built on it. MODEL.md §12, (S59).
+#pragma once
+
+#include <array>
+#include <optional>
+#include <vector>
+
+#include "sim/integrate/gap_probe.hpp"
+#include "sim/observe/channel_evaluator.hpp"
+#include "sim/observe/modal_channels.hpp"
+#include "sim/observe/segment_interval.hpp"
+
+namespace beamcam::sim {
+
+class StepChannels {
+  public:
+    static constexpr std::size_t kSamples = kNodes + 2;  // both ends and the Gauss nodes
+    using Samples = std::array<double, kSamples>;
+    // States and contacts at the samples of one step, each computed when it is first needed.
+    struct SampledStates {
+        std::array<std::vector<double>, kSamples> states;
+        std::array<std::optional<ContactState>, kSamples> contacts;
+    };
+
+    explicit StepChannels(const System& system);
+    void set_phase(const Phase& phase);
+    void set_start_energy(double total) { evaluator_.set_start_energy(total); }
+
+    // Every other call on a step follows this one.
+    void begin(const SegmentInterval& s);
+    // Bounds of each mode exist in this step; else only those of all modes together, if any.
+    bool modal() const { return modal_; }
+    const ModalChannels& modes() const { return modal_channels_; }
+    // A step that spans many periods of vibration without bounds of its modes, cut into parts short enough that a
+    // polynomial follows the fastest vibration; every other step is one part.
+    std::vector<SegmentInterval> parts(const SegmentInterval& s);
+    long truncated() const { return truncated_; }  // steps that would need more parts than are allowed
+
+    double value(const SegmentInterval& s, Channel channel, double t);
+    // All channels at t. Tip deflection, tip rate and separation are costly: in a modal step the first two are
+    // estimated (`is_estimated`), the last is zero. `balance`: the energy balance at t if it is available.
+    void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
+                const System::EnergyBalance* balance, std::vector<double>& out);
+    void place(double t, const double* y) { evaluator_.set(t, y); }
+    // Of the state that was placed or evaluated last.
+    double exact_value(Channel channel) { return evaluator_.value(channel); }
+    Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
+    // How far the channel strays from the lines between neighbouring samples.
+    Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
+
+    System& system() { return evaluator_.system(); }
+
+  private:
+    double value_of_state(Channel channel, double t, std::optional<ContactState>& contact);
+    void probe_contact(double t);
+    void place_sample(const SegmentInterval& s, std::size_t k, SampledStates& sampled);
+
+    ChannelEvaluator evaluator_;
+    GapProbe probe_;
+    ModalChannels modal_channels_;
+    std::vector<double> y_;
+    bool modal_ = false;
+    bool probing_ = false;      // the contact of this step is evaluated by `probe_`
+    double bounded_from_ = -1;  // the start of the step of `modal_channels_`
+    long truncated_ = 0;
+};
+
+double sample_time(const SegmentInterval& s, std::size_t k);
+bool is_separation(ChannelKind kind);
+bool is_estimated(ChannelKind kind);
+
+}  // namespace beamcam::sim
