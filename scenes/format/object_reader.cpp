@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "scenes/format/suggest.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -23,7 +24,7 @@ std::string as_written(const Node& node) {
         case Node::Kind::string:
             return in_quotes(node.text);
         case Node::Kind::array:
-            return fmt::format("an array of {}", node.items.size());
+            return node.items.empty() ? "an empty array" : "an array of " + counted(std::ssize(node.items), "value");
         case Node::Kind::object:
             return "an object";
     }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "output/files/interrupt.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
@@ -14,6 +15,20 @@
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
+
+void stop_if_interrupted() {
+    if (output::interrupted()) throw sim::Interrupted();
+}
+
+RunContext::RunContext(const RunOptions& run_options)
+    : options(run_options),
+      progress(resolve(run_options.progress)),
+      manifest(run_options.force),
+      cache(open_cache(run_options.no_cache)),
+      history(cache ? History(cache->directory()) : History()),
+      motions(cache_or_null(), &history, progress,
+              {thread_count(run_options.threads), run_options.quiet, run_options.verbose}) {}
+
 namespace {
 
 using SceneRuns = std::vector<std::unique_ptr<SceneRun>>;

@@ -1,0 +1,115 @@
+// The plan as JSON.
+#include "scenes/plan/plan.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+Node count_node(std::size_t count) { return integer_node(static_cast<long>(count)); }
+
+Node stage_node(const char* name) {
+    Node stage = object_node();
+    add(stage, "stage", text_node(name));
+    return stage;
+}
+
+void add_cost(Node& stage, const std::optional<Cost>& cost, const char* amount) {
+    if (!cost) return;
+    add(stage, "seconds", number_node(cost->seconds));
+    add(stage, amount, number_node(cost->amount));
+}
+
+Node file_stage(const char* name, const std::string& file, std::size_t output) {
+    Node stage = stage_node(name);
+    add(stage, "file", text_node(file));
+    add(stage, "output", count_node(output));
+    return stage;
+}
+
+Node motion_stage(const sim::Problem& problem, const sim::Request& request, const std::string& because) {
+    Node stage = stage_node("simulate");
+    add(stage, "model", text_node(name(problem.beam.model)));
+    add(stage, "modes", integer_node(problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes));
+    add(stage, "until", number_node(request.end_time));
+    add(stage, "because", text_node(because));
+    return stage;
+}
+
+Node stage_of(const Simulation& simulation, const sim::Problem& problem) {
+    Node stage = motion_stage(problem, simulation.request, simulation.until_because);
+    Node events = array_node();
+    for (const std::string& event : simulation.until_events) events.items.push_back(text_node(event));
+    if (!events.items.empty()) add(stage, "until_events", std::move(events));
+    add(stage, "horizon", boolean_node(simulation.horizon));
+    add(stage, "from_cache", boolean_node(simulation.from_cache));
+    add(stage, "keep", boolean_node(simulation.keep));
+    add_cost(stage, simulation.cost, "steps");
+    return stage;
+}
+
+Node stage_of(const Pictures& p, const std::vector<double>& times) {
+    Node stage = file_stage(kind_name(p.kind), p.file, p.output);
+    if (p.times_known) {
+        add(stage, "frames", count_node(p.draw.size()));
+        add(stage, "from", number_node(times[static_cast<std::size_t>(p.draw.front())]));
+        add(stage, "last", number_node(times[static_cast<std::size_t>(p.draw.back())]));
+    }
+    add(stage, "size", array_node({integer_node(p.picture.size.width), integer_node(p.picture.size.height)}));
+    add(stage, "style", text_node(view_name(p.picture.view)));
+    if (p.kind != Pictures::Kind::still) add(stage, "fps", number_node(p.span.fps.value()));
+    if (p.kind == Pictures::Kind::video) {
+        add(stage, "codec", text_node(output::name(p.encoding.codec)));
+        if (p.encoding.crf) add(stage, "crf", integer_node(*p.encoding.crf));
+        if (p.encoding.codec == output::Codec::h264) add(stage, "preset", text_node(p.encoding.preset));
+        if (p.encoding.variable_rate) add(stage, "rate_mode", text_node("variable"));
+        if (!p.poster_file.empty()) add(stage, "poster", text_node(p.poster_file));
+    }
+    add_cost(stage, p.cost, "bytes");
+    return stage;
+}
+
+Node stages_of(const Plan& plan, const Scene& scene) {
+    Node stages = array_node();
+    const auto put = [&stages](Node stage) { stages.items.push_back(std::move(stage)); };
+    if (plan.events_until) {
+        put(stage_node("impacts"));
+        add(stages.items.back(), "until", number_node(*plan.events_until));
+    }
+    if (plan.simulation) put(stage_of(*plan.simulation, scene.problem));
+    for (const Pictures& p : plan.pictures) {
+        for (const ComparedMotion& motion : p.compared) {
+            put(motion_stage(motion.problem, motion.request, p.file));
+            add(stages.items.back(), "label", text_node(motion.label));
+        }
+        put(stage_of(p, plan.times(p)));
+    }
+    for (const Variant& variant : plan.variants) put(stage_of(variant.simulation, variant.problem));
+    for (const FigureFile& f : plan.figures) {
+        put(file_stage("figure", f.file, f.output));
+        add(stages.items.back(), "figure", text_node(f.figure));
+        add_cost(stages.items.back(), f.cost, "bytes");
+    }
+    for (const DataFile& d : plan.data) {
+        put(file_stage(d.stage.c_str(), d.file, d.output));
+        for (const Member& detail : d.details.members) add(stages.items.back(), detail.key, detail.value);
+        add_cost(stages.items.back(), d.cost, "bytes");
+    }
+    return stages;
+}
+
+}  // namespace
+
+std::string to_json(const Plan& plan, const Scene& scene) {
+    Node out = object_node(), skipped = array_node();
+    add(out, "stages", stages_of(plan, scene));
+    add_cost(out, plan.cost(), "bytes");
+    for (const Skipped& each : plan.skipped) {
+        Node& entry = skipped.items.emplace_back(object_node());
+        add(entry, "what", text_node(each.what));
+        add(entry, "why", text_node(each.why));
+    }
+    add(out, "skipped", std::move(skipped));
+    return to_text(out);
+}
+
+}  // namespace beamcam::scenes
