@@ -126,9 +126,7 @@ class Parser {
 
     Node object() {
         Node node = open(Node::Kind::object);
-        if (next() != '}') do {
-                member(node);
-            } while (separator());
+        for (bool more = next() != '}'; more; more = separator()) member(node);
         close();
         return node;
     }
@@ -152,9 +150,7 @@ class Parser {
 
     Node array() {
         Node node = open(Node::Kind::array);
-        if (next() != ']') do {
-                node.items.push_back(value());
-            } while (separator());
+        for (bool more = next() != ']'; more; more = separator()) node.items.push_back(value());
         close();
         return node;
     }
@@ -162,10 +158,10 @@ class Parser {
     // True: a comma, so that another item follows. False: the closing bracket comes next.
     bool separator() {
         const char c = next();
-        if (c == ',') ++at_;
-        if (c == ',') return true;
-        if (c != closing_bracket(open_.back())) unexpected(Expected::separator);
-        return false;
+        if (c == closing_bracket(open_.back())) return false;
+        if (c != ',') unexpected(Expected::separator);
+        ++at_;
+        return true;
     }
 
     Node open(Node::Kind kind) {
@@ -258,7 +254,7 @@ class Parser {
     }
 
     std::string problem_with_bracket(char c, Expected expected) {
-        if (open_.empty()) return fmt::format("a '{}' that closes nothing; remove it", c);
+        if (open_.empty()) return fmt::format("an unmatched '{}'; remove it", c);
         const char expected_bracket = closing_bracket(open_.back());
         if (c != expected_bracket)
             return fmt::format("'{}' closes what '{}' in line {} opened; write '{}'", c, text_[open_.back()],
