@@ -192,7 +192,7 @@ TEST(Stretch, ThePlanNamesTheEventAtWhichItEnds) {
         return to_text(plan(*reading.scene), *reading.scene);
     };
     const std::string alone = words(R"({"type": "video", "file": "a.mp4", "to": "impact:3"})");
-    EXPECT_THAT(alone, HasSubstr("a first run until 2 s, or until it has them,"));
+    EXPECT_THAT(alone, HasSubstr("a first run until 2 s at most finds"));
     EXPECT_THAT(alone, HasSubstr("; until impact 3, for a.mp4"));
     EXPECT_THAT(alone, HasSubstr("frames from 0 s to impact 3 at 60 per second"));
     EXPECT_THAT(words(R"({"type": "figure", "figure": "strobe", "at": "release:2", "file": "a.pdf"},

@@ -123,7 +123,7 @@ TEST(Series, DrawsSumsOfChannels) {
     EXPECT_THAT(testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "panels": [
                     {"channels": ["theta"], "sums": [{"label": "a", "plus": ["theta", "contact_force"]}]}]}]})")
                     .report(),
-                HasSubstr("one axis has one unit"));
+                HasSubstr("an axis has one unit"));
 }
 
 TEST(Series, CountsPotentialEnergyFromItsLeast) {
@@ -452,7 +452,7 @@ TEST(Series, TooManyPanelsAreToldWithTheLimit) {
     for (int k = 0; k < 60; ++k) panels += std::string(k > 0 ? "," : "") + R"({"channels": ["theta"]})";
     EXPECT_THAT(
         testing::read(R"({"outputs": [{"type": "figure", "figure": "series", "panels": [)" + panels + "]}]}").report(),
-        HasSubstr("must be an array of at most 8 panels, not an array of 60"));
+        HasSubstr("must be an array of at most 8 panels, not an array of 60 values"));
 }
 
 }  // namespace

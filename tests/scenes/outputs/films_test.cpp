@@ -350,8 +350,8 @@ TEST(Films, WithoutALegendTheExaggerationIsToldOnTheCommandLine) {
     folder.write("s.json", R"({"time": {"end": 0.4}})");
     const std::string still = "$BEAMCAM render s.json --at 0.3 --size 320x180 --style flat --force -o s.png";
     EXPECT_THAT(shell(folder, still + " --show clean").err, HasSubstr("without stating it; state it in the caption"));
-    EXPECT_THAT(shell(folder, still).err, Not(HasSubstr("does not say so")));
-    EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err, Not(HasSubstr("does not say so")));
+    EXPECT_THAT(shell(folder, still).err, Not(HasSubstr("without stating it")));
+    EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err, Not(HasSubstr("without stating it")));
 }
 
 TEST(Render, RefusesOptionsThatWouldDoNothingInOneWording) {
@@ -754,7 +754,7 @@ TEST(Films, CharactersThatNoFontHasAreTold) {
         "size": [64, 48], "fps": 10, "view": {"style": "flat", "shutter": 3, "camera": {"keyframes": [{"at": "impact:1", "zoom": 4}]}}}]})");
     const Finished run = shell(folder, "$BEAMCAM run s.json");
     EXPECT_EQ(run.code, 0) << run.err;
-    EXPECT_THAT(run.err, HasSubstr("leaves out 🙂: no font has them"));
+    EXPECT_THAT(run.err, HasSubstr("omits 🙂: no font has these characters"));
 }
 
 // ---- what finds no room ------------------------------------------------------------------------
