@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
-"""Mistreats the cache and the files of runs, and checks that every result is right.
+"""Damages the cache and the files of runs, and checks that all results are correct.
 
 cache_torture.py PROGRAM [RUNS]
 
-RUNS runs (200) of a few requests of one motion, two at a time, in one directory with one cache. At random instants
-some are killed outright, entries of the cache are damaged, cut, removed, dated back and forth, and its directory is
-replaced by a file. Whatever finished must have the bytes of an undisturbed run without a cache; whatever was killed
-must leave whole files or none, and nothing that hinders the next run.
+Makes RUNS runs (200) of a few requests of one motion, two at a time, in one directory with one cache. At random instants
+it kills runs, damages, truncates, removes and redates entries of the cache, and replaces its directory by a file. Runs
+that finish must write the bytes of an undisturbed run without a cache; runs that are killed must leave complete files or
+none, and nothing that stops the next run.
 """
 import os
 import pathlib
@@ -55,7 +55,7 @@ def damage(cache, dice):
                 at = time.time() + (1e8 if kind == "future" else -1e8)
                 os.utime(entry, (at, at))
     except FileNotFoundError:
-        pass  # the other run replaced it meanwhile
+        pass  # the other run has just replaced it
     return kind
 
 
@@ -101,7 +101,7 @@ def main():
                         sys.exit(f"round {round_number}: {file} is wrong after {'a kill' if process.returncode else 'a run'}")
                 if process.returncode == 0 and made != scenes[name]:
                     sys.exit(f"round {round_number}: scene {name} lacks {sorted(set(scenes[name]) - set(made))}")
-        print(f"{2 * (runs // 2)} runs, {finished} finished, {killed} killed: every file right")
+        print(f"{2 * (runs // 2)} runs, {finished} finished, {killed} killed: all files correct")
 
 
 main()

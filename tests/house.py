@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Keeps the house in order: what stands at the top level, who includes whom, who sees which library, and that every
-equation cited in sim/ is in sim/MODEL.md. Prints each breach as file:line and fails if there is one.
+"""Checks the structure of the source tree: the top-level entries, the order of includes, the use of libraries, and that every
+cited equation is in sim/MODEL.md. Prints each violation as file:line and fails if there is one.
 
 house.py ROOT            checks the tree
 house.py --self-test     checks that the checks can fail
@@ -16,7 +16,7 @@ TOP_LEVEL = {"CMakeLists.txt", "CMakePresets.json", "CHANGELOG.md", "LICENSE", "
              "sim", "render", "output", "scenes", "tests"}
 IGNORED = {"build"}  # made by the build, never committed
 
-# A room may include itself and those before it, and so may the folders of a room. Tests may include everything.
+# A top-level folder may include itself and those before it; so may its subfolders. Tests may include everything.
 ROOMS = ["sim", "render", "output", "scenes"]
 FOLDERS = {
     "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "orbit", "sweep", "studies"],
@@ -25,7 +25,7 @@ FOLDERS = {
     "scenes": ["scene", "figures", "format", "motions", "sweep", "plan", "outputs", "regression", "commands"],
 }
 
-# Which headers only some files may see: the pattern, how many .cpp of which room.
+# Headers that only some files may include: the pattern, the number of .cpp files in each top-level folder.
 PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
@@ -63,7 +63,7 @@ def top_level(root):
 def check_top_level(root):
     for name in sorted(top_level(root) - TOP_LEVEL):
         if not name.startswith("."):
-            yield f"{name}: nothing but {', '.join(sorted(TOP_LEVEL))} and dot-files stands at the top"
+            yield f"{name}: only {', '.join(sorted(TOP_LEVEL))} and dot-files may be at the top level"
 
 
 def check_one_way(root):
@@ -78,7 +78,7 @@ def check_one_way(root):
 
 
 def folder_of(room, path):
-    """Where a file or header of the room stands in the order of its folders; None: not in one of them."""
+    """The position of a file or header in the order of the folders of `room`; None: in none of them."""
     parts = str(path).split("/")
     inside = len(parts) > 2 and parts[0] == room and parts[1] in FOLDERS[room]
     return FOLDERS[room].index(parts[1]) if inside else None
@@ -91,7 +91,7 @@ def check_folders(root):
             rank = folder_of(room, name)
             if rank is None:
                 if len(name.parts) > 2:
-                    yield f"{name}: {name.parts[1]} is no folder of {room} (tests/house.py lists them)"
+                    yield f"{name}: {name.parts[1]} is not a folder of {room} (see tests/house.py)"
                 continue
             for number, header in includes(path):
                 target = folder_of(room, header)
@@ -109,11 +109,11 @@ def check_private_libraries(root):
                         seeing.setdefault(path, number)
             for path, number in seeing.items():
                 if path.suffix != ".cpp":
-                    yield f"{path.relative_to(root)}:{number}: {library} in a header; only a .cpp may see it"
+                    yield f"{path.relative_to(root)}:{number}: {library} in a header; only .cpp files may include it"
             if len(seeing) > allowed.get(room, 0):
                 for path, number in seeing.items():
-                    yield (f"{path.relative_to(root)}:{number}: {library} is seen by {len(seeing)} files of {room}; "
-                           f"allowed are {allowed.get(room, 0)}")
+                    yield (f"{path.relative_to(root)}:{number}: {library} is included by {len(seeing)} files of {room}; "
+                           f"{allowed.get(room, 0)} are allowed")
 
 
 def check_equations(root):
@@ -130,7 +130,7 @@ CHECKS = [check_top_level, check_one_way, check_folders, check_private_libraries
 
 
 def self_test():
-    """Builds one small house per breach and expects exactly the check that is meant to see it to see it."""
+    """Builds a small tree for each violation and expects that exactly the check for it finds it."""
     breaches = [
         ("notes.txt", "", check_top_level),
         ("sim/a.cpp", '#include "render/image.hpp"\n', check_one_way),
@@ -138,7 +138,7 @@ def self_test():
         ("output/a.cpp", '#include "scenes/scene.hpp"\n', check_one_way),
         ("output/a.cpp", '#include "../sim/pose.hpp"\n', check_one_way),
         ("sim/beam/a.hpp", '#include "sim/run/simulate.hpp"\n', check_folders),
-        ("scenes/kitchen/a.cpp", "", check_folders),
+        ("scenes/other/a.cpp", "", check_folders),
         ("sim/a.hpp", "#include <cvode/cvode.h>\n", check_private_libraries),
         ("render/a.cpp", "extern \"C\" {\n  #include <libavcodec/avcodec.h>\n}\n", check_private_libraries),
         ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
@@ -152,12 +152,12 @@ def self_test():
             (root / "sim/MODEL.md").write_text("(S1)", encoding="utf-8")
             (root / "sim/solver.cpp").write_text("#include <cvode/cvode.h>  // (S1)\n", encoding="utf-8")
             if found := [breach for check in CHECKS for breach in check(root)]:
-                sys.exit(f"a sound house is refused: {found}")
+                sys.exit(f"a correct tree has violations: {found}")
             (root / name).parent.mkdir(exist_ok=True)
             (root / name).write_text(text, encoding="utf-8")
             for check in CHECKS:
                 if bool(list(check(root))) != (check is guard):
-                    sys.exit(f"{check.__name__} is wrong about {name}: {text!r}")
+                    sys.exit(f"{check.__name__} gives the wrong result for {name}: {text!r}")
 
 
 def main():

@@ -1,10 +1,10 @@
 #!/usr/bin/env python3
-"""Reads files of n and of 4 n parts and counts instructions (valgrind's callgrind): beyond what an empty file costs, four times the
-parts may cost at most five times as much.
+"""Reads files of n and of 4 n parts and counts instructions (valgrind's callgrind). Without the cost of an empty file, four times
+the parts may cost at most five times as much.
 
 linear.py PROGRAM
 
-Ends with 77 (skipped) where there is no valgrind.
+Exit code 77 (skipped) without valgrind.
 """
 import os
 import pathlib

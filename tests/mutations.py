@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
-"""Proves that regression tests catch what they should: makes small changes on purpose and asks `beamcam test` about each.
+"""Proves that regression tests detect small changes: makes deliberate changes and runs `beamcam test` on each.
 
-    mutations.py BEAMCAM            runs all, prints a table, fails if one is judged otherwise than stated here
+    mutations.py BEAMCAM            runs all changes, prints a table, fails if a verdict differs from the expected one
     mutations.py BEAMCAM --markdown the same table for tests/README.md
 
 Changes of the mechanics and of the scene are made to the scene; changes of drawing are made to the reference picture (what was

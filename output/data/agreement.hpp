@@ -1,4 +1,4 @@
-// How a computed motion agrees with measured or foreign data of one channel, at the instants of the data.
+// Agreement of a computed motion with measured or other data of one channel, at the instants of the data.
 #pragma once
 
 #include <optional>
@@ -13,19 +13,19 @@ namespace beamcam::output {
 struct Agreement {
     std::string label, file;
     sim::Channel channel;
-    // Differences, measured minus computed, where θ is reproducible.
+    // Differences, measured minus computed, while θ is reproducible.
     struct Part {
         std::size_t rows = 0;
         double rms = 0, largest = 0, t_largest = 0;
-        double highest = 0;  // the largest measured value less the largest computed one
+        double highest = 0;  // largest measured value minus largest computed value
     };
     Part whole;
     struct AfterCollision : Part {
-        int collision = 0;  // from 1; until the next one
+        int collision = 0;  // number from 1; the part ends at the next collision
         double t_start = 0;
     };
     std::vector<AfterCollision> collisions;  // those with rows
-    // Where it is not, single values mean nothing: statistics of both.
+    // While θ is not reproducible: statistics of both.
     struct Statistics {
         double mean = 0, deviation = 0;
     };
@@ -38,7 +38,7 @@ struct Agreement {
 
 bool is_reproducible(const sim::Result& result, double t);
 
-// Rows in which a value is missing are left out. `times` increase; `result` has a horizon.
+// Skips rows with a missing value. `times` must increase; `result` must have a horizon.
 Agreement agreement(const std::vector<double>& times, const std::vector<double>& measured,
                     const std::vector<double>& computed, const sim::Result& result);
 

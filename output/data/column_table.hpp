@@ -1,4 +1,4 @@
-// A table of numbers whose columns say what they are.
+// A table of numbers whose columns have a unit and a meaning.
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace beamcam::output {
 
 struct TableColumn {
     std::string name, unit, meaning;
-    std::vector<double> values = {};  // all columns of one length; NaN: none
+    std::vector<double> values = {};  // of equal length in all columns; NaN: no value
 };
 
 struct ColumnTable {

@@ -30,7 +30,7 @@ bool is_journal(std::string_view name) {
            is_random_part(name.substr(kBegin.size(), kDigits));
 }
 
-// As AtomicFile names them: a journal that came from elsewhere must not point to anything else.
+// Named by AtomicFile: a journal from elsewhere must not make us remove other files.
 bool is_temporary(std::string_view name) {
     if (!name.starts_with('.') || !name.ends_with(kTemporary) || name.find('/') != std::string_view::npos) return false;
     name.remove_suffix(kTemporary.size());
@@ -52,7 +52,7 @@ DirectoryLock::~DirectoryLock() {
 }
 
 Journal::Journal(const fs::path& directory) {
-    const DirectoryLock lock(directory);  // nobody takes it for abandoned before it is locked
+    const DirectoryLock lock(directory);  // so that no other run regards it as abandoned before it is locked
     std::random_device random;
     for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
         char digits[kDigits + 1];

@@ -1,8 +1,9 @@
-// What a run puts into one directory, line by line, before it does: `.beamcam.XXXXXXXX.journal`. If the run is killed,
-// the next one knows from it which files are beamcam's own, by their content, and which half-written ones to remove.
+// The journal of a run in one directory, `.beamcam.XXXXXXXX.journal`: it lists each file before the run creates or
+// replaces it. If the run is killed, the next run finds in the journal which files beamcam made and which temporary
+// files to remove.
 //
-// The file is locked as long as its run lives. Where a file system has no locks, every run counts as alive, and what a
-// killed one left is not removed.
+// The file is locked while its run exists. On file systems without locks every run counts as running, and the files of
+// a killed run are not removed.
 #pragma once
 
 #include <filesystem>
@@ -13,8 +14,8 @@
 
 namespace beamcam::output {
 
-// Held while the manifest and the journals of a directory are read, changed and replaced. Where a file system does not
-// lock directories, two processes that end in the same instant may lose an entry, never a file.
+// A lock for reading and changing the manifest and the journals of a directory. On file systems that cannot lock
+// directories, two processes that end at the same instant may lose an entry, but never a file.
 class DirectoryLock {
   public:
     explicit DirectoryLock(const std::filesystem::path& directory);
@@ -28,9 +29,9 @@ class DirectoryLock {
 
 class Journal {
   public:
-    // A new one. Throws IoError.
+    // Creates a new journal. Throws IoError.
     explicit Journal(const std::filesystem::path& directory);
-    // Leaves the file, whose lines then count as those of a killed run; `remove` it once the manifest has them.
+    // Keeps the file; its lines then count as those of a killed run. Call `remove` after the manifest contains them.
     ~Journal();
     Journal(const Journal&) = delete;
     Journal& operator=(const Journal&) = delete;
@@ -43,11 +44,11 @@ class Journal {
     int descriptor_ = -1;
 };
 
-// Those of a directory, of all runs or of those that are gone.
+// The journals of all runs in a directory, and whether the run of a journal has ended.
 std::vector<std::filesystem::path> journals_in(const std::filesystem::path& directory);
 bool is_abandoned(const std::filesystem::path& journal);
 
-// Removes the half-written files that it lists.
+// Removes the temporary files that the journal lists.
 void remove_temporaries(const std::filesystem::path& directory, const JournalLines& lines);
 
 }  // namespace beamcam::output

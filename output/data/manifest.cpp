@@ -17,10 +17,10 @@ fs::path directory_of(const fs::path& file) { return fs::absolute(file).lexicall
 
 struct FileIdentity {
     std::uintmax_t size = 0;
-    std::string stamp;  // the inode is new whenever a file is replaced, the time whenever it is written to
+    std::string stamp;  // inode and time of modification: change when the file is replaced or written
 };
 
-// Throws IoError when the file is gone.
+// Throws IoError if the file does not exist.
 FileIdentity identity_of(const fs::path& file) {
     struct stat status;
     if (stat(file.c_str(), &status) != 0) throw read_error(file, errno);
@@ -29,15 +29,15 @@ FileIdentity identity_of(const fs::path& file) {
             std::to_string(status.st_ino) + ":" + std::to_string(modified)};
 }
 
-// Which of the versions stands there; null when it is none.
-const FileRecord* standing(const fs::path& file, const std::vector<FileRecord>& versions) {
-    const FileIdentity there = identity_of(file);
+// The version that the file has; null: none of them.
+const FileRecord* present_version(const fs::path& file, const std::vector<FileRecord>& versions) {
+    const FileIdentity identity = identity_of(file);
     std::string digest;
-    for (auto made = versions.rbegin(); made != versions.rend(); ++made) {
-        if (made->sha256.empty() || made->size != there.size) continue;
-        if (!made->stamp.empty() && made->stamp == there.stamp) return &*made;
+    for (auto record = versions.rbegin(); record != versions.rend(); ++record) {
+        if (record->sha256.empty() || record->size != identity.size) continue;
+        if (!record->stamp.empty() && record->stamp == identity.stamp) return &*record;
         if (digest.empty()) digest = sha256_of_file(file);
-        if (made->sha256 == digest) return &*made;
+        if (record->sha256 == digest) return &*record;
     }
     return nullptr;
 }
@@ -71,7 +71,7 @@ Manifest::Versions Manifest::load(const fs::path& directory) {
         std::string text;
         try {
             text = read_file(journal);
-        } catch (const IoError&) {  // its run has ended meanwhile
+        } catch (const IoError&) {  // its run has just ended
             continue;
         }
         for (auto& [name, made] : parse_journal(text).placed) all[name].push_back(made);
@@ -88,7 +88,7 @@ Manifest::Versions& Manifest::known_in(const fs::path& directory) {
 const FileRecord* Manifest::known(const fs::path& file) {
     const Versions& all = known_in(directory_of(file));
     const auto versions = all.find(file.filename().string());
-    return versions == all.end() ? nullptr : standing(file, versions->second);
+    return versions == all.end() ? nullptr : present_version(file, versions->second);
 }
 
 void Manifest::require_replaceable(const fs::path& file) {
@@ -97,10 +97,10 @@ void Manifest::require_replaceable(const fs::path& file) {
 }
 
 void Manifest::require_own(const fs::path& file) {
-    if (force_ || !path_exists(file) || !is_file(file)) return;  // AtomicFile refuses what is no file
+    if (force_ || !path_exists(file) || !is_file(file)) return;  // AtomicFile rejects other things than files
     if (known(file)) return;
     Directory& directory = directories_[directory_of(file)];
-    directory.known = load(directory_of(file));  // another run may have made it meanwhile
+    directory.known = load(directory_of(file));  // another run may have just made it
     if (known(file)) return;
     throw WouldOverwrite(file.string() +
                          (directory.known->contains(file.filename().string()) ? " was changed after beamcam made it"
@@ -119,7 +119,7 @@ std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {
     const Versions known = load(directory_of(file));
     const auto versions = known.find(file.filename().string());
     if (versions == known.end()) return std::nullopt;
-    const FileRecord* made = standing(file, versions->second);
+    const FileRecord* made = present_version(file, versions->second);
     return Entry{made ? *made : versions->second.back(), made != nullptr};
 }
 
@@ -142,7 +142,7 @@ Target Manifest::target(const fs::path& file, Origin origin) {
         const FileRecord made{sha256_of_file(temporary), identity.size, origin, identity.stamp};
         const std::string name = file.filename().string();
         const std::lock_guard lock(mutex_);
-        require_own(file);  // the user may have put one there meanwhile
+        require_own(file);  // the user may have created it in the meantime
         journal_in(directory_of(file)).add(journal_line(name, made));
         known_in(directory_of(file))[name].push_back(made);
     };
@@ -152,7 +152,7 @@ Target Manifest::target(const fs::path& file, Origin origin) {
 void Manifest::save() {
     const std::lock_guard lock(mutex_);
     for (auto& [directory, state] : directories_)
-        if (state.journal) settle(directory, state.journal);
+        if (state.journal) merge_journals(directory, state.journal);
 }
 
 void Manifest::recover(const fs::path& directory) {
@@ -161,21 +161,20 @@ void Manifest::recover(const fs::path& directory) {
     for (const fs::path& journal : journals_in(place))
         if (is_abandoned(journal)) {
             journal_in(place);
-            return settle(place, directories_[place].journal);
+            return merge_journals(place, directories_[place].journal);
         }
 }
 
-// Puts what the journals say into the manifest. Those of runs that are gone are removed, with what they have half
-// written.
-void Manifest::settle(const fs::path& directory, std::unique_ptr<Journal>& own) {
+// Adds the records of the journals to the manifest. Removes the journals of ended runs, with their temporary files.
+void Manifest::merge_journals(const fs::path& directory, std::unique_ptr<Journal>& own) {
     const DirectoryLock lock(directory);
     std::vector<fs::path> abandoned;
     for (const fs::path& journal : journals_in(directory))
         if (is_abandoned(journal)) abandoned.push_back(journal);
     FileRecords files;
     for (const auto& [name, versions] : load(directory)) {
-        if (!is_file(directory / name)) continue;  // gone
-        const FileRecord* made = versions.size() > 1 ? standing(directory / name, versions) : nullptr;
+        if (!is_file(directory / name)) continue;  // it was removed
+        const FileRecord* made = versions.size() > 1 ? present_version(directory / name, versions) : nullptr;
         files[name] = made ? *made : versions.back();
     }
     if (files != read_manifest(directory)) {

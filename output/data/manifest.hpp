@@ -1,12 +1,11 @@
-// Which files beamcam made: `.beamcam.json` beside them, with the SHA-256 of each and of what it was made from. An
-// existing file is replaced only if it is listed there and unchanged since, or when the user says --force. One that was
-// made from the same inputs need not be made again.
+// The list of the files that beamcam made in a directory: `.beamcam.json`, with the SHA-256 of each file and of its
+// inputs. An existing file is replaced only if it is listed and unchanged, or with --force. A file that was made from
+// the same inputs is up to date.
 //
-// A file is known before it appears: its digest goes into a journal (journal.hpp) before it is put in its place, so
-// that a run that is killed at any instant leaves no file that the next one takes for the user's, nor the other way
-// round.
+// A file is recorded in a journal (journal.hpp) before it appears. So the next run can tell beamcam's files from the
+// user's even if a run is killed at any instant.
 //
-// The manifest is rewritten atomically and under a lock on its directory, so that several processes may work in one
+// The manifest is replaced atomically and under a lock on its directory, so that several processes may use one
 // directory. A damaged manifest counts as empty and is replaced at the next `save`.
 #pragma once
 
@@ -30,43 +29,43 @@ class Manifest {
     static constexpr const char* kFileName = ".beamcam.json";
 
     explicit Manifest(bool force) : force_(force) {}
-    // Saves what is not saved yet; an error is lost here, so call `save` where it matters.
+    // Saves unsaved records and ignores errors; call `save` to get them.
     ~Manifest();
     Manifest(const Manifest&) = delete;
     Manifest& operator=(const Manifest&) = delete;
 
-    // Call before work begins, for every output. Throws WouldOverwrite when a file stands there that is not
-    // beamcam's own, IoError when it cannot be read.
+    // To be called for every output before the work begins. Throws WouldOverwrite if the file exists and beamcam did
+    // not make it, IoError if it cannot be read.
     void require_replaceable(const std::filesystem::path& file);
 
-    // The file stands there, unchanged since it was made from these inputs.
+    // The file exists, unchanged since it was made from these inputs.
     bool is_up_to_date(const std::filesystem::path& file, const std::string& inputs);
 
-    // Hand it to the writer of the file, from any thread: the file is recorded as it appears, and not put in the place
-    // of one that is not beamcam's own. This object must outlive the writer.
+    // The destination for the writer of the file, in any thread. It records the file when it appears, and does not
+    // replace a file that beamcam did not make. This object must outlive the writer.
     Target target(const std::filesystem::path& file, Origin origin = {});
-    // Writes what was recorded into the manifests.
+    // Writes the records into the manifests.
     void save();
 
-    // Records what runs that were killed have finished in this directory, and removes what they have half written.
+    // Records the files that killed runs finished in this directory, and removes their temporary files.
     void recover(const std::filesystem::path& directory);
 
-    // What the manifest beside a file says of it; nothing when it is not listed.
+    // The record of a file in the manifest beside it; nothing if it is not listed.
     struct Entry : FileRecord {
         bool unchanged = true;
     };
     static std::optional<Entry> find(const std::filesystem::path& file);
 
   private:
-    // All that a file of this name may be, the latest last: a run that was killed may or may not have replaced it.
+    // The possible versions of each file, the latest last: a killed run may or may not have replaced it.
     using Versions = std::map<std::string, std::vector<FileRecord>>;
     struct Directory {
-        std::optional<Versions> known;  // as first read, and what this run has put there
+        std::optional<Versions> known;  // as first read, and the files of this run
         std::unique_ptr<Journal> journal;
     };
 
     static Versions load(const std::filesystem::path& directory);
-    static void settle(const std::filesystem::path& directory, std::unique_ptr<Journal>& own);
+    static void merge_journals(const std::filesystem::path& directory, std::unique_ptr<Journal>& own);
 
     Versions& known_in(const std::filesystem::path& directory);
     const FileRecord* known(const std::filesystem::path& file);
@@ -74,7 +73,7 @@ class Manifest {
     void require_own(const std::filesystem::path& file);
 
     bool force_;
-    std::mutex mutex_;  // guards what follows
+    std::mutex mutex_;  // guards the members below
     std::map<std::filesystem::path, Directory> directories_;
 };
 

@@ -1,10 +1,9 @@
-// What the module that links libnetcdf offers (beamcam_netcdf.so, from output/data/netcdf/): sweeps and tables as
-// NetCDF-4 files.
-// It is loaded when first used: the libraries under it would cost every start some milliseconds.
+// Interface of the module that links libnetcdf (beamcam_netcdf.so, from output/data/netcdf/): sweeps and tables as
+// NetCDF-4 files. The module is loaded at its first use, because its libraries would add milliseconds to every start.
 //
-// Layout of a sweep: dimensions are the second swept key, the first, "seed" and "sample"; what follows the last sample
-// of a point is filled. Chunks hold whole points. Of a table: a variable for each column over the dimension "row". The
-// same numbers make the same bytes.
+// A sweep has the dimensions second swept key, first swept key, "seed" and "sample"; fill values follow the last sample
+// of a point, and chunks contain whole points. A table has a variable for each column over the dimension "row". The
+// same numbers give the same bytes.
 #pragma once
 
 #include <filesystem>
@@ -23,7 +22,7 @@ class NetcdfLibrary {
                        const SweepData& data) const = 0;
     virtual void write(const std::filesystem::path& file, const std::filesystem::path& named,
                        const ColumnTable& table) const = 0;
-    // The file stays open as long as the data live; points are read when they are asked for. Throws IoError.
+    // The file stays open while the data exist; points are read on demand. Throws IoError.
     virtual SweepData open(const std::filesystem::path& file) const = 0;
     virtual std::string version() const = 0;
 };

@@ -12,9 +12,9 @@ namespace {
 
 // ---- NPZ: https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html in PKWARE's APPNOTE ----------
 
-constexpr std::uint64_t kLargestArchive = 0xffffffff;  // beyond that zip needs 64-bit records
+constexpr std::uint64_t kLargestArchive = 0xffffffff;  // larger archives need 64-bit records
 constexpr std::size_t kMostEntries = 0xffff;
-constexpr std::size_t kGathered = 1 << 13;  // numbers of an array that are written together
+constexpr std::size_t kBuffer = 1 << 13;  // numbers of an array that are written together
 static_assert(std::endian::native == std::endian::little, "NPZ is written in memory order");
 
 void put(std::string& out, std::uint64_t value, int bytes) {
@@ -40,8 +40,8 @@ std::string end_record(std::size_t count, std::uint64_t size, std::uint64_t offs
     return record;
 }
 
-// The target, if zip can hold the arrays.
-const Target& possible_target(const Target& file, const std::vector<NpzArray>& arrays) {
+// Throws UnsupportedOption if the arrays are too large for zip.
+const Target& checked_target(const Target& file, const std::vector<NpzArray>& arrays) {
     constexpr std::uint64_t per_entry = 512;  // records and header of one array, generously
     std::uint64_t total = 0, rows = 0;
     for (const NpzArray& array : arrays) {
@@ -61,7 +61,7 @@ std::string_view bytes_of(std::span<const double> numbers) {
 
 }  // namespace
 
-NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atomic_(possible_target(file, arrays)) {
+NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atomic_(checked_target(file, arrays)) {
     std::uint64_t offset = 0;
     for (const NpzArray& array : arrays) {
         Member member{array.name + ".npy", npy_header(array.rows), 0, offset, 0, 0, {}};
@@ -72,7 +72,7 @@ NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atom
     }
 }
 
-// What the local and the central record of an array have in common.
+// The common part of the local and the central record of an array.
 std::string NpzFile::common_record(const Member& member) {
     std::string record;
     put(record, 20, 2), put(record, 0, 2), put(record, 0, 2);  // needs zip 2.0, no flags, stored
@@ -84,17 +84,17 @@ std::string NpzFile::common_record(const Member& member) {
 
 void NpzFile::append(std::size_t array, std::span<const double> numbers) {
     Member& member = members_[array];
-    member.gathered.insert(member.gathered.end(), numbers.begin(), numbers.end());
-    if (member.gathered.size() >= kGathered) flush(member);
+    member.buffer.insert(member.buffer.end(), numbers.begin(), numbers.end());
+    if (member.buffer.size() >= kBuffer) flush(member);
 }
 
 void NpzFile::flush(Member& member) {
-    if (member.gathered.empty()) return;
-    const std::string_view bytes = bytes_of(member.gathered);
+    if (member.buffer.empty()) return;
+    const std::string_view bytes = bytes_of(member.buffer);
     member.crc = libdeflate_crc32(member.crc, bytes.data(), bytes.size());
     atomic_.write_at(member.offset + kLocalRecord + member.name.size() + member.header.size() + member.written, bytes);
     member.written += bytes.size();
-    member.gathered.clear();
+    member.buffer.clear();
 }
 
 void NpzFile::commit() {
@@ -103,7 +103,7 @@ void NpzFile::commit() {
     for (Member& member : members_) {
         flush(member);
         if (member.header.size() + member.written != member.size)
-            throw std::logic_error("NpzFile: " + member.name + " has another number of rows than it said");
+            throw std::logic_error("NpzFile: " + member.name + ": wrong number of rows");
         const std::string common = common_record(member);
         atomic_.write_at(member.offset, "PK\x03\x04" + common + member.name + member.header);
         end = member.offset + kLocalRecord + member.name.size() + member.size;

@@ -15,22 +15,23 @@ struct NpzArray {
     std::uint64_t rows = 0;
 };
 
-// An archive whose numbers come in any order of its arrays: each array has its place from the start.
+// An archive whose arrays can be filled in any order: each has its place from the start.
 class NpzFile {
   public:
-    // Throws UnsupportedOption beyond 4 GiB; IoError.
+    // Throws UnsupportedOption above 4 GiB, IoError.
     NpzFile(const Target& file, const std::vector<NpzArray>& arrays);
-    // The next numbers of an array. Throws IoError.
+    // Adds the next numbers of an array. Throws IoError.
     void append(std::size_t array, std::span<const double> numbers);
-    // Once, after all numbers. Throws IoError.
+    // To be called once, after all numbers. Throws IoError.
     void commit();
 
   private:
     struct Member {
         std::string name, header;
-        std::uint64_t size = 0, offset = 0, written = 0;  // [bytes] header and numbers; of its record; numbers so far
+        std::uint64_t size = 0, offset = 0,
+                      written = 0;  // [bytes]: header and numbers; place of its record; numbers so far
         std::uint32_t crc = 0;
-        std::vector<double> gathered;  // not written yet
+        std::vector<double> buffer;  // not written yet
     };
     static std::string common_record(const Member& member);
     void flush(Member& member);

@@ -1,4 +1,4 @@
-// Periodic orbits, their branches and Lyapunov exponents as files, with the names scripts rely on.
+// Periodic orbits, their branches and Lyapunov exponents as JSON and tables, with the names that scripts use.
 #pragma once
 
 #include <string>
@@ -10,21 +10,21 @@
 
 namespace beamcam::output {
 
-// Exponents with their errors, and their convergence; null where one is −∞, and "chaotic" where that is doubtful.
+// Exponents, their errors and their convergence. An exponent of −∞ is null; "chaotic" is null if it is doubtful.
 std::string exponents_json(const sim::Exponents& exponents);
 
-// Periodic orbits of a scene, and the branches that were followed from one of them.
+// Periodic orbits of a scene, and the branches that start from them.
 struct BranchTable {
-    std::string key, unit;  // of the scene, over which the branches go; empty: none were
+    std::string key, unit;  // the varied key of the scene; empty: no branches
     double start = 0;       // its value for `orbits`
     std::vector<sim::PeriodicOrbit> orbits;
     std::vector<sim::Branch> branches;
 };
-// {"parameter", "start", "orbits": […], "branches": [{"period", "impacts", "points": […]}], "events": […]}. A period is
-// counted in turns of the cam, as in sweeps.
+// {"parameter", "start", "orbits": […], "branches": [{"period", "impacts", "points": […]}], "events": […]}. Periods are
+// in turns of the cam, as in sweeps.
 std::string orbits_json(const BranchTable& table);
-// A row for each impact of each point of the branches; without branches, of the orbits. `attributes` are a NetCDF
-// file's.
+// A row for each impact of each point of the branches, or of the orbits if there are no branches. `attributes`: of a
+// NetCDF file.
 ColumnTable orbit_columns(const BranchTable& table, std::vector<std::pair<std::string, std::string>> attributes);
 
 }  // namespace beamcam::output

@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::string_view kMagic = "beamcam points 1\n";
 
-// What stands before the numbers of a point.
+// The header of a point in the file.
 struct Head {
     std::uint64_t point, samples, state, failure;  // counts of numbers, of bytes
     std::int64_t kind, period;

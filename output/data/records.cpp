@@ -15,10 +15,10 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-// Messages may quote a user's bytes, which need not be UTF-8; they become U+FFFD.
+// Messages may quote bytes of the user that are not UTF-8; they become U+FFFD.
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-// A value of any member below, absent ones as null. NaN and infinities become null as well: JSON has no other word.
+// A value of any member below; absent values, NaN and infinities are null.
 template <typename T>
 Json json_of(const T& value) {
     return value;
@@ -28,7 +28,7 @@ Json json_of(const std::optional<T>& value) {
     return value ? Json(*value) : Json(nullptr);
 }
 
-// Calls visit(name, value) for every field, in the order of the file; JSON and CSV share it.
+// Calls visit(name, value) for every field, in the order of JSON and CSV.
 template <typename Visit>
 void for_each_field(const sim::Impact& i, Visit visit) {
     visit("t_start", i.t_start);
@@ -109,7 +109,7 @@ Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& chan
     return map;
 }
 
-// Within steps, too, where the residual was searched for its extrema.
+// Also within steps, if the extrema of the residual were computed.
 double largest_residual(const sim::Result& result, const std::vector<sim::Channel>& channels) {
     double largest = result.energy_residual_max;
     for (std::size_t i = 0; i < channels.size(); ++i)
@@ -142,7 +142,7 @@ Json json_of(const FileRecord& made) {
     return entry;
 }
 
-// Nothing where it is not one.
+// Nothing if the entry is invalid.
 std::optional<FileRecord> file_record_of(const Json& entry) {
     if (!entry.is_object()) return {};
     const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
@@ -162,7 +162,7 @@ Json json_of(const sim::Timing& time) {
     return {{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}};
 }
 
-// `head` comes first: what tells this row from the others.
+// `head`: the keys that identify the row.
 Json accuracy_row(Json head, const sim::AccuracyRow& row) {
     head["error"] = json_of(row.error);
     if (!row.error) {

@@ -1,8 +1,6 @@
-// Impacts, collisions and the summary of a run as JSON and CSV, with the names scripts rely on; and the text of the
-// manifest.
-//
-// Keys come in a fixed order, numbers with as many digits as it takes to read the same bits back, undefined
-// values as null (an empty cell in CSV).
+// Impacts, collisions and the summary of a run as JSON and CSV, with the names that scripts use; and the text of the
+// manifest. Keys have a fixed order; numbers have enough digits to read the same bits back; undefined values are null,
+// in CSV an empty cell.
 #pragma once
 
 #include <cstdint>
@@ -28,10 +26,10 @@ namespace beamcam::output {
 std::string impacts_json(const sim::Result& result);  // {"impacts": […], "collisions": […]}
 std::string impacts_csv(const sim::Result& result);   // the impacts alone
 
-// By the name's ending, .json or .csv. Throws UnsupportedOption for another, IoError.
+// The ending decides: .json or .csv. Throws UnsupportedOption for others, IoError.
 void write_impacts(const Target& file, const sim::Result& result);
 
-// `extrema` are the channels of Request::extrema, in the order of result.extrema. "units" covers every channel of the
+// `extrema`: the channels of Request::extrema, in the order of result.extrema. "units" lists all channels of the
 // problem.
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema, const Work* work = nullptr,
@@ -46,19 +44,19 @@ std::string modes_json(const std::vector<sim::Mode>& modes);
 // Every row of the assessment, its conditions and the recommendation.
 std::string accuracy_json(const sim::Accuracy& accuracy);
 
-// What a file was made from.
+// The inputs of a file.
 struct Origin {
-    std::string inputs;          // as a digest of the caller's; equal inputs make equal files. Empty: not told.
-    std::string version, scene;  // of the program, and in full, where the file itself cannot say so
+    std::string inputs;          // digest: files with equal inputs are equal. Empty: unknown
+    std::string version, scene;  // of the program; JSON text, if the file itself cannot contain it
     bool operator==(const Origin&) const = default;
 };
 
-// What beamcam knows of a file it made.
+// The record of a file that beamcam made.
 struct FileRecord {
     std::string sha256;
     std::uintmax_t size = 0;  // [bytes]
     Origin origin;
-    std::string stamp;  // of the file system, as long as nobody touched it; spares reading it; empty: not known
+    std::string stamp;  // inode and time of the unchanged file, so that it need not be read; empty: unknown
     bool operator==(const FileRecord&) const = default;
 };
 using FileRecords = std::map<std::string, FileRecord>;  // by file name, without directory
@@ -67,17 +65,17 @@ using FileRecords = std::map<std::string, FileRecord>;  // by file name, without
 std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
 
 std::string manifest_json(const FileRecords& files);
-// Nothing where the text is not a manifest.
+// Nothing if the text is not a manifest.
 std::optional<FileRecords> parse_manifest(const std::string& text);
 
-// Lines of a journal: a temporary file that is about to be created, and a file that is about to be put in its place.
+// Lines of a journal: a temporary file that will be created, and a file that will be moved to its place.
 std::string journal_line(const std::string& temporary);
 std::string journal_line(const std::string& name, const FileRecord& made);
 struct JournalLines {
     std::vector<std::string> temporaries;
     std::vector<std::pair<std::string, FileRecord>> placed;  // by file name, in the order of the text
 };
-// Leaves out lines that are cut off.
+// Skips lines that are cut off.
 JournalLines parse_journal(const std::string& text);
 
 }  // namespace beamcam::output

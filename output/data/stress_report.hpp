@@ -1,4 +1,4 @@
-// What a stress campaign found, as text for the terminal and as CSV. (JSON: output/data/records.hpp.)
+// The results of a stress campaign as text and CSV. (JSON: output/data/records.hpp.)
 #pragma once
 
 #include <string>

@@ -12,10 +12,10 @@
 namespace beamcam::output {
 namespace {
 
-constexpr std::size_t kGatheredBytes = 1 << 16;  // [bytes] gathered before they are written
+constexpr std::size_t kTextBuffer = 1 << 16;  // [bytes] written at once
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// The columns that all rows of a point share, after the swept keys.
+// The columns that are equal in all rows of a point; they follow the swept keys.
 constexpr const char* kPointColumns[] = {"seed", "class", "period", "impacts_per_period", "exponent", "exponent_error"};
 enum PointColumn : std::size_t { kSeed, kClass, kPeriod, kImpacts, kExponent, kExponentError, kPointColumnCount };
 
@@ -39,7 +39,7 @@ double point_value(const SweepData& data, const StoredPoint& p, std::size_t colu
     return kNone;
 }
 
-// Calls visit(point) for those of this file, in order.
+// Calls visit(point) for the points of this file, in order.
 template <class Visit>
 void each_point(const SweepData& data, Visit&& visit) {
     for (std::uint64_t k = 0; k < data.points(); ++k)
@@ -80,7 +80,7 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
             }
             text += '\n';
         }
-        if (text.size() < kGatheredBytes) return;
+        if (text.size() < kTextBuffer) return;
         write(text);
         text.clear();
     });

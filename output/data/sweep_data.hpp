@@ -1,5 +1,5 @@
-// A sweep as files: CSV and NPZ with one row a sample, NetCDF-4 as a grid. Points are asked for one by one, so that
-// memory stays flat however many there are.
+// Sweeps as files: CSV and NPZ with a row for each sample, NetCDF-4 as a grid. Points are read one by one, so that the
+// memory does not grow with their number.
 #pragma once
 
 #include <algorithm>
@@ -27,20 +27,20 @@ struct SweepData {
     std::vector<SweepAxis> axes;  // one or two
     std::uint64_t seeds = 1;
     std::vector<SweepColumn> columns;                             // of the samples
-    std::vector<std::string> classes;                             // names by their numbers
+    std::vector<std::string> classes;                             // names, by number
     std::vector<std::pair<std::string, std::string>> attributes;  // of a NetCDF file
-    std::function<bool(std::uint64_t)> has;                       // whether the point is part of this file
+    std::function<bool(std::uint64_t)> has;                       // whether this file contains the point
     std::function<std::uint64_t(std::uint64_t)> rows;             // samples of the point
     std::function<StoredPoint(std::uint64_t)> read;
 
     std::uint64_t points() const;
-    std::uint64_t rows_in_all() const;                     // of CSV and NPZ: a point without samples has one
+    std::uint64_t rows_in_all() const;                     // of CSV and NPZ; a point without samples has one
     std::uint64_t most_rows() const;                       // samples of one point
     std::vector<double> place(std::uint64_t point) const;  // values of the axes
     const std::string* attribute(const std::string& name) const;
 };
 
-// Here, because the module of NetCDF uses them too.
+// Inline, because the NetCDF module uses them, too.
 inline std::uint64_t SweepData::points() const {
     std::uint64_t all = seeds;
     for (const SweepAxis& axis : axes) all *= axis.values.size();
@@ -71,7 +71,7 @@ inline std::vector<double> SweepData::place(std::uint64_t point) const {
     return values;
 }
 
-// By the name's ending: .csv, .npz or .nc. Throws IoError, UnsupportedOption.
+// The ending decides: .csv, .npz or .nc. Throws IoError, UnsupportedOption.
 void write_sweep(const Target& file, const SweepData& data);
 void write_sweep_csv(std::ostream& out, const SweepData& data);
 

@@ -1,4 +1,4 @@
-// How two tables of one motion differ, column by column, at the instants that both have.
+// The differences of two tables of a motion, column by column, at the common instants.
 #pragma once
 
 #include <limits>
@@ -12,7 +12,7 @@ namespace beamcam::output {
 struct ColumnDifference {
     std::string name;
     double largest = 0;         // |b − a|, in the column's unit
-    double t = 0;               // where; the row's number without a column "t"
+    double t = 0;               // its instant; without a column "t", the number of the row
     double range = 0;           // of `a` over the rows compared: largest minus smallest value
     double share = 0;           // largest / range; with no range: largest / |a|, or 1 where `a` is 0
     std::size_t undefined = 0;  // rows where one of the two is empty and the other is not
@@ -28,12 +28,12 @@ struct TableDifference {
         return rows_a == rows_b && rows_compared == rows_a && only_in_a.empty() && only_in_b.empty();
     }
     bool identical() const;
-    // Nothing differs by more than `share` of its column's range.
+    // No value differs by more than `share` of its column's range.
     bool within(double share) const;
 };
 
-// Rows belong together by their "t" (equal to a billionth), or by their number where a table has none; those whose "t"
-// is empty by their order. Rows with t > `until` are not compared.
+// Compares rows with equal "t" (to a billionth), or with equal numbers if a table has no "t"; rows with an empty "t" in
+// their order. Rows with t > `until` are not compared.
 TableDifference difference(const NamedTable& a, const NamedTable& b,
                            double until = std::numeric_limits<double>::infinity());
 

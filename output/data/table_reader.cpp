@@ -79,14 +79,14 @@ class CsvParser {
     void read_header(std::string_view line) {
         if (line.starts_with("# ")) line.remove_prefix(2);  // numpy.savetxt
         if (const std::size_t other = line.find_first_of(";\t"); other != line.npos && line.find(',') == line.npos)
-            refuse(other + 1, std::string("columns are parted by ") + (line[other] == ';' ? "semicolons" : "tabs") +
-                                  "; part them by commas, and write 0.5 with a point");
+            refuse(other + 1, std::string("columns are separated by ") + (line[other] == ';' ? "semicolons" : "tabs") +
+                                  "; use commas, and a decimal point as in 0.5");
         for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t) {
             if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
             if (cell.empty()) refuse(column, "a column without a name in the header");
-            if (number(cell)) refuse(column, in_quotes(cell) + " where a column's name should stand");
+            if (number(cell)) refuse(column, in_quotes(cell) + " where the name of a column should be");
             if (!index_.add(cell, table_.names.size()))
-                refuse(column, "the column " + in_quotes(cell) + " stands twice in the header");
+                refuse(column, "the column " + in_quotes(cell) + " occurs twice in the header");
             table_.names.emplace_back(cell);
         });
         table_.columns.resize(table_.names.size());
@@ -100,8 +100,8 @@ class CsvParser {
             std::optional<double> value = cell.empty() ? kNothing : number(cell);
             if (!value) value = class_number(cell);
             if (!value) refuse(column, in_quotes(cell) + " is not a number");
-            if (std::isinf(*value) && table_.names[count] != "exponent")  // of a sweep: −∞ forgets every difference
-                refuse(column, in_quotes(cell) + " is no finite number; leave a cell without a value empty");
+            if (std::isinf(*value) && table_.names[count] != "exponent")  // of a sweep: −∞ is a valid exponent
+                refuse(column, in_quotes(cell) + " is not a finite number; leave cells without a value empty");
             table_.columns[count].push_back(*value);
         });
         if (cells != table_.columns.size())
@@ -114,14 +114,14 @@ class CsvParser {
         return number_in<double>(cell);
     }
 
-    // Of the class of motion that tables of sweeps give by name: as .npz and .nc number it.
+    // The number of a class of motion, as in .npz and .nc.
     static std::optional<double> class_number(std::string_view cell) {
         for (const auto& each : sim::names(sim::AttractorClass{}))
             if (each.name == cell) return static_cast<double>(each.value);
         return std::nullopt;
     }
 
-    // Short, without bytes that would speak to a terminal.
+    // Shortened, without control characters.
     static std::string in_quotes(std::string_view cell) {
         std::string text;
         text.push_back('"');
@@ -144,7 +144,7 @@ static_assert(std::endian::native == std::endian::little, "NPZ is read in memory
 class NpzParser {
   public:
     NpzParser(std::string_view bytes, const std::string& file)
-        : bytes_(bytes), file_(file), inflater_(kLargestArchive), not_taken_(bytes.size()) {}
+        : bytes_(bytes), file_(file), inflater_(kLargestArchive), unread_(bytes.size()) {}
 
     NamedTable parse() {
         const std::size_t end = find_end();
@@ -176,33 +176,33 @@ class NpzParser {
         return found;
     }
 
-    // One record of the directory; gives the place of the next.
+    // Reads one record of the directory; returns the place of the next.
     std::size_t read_entry(std::size_t at) {
         if (part(at, 4) != "PK\x01\x02") damaged();
         const std::size_t method = value(at + 10, 2), crc = value(at + 16, 4), packed = value(at + 20, 4),
                           size = value(at + 24, 4), name_size = value(at + 28, 2), offset = value(at + 42, 4);
         std::string name(part(at + 46, name_size));
         if (name.ends_with(".npy")) name.resize(name.size() - 4);
-        if (offset == 0xffffffff || size >= kLargestArchive) refuse("archives beyond 4 GiB are not read");
+        if (offset == 0xffffffff || size >= kLargestArchive) refuse("archives above 4 GiB cannot be read");
         const std::size_t data = offset + 30 + value(offset + 26, 2) + value(offset + 28, 2);
-        read_array(name, unpacked(name, part(data, packed), method, size, crc));
+        read_array(name, decompressed(name, part(data, compressed), method, size, crc));
         return at + 46 + name_size + value(at + 30, 2) + value(at + 32, 2);
     }
 
-    std::string unpacked(const std::string& name, std::string_view packed, std::size_t method, std::size_t size,
-                         std::size_t crc) {
-        // Arrays that share their bytes would unpack without end.
-        if (packed.size() > not_taken_) damaged();
-        not_taken_ -= packed.size();
+    std::string decompressed(const std::string& name, std::string_view compressed, std::size_t method, std::size_t size,
+                             std::size_t crc) {
+        // Arrays that share bytes could expand without limit.
+        if (compressed.size() > unread_) damaged();
+        unread_ -= compressed.size();
         std::string data;
         if (method == 0) {
-            data = packed;
+            data = compressed;
         } else if (method == 8) {
-            auto plain = inflater_.deflate(packed, size);
+            auto plain = inflater_.deflate(compressed, size);
             if (!plain) damaged();
             data = std::move(*plain);
         } else {
-            refuse("the array \"" + name + "\" is packed in a way that numpy does not use");
+            refuse("the array \"" + name + "\" has a compression method that numpy does not use");
         }
         if (data.size() != size || libdeflate_crc32(0, data.data(), data.size()) != crc) damaged();
         return data;
@@ -261,12 +261,12 @@ class NpzParser {
         return column;
     }
 
-    static constexpr std::size_t kLargestArchive = 0xffffffff;  // [bytes], unpacked; what its format can say
+    static constexpr std::size_t kLargestArchive = 0xffffffff;  // [bytes], decompressed: the limit of the format
 
     std::string_view bytes_;
     const std::string& file_;
     Inflater inflater_;
-    std::size_t not_taken_;  // bytes of the file that no array has claimed yet
+    std::size_t unread_;  // bytes of the file that belong to no array yet
     NamedTable table_;
     NameIndex index_;  // of its names
 };

@@ -1,4 +1,5 @@
-// Tables of numbers from files: CSV with a header line, and NPZ with one array a column, of beamcam, numpy or others.
+// Reading of tables of numbers: CSV with a header line, and NPZ with an array for each column, from beamcam, numpy or
+// other programs.
 #pragma once
 
 #include <filesystem>
@@ -12,16 +13,16 @@ namespace beamcam::output {
 
 struct NamedTable {
     std::vector<std::string> names;
-    std::vector<std::vector<double>> columns;  // as many as names, all of one length; NaN: an empty cell
+    std::vector<std::vector<double>> columns;  // one for each name, of equal length; NaN: an empty cell
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
     const std::vector<double>* find(std::string_view name) const;
 };
 
-// Classes of motion, which tables of sweeps give by name in .csv, are numbered as in .npz. By the name's ending, .csv
-// or .npz. Throws IoError with the line and column of what is wrong (CSV), or the name of the array (NPZ).
+// The ending decides: .csv or .npz. The names of classes of motion in the .csv tables of sweeps become numbers as in
+// .npz. Throws IoError with the line and column of the error (CSV), or the name of the array (NPZ).
 NamedTable read_table(const std::filesystem::path& file);
 
-// Texts of numbers.cpp's kind, of spreadsheets (a byte order mark, "\r\n") and of numpy.savetxt with a header.
+// Also CSV of spreadsheets (byte order mark, "\r\n") and of numpy.savetxt with a header.
 NamedTable parse_csv(std::string_view text, const std::string& file_name);
 NamedTable parse_npz(std::string_view bytes, const std::string& file_name);
 

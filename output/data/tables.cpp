@@ -14,9 +14,9 @@ namespace beamcam::output {
 
 namespace {
 
-constexpr std::size_t kChunk = 1 << 16;  // [bytes] gathered before they are written
+constexpr std::size_t kBuffer = 1 << 16;  // [bytes] written at once
 
-// Columns by name, which stand elsewhere.
+// Names and values of columns; the values belong to another object.
 struct Columns {
     std::vector<std::string> names = {};
     std::vector<std::span<const double>> values = {};
@@ -51,7 +51,7 @@ void csv(const Columns& table, const std::function<void(const std::string&)>& wr
             append_number(text, table.values[c][row]);
         }
         text += '\n';
-        if (text.size() < kChunk) continue;
+        if (text.size() < kBuffer) continue;
         write(text);
         text.clear();
     }
@@ -89,8 +89,6 @@ void write_csv(std::ostream& out, const sim::Table& table) {
     if (!out.flush()) throw IoError("cannot write the table: the output was closed or the disk is full");
 }
 
-void write_csv(const Target& file, const sim::Table& table) { write_csv(file, columns_of(table)); }
-void write_npz(const Target& file, const sim::Table& table) { write_npz(file, columns_of(table)); }
 void write_table(const Target& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
 void write_table(const Target& file, const NamedTable& table) { write_columns(file, columns_of(table)); }
 

@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// ".fall.mp4.3f9c01d2.part"; the middle is shortened where the file system's 255 bytes would not hold it.
+// ".fall.mp4.3f9c01d2.part"; long names are shortened, since file systems allow 255 bytes.
 std::string hidden_name(const std::string& file_name, unsigned random) {
     constexpr std::size_t kLongestKept = 200;
     char suffix[24];
@@ -39,7 +39,7 @@ fs::path followed(const fs::path& target) {
     return path;
 }
 
-void refuse_what_is_no_file(const fs::path& target, const fs::path& real) {
+void require_file(const fs::path& target, const fs::path& real) {
     if (!real.has_filename())
         throw IoError("cannot write " + target.string() + ": it names a directory; add a file name");
     std::error_code error;
@@ -56,7 +56,7 @@ void sync_directory(const fs::path& directory) {
     close(descriptor);
 }
 
-// The directory that the descriptor stands for, whatever its name leads to by now.
+// The path of an open directory, even if its name now leads elsewhere.
 fs::path path_of(int directory, const fs::path& name) {
     std::error_code error;
     const fs::path path = fs::read_symlink("/proc/self/fd/" + std::to_string(directory), error);
@@ -76,7 +76,7 @@ void require_below(const fs::path& file, const fs::path& real, const fs::path& f
 }  // namespace
 
 AtomicFile::AtomicFile(Target target) : target_(std::move(target)), real_(followed(target_.path)) {
-    refuse_what_is_no_file(target_.path, real_);
+    require_file(target_.path, real_);
     directory_ = open(real_.parent_path().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
     if (directory_ < 0) throw write_error(target_.path, errno);
     try {
@@ -168,7 +168,7 @@ void ensure_directory(const fs::path& directory) {
     std::error_code error;
     fs::create_directories(directory, error);
     if (!error && !fs::is_directory(directory)) error = std::make_error_code(std::errc::not_a_directory);
-    if (error) throw IoError("cannot make the directory " + directory.string() + ": " + error.message());
+    if (error) throw IoError("cannot create the directory " + directory.string() + ": " + error.message());
 }
 
 std::string read_file(const fs::path& file) {

@@ -1,7 +1,6 @@
-// A file that appears whole or not at all: written under a hidden name beside its target, flushed
-// and renamed by `commit`, removed by the destructor otherwise.
-//
-// It does not ask whether the target may be replaced: that is manifest.hpp.
+// A file that appears whole or not at all. It is written under a hidden name beside its target; `commit` flushes and
+// renames it, otherwise the destructor removes it. The manifest (manifest.hpp) decides whether the target may be
+// replaced.
 #pragma once
 
 #include <cstdint>
@@ -16,14 +15,14 @@
 
 namespace beamcam::output {
 
-// Whether `commit` waits until the disk holds the bytes. Without, a power cut may lose the newest
-// files, but an interrupted or killed program may not; that is right for hundreds of frames.
+// Whether `commit` waits until the disk has stored the bytes. With `buffered`, a power failure may lose the newest
+// files, but an interrupted or killed program does not; use it for hundreds of frames.
 enum class Durability { synced, buffered };
 
 class AtomicFile {
   public:
-    // Throws IoError: missing or unwritable directory, target that is a directory or a device, or that leads out of
-    // Target::within. A symbolic link is followed, so that the file it points to is replaced and the link stays.
+    // Throws IoError if the directory is missing or read-only, or if the target is a directory or a device, or outside
+    // Target::within. Follows a symbolic link: the file that it points to is replaced, and the link stays.
     explicit AtomicFile(Target target);
     ~AtomicFile();
     AtomicFile(const AtomicFile&) = delete;
@@ -44,7 +43,7 @@ class AtomicFile {
     std::filesystem::path real_;       // absolute, links followed
     std::filesystem::path temporary_;  // absolute
     std::optional<TemporaryName> registered_;
-    int directory_ = -1;    // of both: a link that is changed meanwhile leads nowhere else
+    int directory_ = -1;    // of both: stays the same if a link in the path is changed
     int descriptor_ = -1;   // of the temporary file
     bool pending_ = false;  // the temporary file exists
 };
@@ -52,10 +51,10 @@ class AtomicFile {
 // Writes the whole of `bytes` to `target`, atomically.
 void write_file(const Target& target, std::string_view bytes, Durability durability = Durability::synced);
 
-// Throws IoError when symbolic links lead `file`, which need not exist, out of the folder.
+// Throws IoError if symbolic links lead from `file`, which need not exist, to a place outside the folder.
 void require_within(const std::filesystem::path& file, const std::filesystem::path& folder);
 
-// Whether there is anything at `file`, links followed. Throws IoError when that cannot be known, as without permission.
+// Whether something exists at `file`, links followed. Throws IoError if that cannot be found out.
 bool path_exists(const std::filesystem::path& file);
 
 // Creates the directory and those above it. Throws IoError.

@@ -1,4 +1,4 @@
-// CRC-32 (ISO-HDLC, as in zlib): tells damaged bytes from whole ones, guards against nobody.
+// CRC-32 (ISO-HDLC, as in zlib), against accidental damage.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 namespace beamcam::output {
 
-// Goes on from `so_far`, 0 at the start.
+// Continues from `so_far`, which is 0 at the start.
 std::uint32_t crc32(std::uint32_t so_far, const void* data, std::size_t size);
 
 }  // namespace beamcam::output

@@ -33,15 +33,15 @@ extern "C" void on_crash(int signal_number) {
     if (render::memory_is_short()) end({kNoMemory});
     if ((signal_number == SIGTRAP || signal_number == SIGABRT) && render::threads_are_short())
         end({kNoThread, render::kThreadRemedy, "\n"});
-    raise(signal_number);  // handled as if there were no handler: SA_RESETHAND
+    raise(signal_number);  // with the default action: SA_RESETHAND
 }
 
 void handle(int signal_number) {
-    struct sigaction wanted = {};
-    wanted.sa_handler = on_crash;
-    sigemptyset(&wanted.sa_mask);
-    wanted.sa_flags = static_cast<int>(SA_ONSTACK | SA_NODEFER | SA_RESETHAND);
-    sigaction(signal_number, &wanted, nullptr);
+    struct sigaction action = {};
+    action.sa_handler = on_crash;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = static_cast<int>(SA_ONSTACK | SA_NODEFER | SA_RESETHAND);
+    sigaction(signal_number, &action, nullptr);
 }
 
 bool memory_is_limited() {
@@ -57,7 +57,7 @@ void install_crash_handlers(int exit_code) {
     render::watch_threads_of_glib();
     const stack_t stack = {handler_stack.data(), 0, handler_stack.size()};
     sigaltstack(&stack, nullptr);
-    for (const int signal_number : {SIGTRAP, SIGABRT}) handle(signal_number);  // libraries end themselves
+    for (const int signal_number : {SIGTRAP, SIGABRT}) handle(signal_number);  // raised by libraries
     if (!memory_is_limited()) return;
     for (const int signal_number : {SIGSEGV, SIGBUS, SIGILL}) handle(signal_number);
 }

@@ -1,10 +1,10 @@
-// Libraries that end the process when memory or threads are short.
+// Clean exit if a library ends the process for lack of memory or threads.
 #pragma once
 
 namespace beamcam::output {
 
-// GLib, Mesa and LLVM end the process when an allocation fails or a thread cannot start, or use the null pointer. Such
-// an end becomes a message and this exit code, and temporary files are removed; other crashes stay what they are.
+// GLib, Mesa and LLVM abort, or dereference a null pointer, if an allocation fails or a thread cannot start. The
+// handlers then print a message, remove temporary files and exit with this code. They leave other crashes unchanged.
 void install_crash_handlers(int exit_code);
 
 }  // namespace beamcam::output

@@ -1,5 +1,4 @@
-// What can go wrong between a picture in memory and a file on disk, in the user's terms: every
-// message names the file and the remedy. The command line maps each type to its exit code.
+// Errors of files. Each message names the file and the remedy; the command line maps each type to its exit code.
 #pragma once
 
 #include <filesystem>
@@ -13,17 +12,17 @@ struct IoError : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// A file stands where an output should go, and beamcam did not make it or it was changed since.   Exit code 6.
+// An existing file would be replaced that beamcam did not make, or that was changed afterwards.   Exit code 6.
 struct WouldOverwrite : IoError {
     using IoError::IoError;
 };
 
-// The video module, or the encoder in it, is not on this machine.   Exit code 5.
+// The video module or an encoder is not installed.   Exit code 5.
 struct MissingCodec : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// The scene asks for something that a writer cannot do, such as a film of odd size.   Exit code 3.
+// The scene requires something that a writer cannot do, such as a film of odd size.   Exit code 3.
 struct UnsupportedOption : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
@@ -32,7 +31,7 @@ struct UnsupportedOption : std::runtime_error {
 IoError write_error(const std::filesystem::path& file, int error_number);
 // "cannot read film.mp4: No such file or directory".
 IoError read_error(const std::filesystem::path& file, int error_number);
-// What the standard library throws, with its path and cause.
+// The error of the standard library, with its path and cause.
 IoError io_error(const std::filesystem::filesystem_error& error);
 
 }  // namespace beamcam::output

@@ -8,7 +8,7 @@
 namespace beamcam::output {
 namespace {
 
-constexpr std::size_t kMostOfOne = 1100;  // deflate makes a byte of at most 1032
+constexpr std::size_t kLargestRatio = 1100;  // deflate compresses at most 1032 bytes into one
 
 }  // namespace
 
@@ -21,7 +21,7 @@ Inflater::Inflater(std::size_t budget) : decompressor_(libdeflate_alloc_decompre
 }
 
 std::optional<std::string> Inflater::deflate(std::string_view packed, std::size_t size) {
-    if (size > budget_ || size / kMostOfOne > packed.size()) return std::nullopt;
+    if (size > budget_ || size / kLargestRatio > packed.size()) return std::nullopt;
     std::string plain(size, '\0');
     if (libdeflate_deflate_decompress(decompressor_.get(), packed.data(), packed.size(), plain.data(), size, nullptr) !=
         LIBDEFLATE_SUCCESS)

@@ -1,5 +1,5 @@
-// Decompressing parts of one foreign file, within a budget for all of them together: a few bytes may claim to be
-// gigabytes, and many parts may be the same bytes.
+// Decompression of the parts of an untrusted file within a total budget: a few bytes may claim to expand to gigabytes,
+// and many parts may be the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -14,9 +14,9 @@ namespace beamcam::output {
 
 class Inflater {
   public:
-    explicit Inflater(std::size_t budget);  // [bytes], of everything that it gives out
+    explicit Inflater(std::size_t budget);  // [bytes], of all decompressed data
 
-    // A deflate stream whose size is known; nothing when it is damaged, has another size, or is beyond the budget.
+    // A deflate stream of known size; nothing if it is damaged, has another size, or exceeds the budget.
     std::optional<std::string> deflate(std::string_view packed, std::size_t size);
     // A zlib stream of unknown size; the same.
     std::optional<std::string> zlib(std::string_view packed);

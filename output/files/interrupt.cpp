@@ -20,7 +20,7 @@ struct Slot {
     std::array<char, kLongestPath> path{};
 };
 
-// Signal handlers can reach nothing but globals; these are only ever touched through atomics.
+// Signal handlers can access only globals; all accesses to these are atomic.
 std::array<Slot, 64> slots;
 std::atomic<int> signals_seen{0};
 static_assert(std::atomic<int>::is_always_lock_free);
@@ -35,11 +35,11 @@ void handle(int signal_number, void (*handler)(int)) {
     struct sigaction now = {};
     sigaction(signal_number, nullptr, &now);
     if (now.sa_handler == SIG_IGN) return;
-    struct sigaction wanted = {};
-    wanted.sa_handler = handler;
-    sigemptyset(&wanted.sa_mask);
-    wanted.sa_flags = SA_RESTART;
-    sigaction(signal_number, &wanted, nullptr);
+    struct sigaction action = {};
+    action.sa_handler = handler;
+    sigemptyset(&action.sa_mask);
+    action.sa_flags = SA_RESTART;
+    sigaction(signal_number, &action, nullptr);
 }
 
 }  // namespace

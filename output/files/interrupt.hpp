@@ -1,23 +1,23 @@
-// Ctrl-C and friends. The first signal only raises a flag: the loops that simulate, draw and encode
-// look at it, stop, and destructors remove what is half done. A second signal does not wait: the
-// handler itself removes the registered temporary files and ends the program with code 130.
+// Interruption by signals such as Ctrl-C. The first signal sets a flag; the loops that simulate, draw and encode check
+// it and stop, and destructors remove unfinished files. At a second signal the handler removes the registered temporary
+// files and ends the program with code 130.
 #pragma once
 
 #include <filesystem>
 
 namespace beamcam::output {
 
-// SIGINT, SIGTERM, SIGHUP (unless ignored by the parent, as under nohup) raise the flag. SIGPIPE and
-// SIGXFSZ are ignored, so that a closed pipe or a file-size limit is an error in words.
+// SIGINT, SIGTERM, SIGHUP (unless ignored by the parent, as under nohup) set the flag. SIGPIPE and
+// SIGXFSZ are ignored, so that a closed pipe or a file-size limit gives an error message.
 void install_handlers();
-// Removes the temporary files of this process. Safe in signal handlers, which end the process then.
+// Removes the temporary files of this process. Safe in signal handlers that end the process.
 void unlink_temporaries() noexcept;
 
 // True once a signal has come.
 bool interrupted();
 
-// A file that must not outlive an interrupted program, for as long as this object lives.
-// There are 64 places; a file beyond them is still removed by its destructor, not by a second signal.
+// A file that is removed if the program is interrupted while this object exists. There are 64 places; a second signal
+// does not remove files beyond them.
 class TemporaryName {
   public:
     explicit TemporaryName(const std::filesystem::path& absolute);

@@ -1,4 +1,4 @@
-// Numbers as text: independent of the locale, 17 significant digits, so that reading gives the same bits.
+// Numbers as text, independent of the locale, with 17 significant digits: reading them gives the same bits.
 #pragma once
 
 #include <charconv>
@@ -9,7 +9,7 @@
 
 namespace beamcam::output {
 
-// Appends the value; nothing where it is undefined (NaN).
+// Appends the value, or nothing if it is undefined (NaN).
 inline void append_number(std::string& text, double value) {
     if (std::isnan(value)) return;
     char buffer[32];  // sign, 17 digits, point, e, sign, 3 digits: 25
@@ -17,7 +17,7 @@ inline void append_number(std::string& text, double value) {
     text.append(buffer, end.ptr);
 }
 
-// The whole text as a number; nothing where it is none, or one that the type does not hold.
+// The whole text as a number; nothing if it is not a number or does not fit into the type.
 template <class Number>
 std::optional<Number> number_in(std::string_view text) {
     Number value{};

@@ -17,7 +17,7 @@ namespace beamcam::output {
 
 namespace {
 
-// The library's settings file could name other implementations and costs time; it is not read.
+// Without the configuration file of the library, which takes time and could select other implementations.
 const EVP_MD* algorithm() {
     static const EVP_MD* const found = [] {
         OPENSSL_init_crypto(OPENSSL_INIT_NO_LOAD_CONFIG | OPENSSL_INIT_NO_ATEXIT, nullptr);

@@ -1,5 +1,5 @@
-// SHA-256 as FIPS 180-4 defines it, by OpenSSL's libcrypto, which uses the processor's own instructions for it: names
-// the content of pictures and files, guards no secret.
+// SHA-256 as FIPS 180-4 defines it, by OpenSSL's libcrypto, which uses the SHA instructions of the processor. It
+// identifies the content of pictures and files.
 #pragma once
 
 #include <filesystem>
@@ -18,7 +18,7 @@ class Sha256 {
 
     void update(std::string_view bytes);
     void update(const void* data, std::size_t size) { update({static_cast<const char*>(data), size}); }
-    std::string hex();  // 64 lower-case digits; the object is spent afterwards
+    std::string hex();  // 64 lower-case digits; at most once
 
   private:
     struct Context;

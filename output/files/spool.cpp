@@ -13,24 +13,24 @@
 namespace beamcam::output {
 namespace {
 
-int nameless_file_in(const char* directory) {
+int unnamed_file_in(const char* directory) {
     if (!directory || !*directory) return -1;
     if (const int file = open(directory, O_TMPFILE | O_RDWR | O_EXCL | O_CLOEXEC, 0600); file >= 0) return file;
-    // Some file systems, network ones above all, have no files without a name.
+    // Some file systems, mainly network file systems, have no unnamed files.
     std::string name = std::string(directory) + "/beamcam-XXXXXX";
     const int file = mkostemp(name.data(), O_CLOEXEC);
     if (file >= 0) unlink(name.c_str());
     return file;
 }
 
-// /var/tmp before /tmp, which is often memory itself.
-int nameless_file() {
+// /var/tmp before /tmp, which is often in memory.
+int unnamed_file() {
     for (const char* directory : {static_cast<const char*>(std::getenv("TMPDIR")), "/var/tmp", "/tmp"})
-        if (const int file = nameless_file_in(directory); file >= 0) return file;
+        if (const int file = unnamed_file_in(directory); file >= 0) return file;
     return -1;
 }
 
-// How many bytes there were before the end of the file.
+// Returns the number of bytes before the end of the file.
 std::size_t read_from(int file, std::uint64_t at, std::span<std::byte> into) {
     std::size_t done = 0;
     while (done < into.size()) {
@@ -60,8 +60,8 @@ bool Spool::write_to_file(std::uint64_t at, std::span<const std::byte> bytes) {
     return true;
 }
 
-// The disk is full: memory holds what the file has.
-void Spool::take_back() {
+// The disk is full: copies the content of the file to memory.
+void Spool::read_back() {
     memory_.assign(static_cast<std::size_t>(size_), std::byte{0});
     read_from(descriptor_, 0, memory_);
     close(descriptor_);
@@ -71,8 +71,8 @@ void Spool::take_back() {
 
 void Spool::write(std::uint64_t at, std::span<const std::byte> bytes) {
     const std::uint64_t end = at + bytes.size();
-    if (descriptor_ < 0 && !no_file_ && end > held_) {
-        descriptor_ = nameless_file();
+    if (descriptor_ < 0 && !no_file_ && end > limit_) {
+        descriptor_ = unnamed_file();
         no_file_ = descriptor_ < 0;
         if (descriptor_ >= 0 && !write_to_file(0, memory_)) {
             close(descriptor_);
@@ -81,7 +81,7 @@ void Spool::write(std::uint64_t at, std::span<const std::byte> bytes) {
         }
         if (descriptor_ >= 0) std::vector<std::byte>().swap(memory_);
     }
-    if (descriptor_ >= 0 && !write_to_file(at, bytes)) take_back();
+    if (descriptor_ >= 0 && !write_to_file(at, bytes)) read_back();
     size_ = std::max(size_, end);
     if (descriptor_ >= 0) return;
     if (memory_.size() < size_) memory_.resize(static_cast<std::size_t>(size_), std::byte{0});

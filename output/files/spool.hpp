@@ -1,6 +1,5 @@
-// Bytes that would be too many to hold in memory: the first few are held, more of them stand in a file without a name,
-// which is gone with the program however it ends. Where no such file can be made, or the disk is full, memory holds
-// them after all.
+// A byte buffer that moves from memory to an unnamed temporary file when it grows large. The file disappears when the
+// program ends, however it ends. If no such file can be created, or the disk is full, the bytes stay in memory.
 #pragma once
 
 #include <cstddef>
@@ -12,15 +11,15 @@ namespace beamcam::output {
 
 class Spool {
   public:
-    // `held`: that many are held in memory [bytes]. The file stands in $TMPDIR, else /var/tmp, else /tmp.
-    explicit Spool(std::size_t held = 1 << 18) : held_(held) {}
+    // `limit`: largest size in memory [bytes]. The file is in $TMPDIR, else /var/tmp, else /tmp.
+    explicit Spool(std::size_t limit = 1 << 18) : limit_(limit) {}
     ~Spool();
     Spool(const Spool&) = delete;
     Spool& operator=(const Spool&) = delete;
 
     // One thread at a time.
     void write(std::uint64_t at, std::span<const std::byte> bytes);
-    // Bytes that were never written are zero. By any number of threads while nobody writes. Throws IoError.
+    // Bytes that were never written are zero. From any number of threads while none writes. Throws IoError.
     void read(std::uint64_t at, std::span<std::byte> into) const;
 
     std::uint64_t size() const { return size_; }
@@ -28,13 +27,13 @@ class Spool {
 
   private:
     bool write_to_file(std::uint64_t at, std::span<const std::byte> bytes);
-    void take_back();
+    void read_back();
 
-    std::size_t held_;
-    std::vector<std::byte> memory_;  // all of them, when there is no file
+    std::size_t limit_;
+    std::vector<std::byte> memory_;  // all bytes, if there is no file
     std::uint64_t size_ = 0;
     int descriptor_ = -1;
-    bool no_file_ = false;  // it was tried
+    bool no_file_ = false;  // a file could not be created
 };
 
 }  // namespace beamcam::output

@@ -1,4 +1,4 @@
-// Data on standard output: all of it, or an error in words. Messages on standard error, as far as anybody reads them.
+// Data on standard output, complete or with an error. Messages on standard error, whose loss is no error.
 #pragma once
 
 #include <fmt/format.h>
@@ -8,15 +8,15 @@
 
 namespace beamcam::output {
 
-// All of these write and flush, and throw IoError when the reader has gone or the disk is full.
+// These functions write and flush. They throw IoError if the pipe is closed or the disk is full.
 void print_data(std::string_view text);  // for programs, byte by byte
-void print_text(std::string_view text);  // for people: as text_safety.hpp's `visible`
-void print_json(std::string_view text);  // for programs and people: as `escaped_json`
+void print_text(std::string_view text);  // for people: see `visible` in text_safety.hpp
+void print_json(std::string_view text);  // for programs and people: see `escaped_json`
 
-// Ends what was written to std::cout. Throws IoError as print_data.
+// Flushes std::cout. Throws IoError as print_data.
 void flush_data();
 
-// For people, as print_text. A full disk or a reader that has gone does not end the work: nobody is left to read it.
+// For people, as print_text. A full disk or a closed pipe does not end the program.
 void write_message(std::string_view text) noexcept;
 template <typename... Values>
 void print_message(fmt::format_string<Values...> text, Values&&... values) {

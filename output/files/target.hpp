@@ -1,4 +1,5 @@
-// Where a writer puts a file. A path alone is enough; Manifest::target adds what makes the file beamcam's own.
+// The destination of a file. A path converts to it; Manifest::target adds the functions that record the file as made by
+// beamcam.
 #pragma once
 
 #include <concepts>
@@ -15,8 +16,8 @@ struct Target {
 
     std::filesystem::path path;
     std::filesystem::path within;  // the file must lie below this folder, symbolic links followed; empty: anywhere
-    // Called with the temporary file's path, before it is created and before it, complete, replaces `path`. What they
-    // throw leaves `path` as it was.
+    // Called with the path of the temporary file: before it is created, and before it, complete, replaces `path`. If
+    // they throw, `path` stays unchanged.
     std::function<void(const std::filesystem::path&temporary)> before_creation, before_rename;
 };
 

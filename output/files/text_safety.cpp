@@ -12,7 +12,7 @@ bool is_unsafe(char32_t c) {
     const auto within = [c](char32_t first, char32_t last) { return c >= first && c <= last; };
     return within(0x7F, 0x9F)            // delete, C1 controls
            || c == 0x061C                // Arabic letter mark
-           || within(0x200B, 0x200F)     // of no width; left-to-right and right-to-left marks
+           || within(0x200B, 0x200F)     // zero width; left-to-right and right-to-left marks
            || within(0x2028, 0x202E)     // line and paragraph separators; embeddings and overrides
            || within(0x2060, 0x206F)     // invisible operators, isolates, deprecated format characters
            || c == 0xFEFF                // byte order mark
@@ -20,7 +20,7 @@ bool is_unsafe(char32_t c) {
            || within(0xE0000, 0xE007F);  // tags
 }
 
-// Copies the text; `replace` gives what stands for an unsafe character (code) or a byte that is none (bytes = 0).
+// Copies the text; `replace` returns the replacement of an unsafe character (code) or an invalid byte (bytes = 0).
 template <typename Replace>
 std::string copy(std::string_view text, Replace replace) {
     std::string out;

@@ -1,4 +1,4 @@
-// What a run really did, counted where it is done: the proof that nothing is done which nobody asked for.
+// Counts of the work of a run, by which tests prove that nothing unnecessary is done.
 #pragma once
 
 namespace beamcam::output {
@@ -9,15 +9,15 @@ struct Work {
     long trajectories_from_cache = 0, trajectories_kept = 0;
     long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
     long frames_drawn = 0, figures_drawn = 0;
-    long mechanisms_lit = 0;   // drawn by OpenGL; a frame whose mechanism stands still takes the last one's
-    long frames_repeated = 0;  // of films: equal to the frame before and neither drawn nor converted again
+    long mechanisms_lit = 0;   // drawn by OpenGL; a frame whose mechanism is unchanged reuses the last one
+    long frames_repeated = 0;  // of films: equal to the previous frame, neither drawn nor converted
     long frames_encoded = 0;
-    long frames_left = 0;  // of sequences, there already
+    long frames_left = 0;  // of sequences: up to date
     long files_written = 0, files_left = 0;
     long bytes_written = 0;
 };
 
-// Calls visit(name, value) for every count, in the order they are told.
+// Calls visit(name, value) for every count, in the order of the output.
 template <class Visit>
 void for_each_count(const Work& w, Visit visit) {
     visit("integrations", w.integrations);

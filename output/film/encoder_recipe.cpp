@@ -12,13 +12,13 @@ struct PixelKind {
     PixelLayout layout;
 };
 
-// One for each codec. The values "CRF" and "PRESET" are the film's own.
+// One for each codec. The film's options replace the values "CRF" and "PRESET".
 struct EncoderRow {
     Codec codec;
-    std::vector<std::string> encoders;  // the first that FFmpeg has
+    std::vector<std::string> encoders;  // in order of preference
     PixelKind opaque, transparent;
     OptionList options, container_options = {};
-    OptionList opaque_options = {}, transparent_options = {};  // of such films, beside `options`
+    OptionList opaque_options = {}, transparent_options = {};  // in addition to `options`
 };
 
 const std::vector<EncoderRow>& encoder_rows() {
@@ -26,20 +26,20 @@ const std::vector<EncoderRow>& encoder_rows() {
     constexpr PixelKind k420{"yuv420p", yuv420}, kAlpha420{"yuva420p", yuva420}, k444{"yuva444p10le", yuva444p10},
         kIndices{"pal8", indices}, kBgra{"bgra", bgra}, kBgr{"bgr0", bgra}, kRgba{"rgba", rgba}, kRgb{"rgb24", rgb};
     static const std::vector<EncoderRow> rows{
-        // Without cpu-independent, x264 picks routines whose rounding depends on the processor.
+        // Without cpu-independent, the rounding of x264 depends on the processor.
         {Codec::h264,
          {"libx264"},
          k420,
          k420,
          {{"preset", "PRESET"}, {"crf", "CRF"}, {"x264-params", "cpu-independent=1"}}},
-        // One frame at a time: else the film depends on the number of processors.
+        // One frame at a time; otherwise the film depends on the number of processors.
         {Codec::hevc,
          {"libx265"},
          k420,
          kAlpha420,
          {{"preset", "fast"}, {"crf", "CRF"}, {"x265-params", "log-level=none:frame-threads=1"}}},
-        // Columns of tiles may run on several threads; the picture does not depend on how many do. Films with alpha
-        // cannot have alternative reference frames.
+        // Tile columns run on several threads; the picture does not depend on their number. Films with alpha cannot
+        // have alternative reference frames.
         {Codec::vp9,
          {"libvpx-vp9"},
          k420,
@@ -90,14 +90,14 @@ void add_encoder(EncoderRecipe& r, const VideoOptions& o) {
     }
 }
 
-// What makes a film whose pictures last unequally as long as they do together.
+// Options by which a film with a variable frame rate has the right duration.
 void keep_durations(EncoderRecipe& r, const VideoOptions& o) {
     const FrameRate fps = frame_rate(o.fps);
-    // An MP4 lasts as long as its packets do, in the order of decoding: that must be the order of showing.
+    // The duration of an MP4 is that of its packets in decoding order, which must be the display order.
     if (o.codec == Codec::h264) r.encoder_options.emplace_back("bf", "0");
     if (o.codec == Codec::hevc)
         std::ranges::find(r.encoder_options, "x265-params", &OptionList::value_type::first)->second += ":bframes=0";
-    // Else their last picture would last as long as the one before.
+    // Otherwise the last picture would last as long as the previous one.
     if (o.codec == Codec::gif)
         r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps)));
     if (o.codec == Codec::apng)
@@ -126,8 +126,8 @@ EncoderRecipe encoder_recipe(const VideoOptions& o, const std::string& ending) {
         r.missing =
             "the FFmpeg libraries on this machine encode no transparent HEVC (libx265 of FFmpeg 7.1 with x265 4 does); "
             "name a .mov (prores), .webm (vp9), .mkv (ffv1), .apng or .webp file";
-    // faststart: the index stands first, so that players begin before they have the whole file.
-    // use_metadata_tags: keys of our own are kept.
+    // faststart: the index comes first, so that players can start before they have the whole file.
+    // use_metadata_tags: keeps our own keys.
     if (ending == ".mp4" || ending == ".mov")
         r.container_options.emplace_back("movflags", "+faststart+use_metadata_tags");
     if (o.variable_rate) keep_durations(r, o);

@@ -1,4 +1,4 @@
-// What each kind of film asks of FFmpeg: container, encoder, pixels and options.
+// Settings of FFmpeg for each kind of film: container, encoder, pixel format and options.
 #pragma once
 
 #include <string>
@@ -17,7 +17,7 @@ struct EncoderRecipe {
     const char* pixel_format;
     PixelLayout layout;
     OptionList encoder_options, container_options;
-    std::string missing;  // said where FFmpeg has none of the encoders
+    std::string missing;  // message if FFmpeg has none of the encoders
 };
 
 // `ending`: of the file, ".mp4".

@@ -13,14 +13,14 @@ namespace beamcam::output {
 namespace {
 
 constexpr int kBits = 5, kSide = 1 << kBits, kFineBits = 6, kFineSide = 1 << kFineBits;
-constexpr std::size_t kColors = 256, kExact = 24;  // of them kept for the commonest colours as they are
-// The last few colours would cost more bytes than they are worth: equal pixels compress better.
+constexpr std::size_t kColors = 256, kExact = 24;  // of these, exact most frequent colours
+// More colours would enlarge the file: equal pixels compress better.
 constexpr std::size_t kUsed = 232;
 
 struct PaletteColor {
     int r, g, b;
 };
-// Over white: premultiplied colour and the rest of the alpha.
+// Over white: premultiplied colour plus 255 − alpha.
 PaletteColor over_white(std::uint32_t p) {
     const int rest = 255 - static_cast<int>(p >> 24);
     return {static_cast<int>(p >> 16 & 255) + rest, static_cast<int>(p >> 8 & 255) + rest,
@@ -33,7 +33,7 @@ std::uint32_t packed(PaletteColor c) {
 PaletteColor unpacked(std::uint32_t color) {
     return {static_cast<int>(color >> 16 & 255), static_cast<int>(color >> 8 & 255), static_cast<int>(color & 255)};
 }
-// By roughly what the eye tells apart.
+// Weighted approximately by the sensitivity of the eye.
 int distance(PaletteColor a, PaletteColor b) {
     const int dr = a.r - b.r, dg = a.g - b.g, db = a.b - b.b;
     return 2 * dr * dr + 4 * dg * dg + 3 * db * db;
@@ -57,12 +57,12 @@ struct CutItem {
 };
 using CutBox = std::span<CutItem>;
 
-// The longest side, and how long it is.
+// The channel of the longest side, and its length.
 std::pair<int, int> longest_side(CutBox box) {
     int low[3] = {255, 255, 255}, high[3] = {0, 0, 0};
     for (const CutItem& item : box)
         for (int k = 0; k < 3; ++k) low[k] = std::min(low[k], item.at[k]), high[k] = std::max(high[k], item.at[k]);
-    int channel = 1;  // green first where equal: the eye sees it best
+    int channel = 1;  // green if equal: the eye is most sensitive to it
     for (int k : {0, 2})
         if (high[k] - low[k] > high[channel] - low[channel]) channel = k;
     return {channel, high[channel] - low[channel]};
@@ -74,7 +74,7 @@ double weight_of(CutBox box) {
     return sum;
 }
 
-// At the median of the longest side; both parts hold something.
+// Cut at the median of the longest side; neither part is empty.
 std::pair<CutBox, CutBox> halves(CutBox box) {
     const int channel = longest_side(box).first;
     std::ranges::stable_sort(box, {}, [&](const CutItem& item) { return item.at[channel]; });
@@ -128,7 +128,7 @@ void PaletteMaker::add(const render::Image& image) {
         all_[color] += count;
         const PaletteColor c = unpacked(color);
         Cell& cell = cells_[cell_of(c, kBits)];
-        // Rare colours matter more than their area: edges and thin curves are what the eye follows.
+        // Rare colours weigh more than their area: the eye follows edges and thin curves.
         const double weight = std::max(1.0, 8.0 * static_cast<double>(count) / (8.0 + static_cast<double>(count) / 64));
         cell.count += weight;
         cell.r += weight * c.r, cell.g += weight * c.g, cell.b += weight * c.b;
@@ -171,9 +171,9 @@ std::vector<std::uint32_t> PaletteMaker::colors() const {
     return out;
 }
 
-// Each colour but the first ones goes to the mean of the pixels that it is nearest to, a few times.
+// Lloyd's iteration: moves each colour but the first `fixed` to the mean of the pixels nearest to it.
 void PaletteMaker::refine(std::vector<std::uint32_t>& colors, std::size_t fixed) const {
-    constexpr int kSteps = 8;  // the error hardly falls any more
+    constexpr int kSteps = 8;  // then the error hardly decreases
     const std::map<std::uint32_t, std::uint64_t> ordered(all_.begin(), all_.end());
     for (int step = 0; step < kSteps; ++step) {
         std::vector<Cell> sums(colors.size());
@@ -191,8 +191,8 @@ void PaletteMaker::refine(std::vector<std::uint32_t>& colors, std::size_t fixed)
     }
 }
 
-// A colour can be the nearest to a place in a cell if it is no farther from the cell's centre than the nearest one and
-// twice the way from there to a corner.
+// A colour can be the nearest somewhere in a cell if its distance from the centre of the cell is at most the smallest
+// such distance plus twice the distance from the centre to a corner.
 PaletteTable::PaletteTable(std::span<const std::uint32_t> colors) : colors_(colors.begin(), colors.end()) {
     if (colors_.empty() || colors_.size() > kColors) throw std::logic_error("PaletteTable: 1 to 256 colours");
     constexpr int kHalf = 1 << (7 - kFineBits);
@@ -233,11 +233,6 @@ void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::pt
                 out[x] = x > left && row[x] == row[x - 1] ? out[x - 1] : index_of(row[x]);
         }
     });
-}
-void PaletteTable::convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const {
-    render::DirtyTiles all(image.width, image.height);
-    all.add_all();
-    convert(image, to, stride, all);
 }
 
 }  // namespace beamcam::output

@@ -1,9 +1,9 @@
-// 256 colours for a film, and the way from pixels to them.
+// A palette of 256 colours for a film, and the conversion of pixels to it.
 //
-// The colours are found once, from a few frames, so that nothing flickers: by median cut on a histogram of 5 bits a
-// channel, in which rare colours weigh more than their area, then by Lloyd's steps to the means of their pixels; a
-// table of 64³ cells, with the few colours that are nearest to any place in each, turns pixels into the indices of
-// their nearest colours, one picture at a time. Transparent pixels show over white.
+// The colours are computed once, from a few frames, so that the film does not flicker: by median cut of a histogram
+// with 5 bits per channel, in which rare colours weigh more than their area, then by Lloyd's iteration. For the
+// conversion, each of 64³ cells of the colour cube lists the few colours that can be nearest in it. Transparent pixels
+// show over white.
 #pragma once
 
 #include <array>
@@ -22,7 +22,7 @@ class PaletteMaker {
   public:
     PaletteMaker();
     void add(const render::Image& image);
-    std::vector<std::uint32_t> colors() const;  // 0xffRRGGBB, at most 256, those of frequent flat areas exact
+    std::vector<std::uint32_t> colors() const;  // 0xffRRGGBB, at most 256; exact colours of large flat areas
 
   private:
     struct Cell {
@@ -31,18 +31,17 @@ class PaletteMaker {
     std::vector<std::uint32_t> frequent() const;
     void refine(std::vector<std::uint32_t>& colors, std::size_t fixed) const;
     std::vector<Cell> cells_;                 // 32³
-    std::vector<std::uint32_t> seen_colors_;  // flat colours, and how often
+    std::vector<std::uint32_t> seen_colors_;  // colours of flat areas, and their counts
     std::vector<std::uint64_t> seen_counts_;
-    std::unordered_map<std::uint32_t, std::uint64_t> all_;  // colours, and how often
+    std::unordered_map<std::uint32_t, std::uint64_t> all_;  // counts of all colours
 };
 
 class PaletteTable {
   public:
     explicit PaletteTable(std::span<const std::uint32_t> colors);  // 1 to 256
-    // One byte a pixel, rows of `stride` bytes; what is not of the part stays.
+    // One byte per pixel, rows of `stride` bytes; writes only `part`.
     void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride,
                  const render::DirtyTiles& part) const;
-    void convert(const render::Image& image, std::uint8_t* to, std::ptrdiff_t stride) const;
 
   private:
     std::uint8_t index_of(std::uint32_t pixel) const;
@@ -52,7 +51,7 @@ class PaletteTable {
     };
     std::vector<std::uint32_t> colors_;
     std::vector<Cell> cells_;               // 64³: by the upper 6 bits of each channel
-    std::vector<std::uint8_t> candidates_;  // of each cell: the colours that are nearest to a place in it
+    std::vector<std::uint8_t> candidates_;  // of each cell: the colours that are nearest somewhere in it
 };
 
 }  // namespace beamcam::output

@@ -88,10 +88,8 @@ PictureSource::PictureSource(const fs::path& path) : path_(path) {
     const fs::file_status status = fs::status(path, error);
     if (fs::is_directory(status)) {
         files_ = pictures_in(path);
-        is_sequence_ = true;
     } else if (!fs::exists(status) && path.filename().string().find('#') != std::string::npos) {
         files_ = sequence(path);
-        is_sequence_ = true;
     } else if (!fs::exists(status)) {
         throw read_error(path, error ? error.value() : ENOENT);
     } else if (access(path.c_str(), R_OK) != 0) {

@@ -1,4 +1,4 @@
-// How the pixels of a frame lie in memory for its encoder.
+// The pixel formats of frames for encoders.
 #pragma once
 
 #include "output/film/palette.hpp"
@@ -9,7 +9,7 @@ namespace beamcam::output {
 
 enum class PixelLayout { yuv420, yuva420, yuva444p10, bgra, rgba, rgb, indices };
 
-// Writes `part` of the picture into the frame. `table`: of a film of indices; else unused.
+// Writes `part` of the picture into the frame. `table`: only for `indices`.
 void convert(const render::Image& image, PixelLayout layout, const PaletteTable* table, const FramePlanes& frame,
              const render::DirtyTiles& part);
 

@@ -30,22 +30,22 @@ namespace {
 constexpr double kLongestHold = 5;  // [s]
 constexpr std::array kPresets = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
                                  "medium",    "slow",      "slower",   "veryslow", "placebo"};
-std::string presets_in_words() {
+std::string preset_names() {
     std::string text;
     for (const char* preset : kPresets) text += (text.empty() ? "" : ", ") + std::string(preset);
     return text;
 }
 
-// At most, of any encoder but SVT-AV1: `threads`, and some that look ahead or filter.
+// Upper limit for all encoders but SVT-AV1: `threads`, and some for look-ahead and filters.
 constexpr int kThreadsOfEncoder = 16;
 
-// SVT-AV1 waits forever for those of its threads that could not start, for want of threads or of memory. It started 90
-// on two cores; more cores take more.
+// SVT-AV1 waits forever if some of its threads cannot start. It started 90 threads on two cores; more cores, more
+// threads.
 int threads_of_svt_av1() { return std::min(64 + 32 * static_cast<int>(std::thread::hardware_concurrency()), 256); }
 
-// Can the process take the memory that it starts with? On two cores the whole process took address space of 1.4 GB for
-// 320x180 pixels, 2.2 for 1280x720, 2.7 for 1920x1080, 5.0 for 3840x2160; some 8 MB are the stack of a thread. What one
-// encoder has taken stays with the process for the next.
+// Whether SVT-AV1 gets the memory that it needs. On two cores the process used an address space of 1.4 GB for 320x180
+// pixels, 2.2 for 1280x720, 2.7 for 1920x1080, 5.0 for 3840x2160, with 8 MB for the stack of each thread. The process
+// keeps this memory for the next encoder.
 bool has_memory_for_svt_av1(int width, int height) {
     static std::atomic<std::size_t> taken = 0;
     constexpr std::size_t kThread = 10 << 20, kPixel = 350;  // [bytes]
@@ -63,8 +63,7 @@ void silence_encoder_logs() { setenv("SVT_LOG", "1", 0); }
 
 FrameRate frame_rate(double fps) {
     if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
-    // 23.976, 23.98, 29.97, 59.94 …: the decimals people write differ from n·1000/1001 by less than 0.005,
-    // and no whole rate lies that near to one of them.
+    // 23.976, 23.98, 29.97, 59.94 …: usual decimals differ from n·1000/1001 by less than 0.005; no integer rate does.
     for (int whole : {24, 30, 48, 60, 72, 90, 96, 100, 120, 144, 240})
         if (std::abs(fps - whole * 1000.0 / 1001) < 0.005) return {whole * 1000, 1001};
     FrameRate best{static_cast<int>(std::lround(fps)), 1};
@@ -82,29 +81,30 @@ std::vector<std::string> problems(const VideoOptions& o, std::string_view ending
         if (!problem.empty()) found.push_back(std::move(problem));
     const auto quality = quality_scale(o.codec);
     if (o.crf && !quality)
-        found.push_back(std::string(title(o.codec)) + " has no crf: it keeps what its format can; leave it out");
+        found.push_back(std::string(title(o.codec)) + " has no crf, because its quality is fixed; remove it");
     else if (o.crf && (*o.crf < 0 || *o.crf > quality->worst))
         found.push_back("crf " + std::to_string(*o.crf) + " is not possible; use 0 (best) to " +
                         std::to_string(quality->worst) + ", " + std::to_string(quality->usual) + " looks lossless");
     if (o.codec == Codec::gif && (o.palette.empty() || o.palette.size() > 256))
         found.push_back("a GIF needs a palette of 1 to 256 colours");
     if (std::find(kPresets.begin(), kPresets.end(), o.preset) == kPresets.end())
-        found.push_back("the preset \"" + o.preset + "\" is not known; use one of " + presets_in_words());
+        found.push_back("unknown preset \"" + o.preset + "\"; use one of " + preset_names());
     if (o.threads < 1 || o.threads > 4)
-        found.push_back(std::to_string(o.threads) +
-                        " encoder threads are not possible; use 1 to 4, beyond that the film depends on the number");
+        found.push_back(
+            std::to_string(o.threads) +
+            " encoder threads are not possible; use 1 to 4, because with more the film depends on their number");
     return found;
 }
 
-// A picture on its way: a frame that belongs to the module.
+// A converted picture: a frame of the module.
 struct VideoInput::Slot {
     FramePlanes* frame = nullptr;
-    int uses = 0;              // places in the queue, and one for being the latest picture
-    render::DirtyTiles stale;  // where it is not what its input converted last
+    int uses = 0;              // places in the queue, plus one if it is the latest picture
+    render::DirtyTiles stale;  // tiles that differ from the picture that its input converted last
 };
 
-// Each input fills a few slots of its own in turn and queues them; `worker` encodes the queue in order. The number of
-// slots bounds how far drawing runs ahead.
+// Each input has a few slots, which it fills and queues in turn; `worker` encodes the queue in order. The number of
+// slots limits how far drawing runs ahead.
 struct VideoWriter::Impl {
     using Slot = VideoInput::Slot;
     static constexpr std::size_t kSlotsOfAnInput = 3, kLongestQueue = 12;
@@ -113,27 +113,27 @@ struct VideoWriter::Impl {
     VideoOptions options;
     PixelLayout layout = PixelLayout::yuv420;
     std::optional<PaletteTable> table;  // of a GIF
-    std::unique_ptr<Encoder> encoder;   // the worker's, but for making frames, until `stop`
+    std::unique_ptr<Encoder> encoder;   // used by the worker until `stop`, except to make frames
     std::unique_ptr<VideoInput> own;    // of `write`
 
-    mutable std::mutex mutex;  // guards what follows
+    mutable std::mutex mutex;  // guards the members below
     std::condition_variable changed;
     std::deque<Slot> slots;
     Slot* latest = nullptr;  // queued last; kept for `repeat`
     struct Shown {
         Slot* slot;
-        bool again;  // the picture before, once more
+        bool again;  // the previous picture once more
     };
     std::deque<Shown> queue;
-    long waiting = 0;  // of the worker: times that the picture coded last is to be shown again
+    long waiting = 0;  // repetitions of the last encoded picture that are not encoded yet
     long longest_hold = 0;
-    bool closing = false;    // nothing more will come
-    bool abandoned = false;  // and what waits is dropped
+    bool closing = false;    // no more pictures follow
+    bool abandoned = false;  // and waiting pictures are dropped
     std::exception_ptr failure;
     VideoStatistics cost;
     std::thread worker;
 
-    Impl(const Target& target, const VideoOptions& wanted) : file(target), options(wanted) {
+    Impl(const Target& target, const VideoOptions& video_options) : file(target), options(video_options) {
         open();
         try {
             worker = std::thread([this] { work(); });
@@ -145,7 +145,7 @@ struct VideoWriter::Impl {
     ~Impl() { stop(true); }
 
     IoError no_thread() const {
-        return IoError("cannot make " + file.target().string() + ": no thread can be started for the encoder; " +
+        return IoError("cannot write " + file.target().string() + ": no thread can be started for the encoder; " +
                        render::kThreadRemedy);
     }
 
@@ -154,7 +154,7 @@ struct VideoWriter::Impl {
         layout = recipe.layout;
         if (options.variable_rate) {
             longest_hold = std::lround(kLongestHold * options.fps);
-            options.metadata["beamcam-rate-mode"] = "variable";  // what `concat` looks for
+            options.metadata["beamcam-rate-mode"] = "variable";  // `concat` checks it
         }
         if (!options.palette.empty()) table.emplace(options.palette);
         const VideoLibrary& library = video_library();
@@ -164,10 +164,10 @@ struct VideoWriter::Impl {
         }
         try {
             encoder = library.open_encoder(settings(recipe));
-        } catch (const CodecFailure& error) {                       // what no rule of ours knew
-            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not say so
+        } catch (const CodecFailure& error) {                       // for reasons unknown to format_problem
+            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not report it
             if (!render::can_start_threads(kThreadsOfEncoder)) throw no_thread();
-            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " takes no film of " +
+            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " rejects films of " +
                                     std::to_string(options.width) + "x" + std::to_string(options.height) +
                                     " pixels here (" + error.what() +
                                     "); choose a smaller size, or write frames (NAME-####.png)");
@@ -232,8 +232,7 @@ struct VideoWriter::Impl {
         }
     }
 
-    // After what waits to be shown again has had its time. What fails is left where the next `write` or `finish` finds
-    // it, and ends `work`.
+    // Encodes the picture after the waiting repetitions. An error ends `work`; the next `write` or `finish` throws it.
     void encode(Slot& slot, std::unique_lock<std::mutex>& lock) {
         const long held = std::exchange(waiting, 0);
         lock.unlock();
@@ -256,11 +255,11 @@ struct VideoWriter::Impl {
         failure = error;
     }
 
-    // What is left after the last picture was queued, and the end of the file.
+    // Encodes the waiting pictures and completes the file.
     void finish() {
         stop(false);
         std::unique_lock lock(mutex);
-        // A film that ends with a picture held ends with its last frame, so that it lasts as long as it should.
+        // The last repetition is encoded, so that the film has the right duration.
         if (!failure && waiting > 0) {
             --waiting;
             --cost.held;
@@ -273,13 +272,13 @@ struct VideoWriter::Impl {
         file.commit();
     }
 
-    // The picture queued last; null before the first.
+    // The last queued picture; null before the first.
     Slot* last() {
         const std::lock_guard lock(mutex);
         return latest;
     }
 
-    // Waits until `ready`, which runs under the lock. Throws what the encoder met.
+    // Waits until `ready` returns true; calls it under the lock. Throws the error of the encoder.
     template <typename Ready>
     void wait_until(std::unique_lock<std::mutex>& lock, Ready ready) {
         const Clock::time_point start = Clock::now();
@@ -288,7 +287,7 @@ struct VideoWriter::Impl {
         if (failure) std::rethrow_exception(failure);
     }
 
-    // One of these that is neither waiting nor the latest.
+    // One of these slots that is neither in the queue nor the latest.
     Slot& unused(const std::vector<Slot*>& among) {
         std::unique_lock lock(mutex);
         Slot* found = nullptr;

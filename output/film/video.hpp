@@ -1,7 +1,7 @@
-// A film in any of video_format.hpp's kinds; the file's ending names the container. Films of Y'CbCr are tagged BT.709,
-// and MP4 has its index first. Pictures are converted in the threads that draw them, only where they changed, and
-// encoded in a thread of the writer's own, so that encoding overlaps drawing; the order is kept, and memory does not
-// grow with the length of the film (an animated WebP alone is held, compressed, until it is finished).
+// Writes films in the formats of video_format.hpp; the ending of the file chooses the container. Films in Y'CbCr are
+// tagged BT.709; an MP4 begins with its index. The threads that draw pictures convert them, only where they changed; a
+// separate thread encodes them in order. The memory does not grow with the length of the film, except for animated
+// WebP.
 //
 // The same pictures and options give the same bytes on every machine with the same encoder.
 #pragma once
@@ -22,65 +22,63 @@
 
 namespace beamcam::output {
 
-// Encoders tell errors alone on stderr from now on, unless the environment says otherwise. Before any thread starts.
+// Makes encoders print only errors, unless the environment sets it. To be called before any thread starts.
 void silence_encoder_logs();
 
-// Frames per second as films state it: 29.97 means 30000/1001.
+// Frames per second as a fraction: 29.97 means 30000/1001.
 struct FrameRate {
     int rate = 60, base = 1;  // rate / base
     double value() const { return double(rate) / base; }
     double time_of(long frame) const { return double(frame) * base / rate; }  // [s]
     bool operator==(const FrameRate&) const = default;
 };
-// The broadcast rates n·1000/1001 for what their usual two to four decimals say, otherwise the nearest fraction with
-// base up to 1000. Throws UnsupportedOption outside 0.1…1000.
+// The broadcast rates n·1000/1001 for their usual decimals, otherwise the nearest fraction with a base up to 1000.
+// Throws UnsupportedOption outside 0.1…1000.
 FrameRate frame_rate(double fps);
 
 struct VideoOptions {
     int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
     double fps = 60;                  // [1/s]
     Codec codec = Codec::h264;
-    bool transparent = false;            // the pictures' alpha is kept
+    bool transparent = false;            // with the alpha of the pictures
     std::optional<int> crf;              // 0 (large, nearly perfect) … the codec's worst; absent: its usual one
     std::string preset = "veryfast";     // x264's, ultrafast … placebo
-    std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours, as PaletteMaker finds them
-    int threads = 4;  // 1…4 of the encoder. Beyond 4 its bits depend on the number, and the default is
-                      // the same on every machine for that reason.
-    // Variable frame rate: a picture that is repeated is coded once and shown longer, for up to 5 s; then, and at the
-    // film's end, it is coded again.
+    std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours from PaletteMaker
+    int threads = 4;                     // 1…4 of the encoder; with more, the bits depend on their number
+    // Variable frame rate: a repeated picture is encoded once and shown longer, for up to 5 s; then, and at the end of
+    // the film, it is encoded again.
     bool variable_rate = false;
     std::map<std::string, std::string> metadata;
-    std::vector<Chapter> chapters;  // increasing; containers without chapters leave them out
+    std::vector<Chapter> chapters;  // in increasing order; containers without chapters ignore them
 };
-// Everything about these options that a film cannot do, in words with the alternative. `ending` with the dot.
+// All problems of these options, each with a remedy. `ending` with the dot.
 std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");
 
-// What a film has cost so far, for progress lines and -v.
+// The work for a film so far, for progress lines and -v.
 struct VideoStatistics {
     long frames = 0;             // encoded
-    long held = 0;               // shown by the one before, which lasts longer
-    double convert_seconds = 0;  // picture to film colours, summed over the threads that draw
-    double encode_seconds = 0;   // inside the encoder, in the writer's thread
-    double wait_seconds = 0;     // for the encoder, summed over the threads that draw
-    double idle_seconds = 0;     // of the writer's thread, for want of pictures
+    long held = 0;               // not encoded: the previous frame is shown longer
+    double convert_seconds = 0;  // colour conversion, summed over the drawing threads
+    double encode_seconds = 0;   // encoding, in the writer's thread
+    double wait_seconds = 0;     // waiting for the encoder, summed over the drawing threads
+    double idle_seconds = 0;     // of the writer's thread, waiting for pictures
 };
 
 class VideoWriter {
   public:
     // Throws UnsupportedOption, MissingCodec, IoError.
     VideoWriter(const Target& file, const VideoOptions& options);
-    // Without `finish` the film is dropped and nothing is left of it.
+    // Without `finish`, removes the film.
     ~VideoWriter();
     VideoWriter(const VideoWriter&) = delete;
     VideoWriter& operator=(const VideoWriter&) = delete;
 
-    // The next picture; waits when the encoder is a few pictures behind. Transparent pixels show over black
-    // unless the film is transparent itself.
+    // Adds a picture; waits if the encoder is a few pictures behind. Transparent pixels show over black unless the film
+    // is transparent.
     void write(const render::Image& image);
-    // The picture before, once more, without drawing or converting it again; with a variable rate without encoding it
-    // either. Not the first.
+    // Shows the last picture once more without converting it again; with a variable rate, also without encoding it.
     void repeat();
-    // Encodes what is left and puts the film in its place.
+    // Encodes the waiting pictures and completes the file.
     void finish();
 
     VideoStatistics statistics() const;
@@ -91,15 +89,15 @@ class VideoWriter {
     std::unique_ptr<Impl> impl_;
 };
 
-// The way into a film for one thread of several: each converts its own pictures at the same time as the others, then
-// sends them in the film's order.
+// The input of one of several drawing threads: the threads convert pictures in parallel and send them in the order of
+// the film.
 class VideoInput {
   public:
-    explicit VideoInput(VideoWriter& film);  // before the film is finished, which outlives it
-    // Waits while the encoder has to do with this thread's pictures before. `changed`: where the picture may differ
-    // from the last one that this input converted.
+    explicit VideoInput(VideoWriter& film);  // the film must outlive it
+    // Waits while all frames of this input are in use. `changed`: tiles that may differ from the last picture that this
+    // input converted.
     void convert(const render::Image& image, const render::DirtyTiles& changed);
-    // What was converted becomes the film's next picture.
+    // Adds the converted picture to the film.
     void send();
 
   private:
@@ -110,8 +108,8 @@ class VideoInput {
     Slot* filled_ = nullptr;
 };
 
-// One film out of segments, in their order, packets as they are: every picture decodes to what it was. Metadata is the
-// first one's. Returns how many pictures there are. Throws Mismatch (video_library.hpp), MissingCodec, IoError.
+// Joins segments to one film without encoding them again, with the metadata of the first. Returns the number of
+// pictures. Throws Mismatch (video_library.hpp), MissingCodec, IoError.
 long concatenate(const std::vector<std::filesystem::path>& segments, const Target& file);
 
 }  // namespace beamcam::output

@@ -24,23 +24,23 @@ constexpr std::array kEntries{CodecRow{Codec::h264, "h264", "H.264", false, true
                               CodecRow{Codec::apng, "apng", "APNG", true, false, 0, 0},
                               CodecRow{Codec::webp, "webp", "WebP", true, false, 0, 0}};
 
-const CodecRow& entry(Codec codec) { return *std::ranges::find(kEntries, codec, &CodecRow::codec); }
+const CodecRow& row_of(Codec codec) { return *std::ranges::find(kEntries, codec, &CodecRow::codec); }
 
-struct Home {
+struct Container {
     std::string_view ending;
     std::array<std::optional<Codec>, 4> codecs;  // the usual one first
 };
-constexpr std::array kHomes{Home{".mp4", {Codec::h264, Codec::av1, Codec::hevc}},
-                            Home{".webm", {Codec::vp9, Codec::av1}},
-                            Home{".mov", {Codec::prores, Codec::h264, Codec::hevc}},
-                            Home{".mkv", {Codec::ffv1, Codec::h264, Codec::vp9, Codec::av1}},
-                            Home{".gif", {Codec::gif}},
-                            Home{".apng", {Codec::apng}},
-                            Home{".webp", {Codec::webp}}};
+constexpr std::array kContainers{Container{".mp4", {Codec::h264, Codec::av1, Codec::hevc}},
+                                 Container{".webm", {Codec::vp9, Codec::av1}},
+                                 Container{".mov", {Codec::prores, Codec::h264, Codec::hevc}},
+                                 Container{".mkv", {Codec::ffv1, Codec::h264, Codec::vp9, Codec::av1}},
+                                 Container{".gif", {Codec::gif}},
+                                 Container{".apng", {Codec::apng}},
+                                 Container{".webp", {Codec::webp}}};
 
-const Home* home(std::string_view ending) {
-    const auto at = std::ranges::find(kHomes, ending, &Home::ending);
-    return at == kHomes.end() ? nullptr : &*at;
+const Container* container(std::string_view ending) {
+    const auto at = std::ranges::find(kContainers, ending, &Container::ending);
+    return at == kContainers.end() ? nullptr : &*at;
 }
 
 constexpr int kSmallestVideoSide = 16, kLargestVideoSide = 16384;      // x264's
@@ -58,46 +58,44 @@ std::string plain(double value) {
 
 }  // namespace
 
-const char* name(Codec codec) { return entry(codec).name; }
-const char* title(Codec codec) { return entry(codec).title; }
-std::optional<Codec> codec_named(std::string_view wanted) {
-    const auto at = std::ranges::find(kEntries, wanted, [](const CodecRow& e) { return std::string_view(e.name); });
+const char* name(Codec codec) { return row_of(codec).name; }
+const char* title(Codec codec) { return row_of(codec).title; }
+std::optional<Codec> codec_named(std::string_view text) {
+    const auto at = std::ranges::find(kEntries, text, [](const CodecRow& e) { return std::string_view(e.name); });
     return at == kEntries.end() ? std::nullopt : std::optional(at->codec);
 }
 std::optional<Codec> default_codec(std::string_view ending) {
-    const Home* h = home(ending);
-    return h ? h->codecs.front() : std::nullopt;
+    const Container* file = container(ending);
+    return file ? file->codecs.front() : std::nullopt;
 }
 bool goes_into(Codec codec, std::string_view ending) {
-    const Home* h = home(ending);
-    return h && std::ranges::find(h->codecs, std::optional(codec)) != h->codecs.end();
+    const Container* file = container(ending);
+    return file && std::ranges::find(file->codecs, std::optional(codec)) != file->codecs.end();
 }
 
-bool has_alpha(Codec codec) { return entry(codec).alpha; }
-bool needs_even_sides(Codec codec) { return entry(codec).even; }
 std::optional<QualityScale> quality_scale(Codec codec) {
-    const CodecRow& e = entry(codec);
+    const CodecRow& e = row_of(codec);
     if (e.worst == 0) return std::nullopt;
     return QualityScale{e.usual, e.worst};
 }
 
 std::string format_problem(std::string_view ending, Codec codec, bool transparent) {
-    const Home* h = home(ending);
-    if (!h) {
+    const Container* file = container(ending);
+    if (!file) {
         std::string all;
-        for (const Home& known : kHomes) all += (all.empty() ? "" : ", ") + std::string(known.ending);
-        return std::string("\"").append(ending) + "\" is no film's ending; use " + all;
+        for (const Container& known : kContainers) all += (all.empty() ? "" : ", ") + std::string(known.ending);
+        return std::string("\"").append(ending) + "\" is not an ending of films; use " + all;
     }
     if (!goes_into(codec, ending)) {
-        std::string held, homes;
-        for (const auto& c : h->codecs)
-            if (c) held += (held.empty() ? "" : " or ") + std::string(name(*c));
-        for (const Home& known : kHomes)
-            if (goes_into(codec, known.ending)) homes += (homes.empty() ? "" : " or ") + std::string(known.ending);
-        return std::string(title(codec)) + " does not go into a " + std::string(ending) + " file, which holds " + held +
-               "; name a " + homes + " file, or change the codec";
+        std::string codecs, endings;
+        for (const auto& c : file->codecs)
+            if (c) codecs += (codecs.empty() ? "" : " or ") + std::string(name(*c));
+        for (const Container& known : kContainers)
+            if (goes_into(codec, known.ending)) endings += (endings.empty() ? "" : " or ") + std::string(known.ending);
+        return std::string(title(codec)) + " does not go into a " + std::string(ending) + " file, which holds " +
+               codecs + "; name a " + endings + " file, or change the codec";
     }
-    if (transparent && !has_alpha(codec))
+    if (transparent && !row_of(codec).alpha)
         return std::string(title(codec)) +
                (codec == Codec::gif ? " has no half-transparent pixels, and every edge needs them"
                                     : " cannot be transparent") +
@@ -120,7 +118,7 @@ std::string size_problem(Codec codec, int width, int height) {
         return "a film of " + size +
                " pixels is not possible, because FFmpeg takes no picture larger than "
                "16250x16250; choose a smaller size, or write frames (NAME-####.png)";
-    if (needs_even_sides(codec) && (width % 2 != 0 || height % 2 != 0))
+    if (row_of(codec).even && (width % 2 != 0 || height % 2 != 0))
         return "a film of " + size + " pixels is not possible, because " + title(codec) +
                " (yuv420p) stores colour for pairs of rows and columns; use " + std::to_string(width + width % 2) +
                "x" + std::to_string(height + height % 2) +

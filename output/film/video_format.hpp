@@ -1,4 +1,4 @@
-// The kinds of moving picture: which codec goes into which file, and what each can show.
+// Formats of films: the codecs of each kind of file, and their limits.
 //
 //   .mp4   h264, av1, hevc  talks, the web; no transparency but hevc's, even sides
 //   .webm  vp9, av1         the web; vp9 also with transparency; even sides
@@ -22,18 +22,16 @@ const char* name(Codec codec);   // "h264"
 const char* title(Codec codec);  // "H.264"
 std::optional<Codec> codec_named(std::string_view name);
 
-// Endings have their dot. What a file of this ending holds unless told otherwise; nothing: no film has that ending.
+// The default codec of files with this ending (with its dot); nothing: no film has this ending.
 std::optional<Codec> default_codec(std::string_view ending);
 bool goes_into(Codec codec, std::string_view ending);
 
-bool has_alpha(Codec codec);
-bool needs_even_sides(Codec codec);  // colour is stored for pairs of rows and columns
 struct QualityScale {
     int usual, worst;  // crf: 0 is best
 };
 std::optional<QualityScale> quality_scale(Codec codec);  // absent: the codec has no crf
 
-// Why such a film is not possible, with what is; empty when it is. `ending` with the dot.
+// Why such a film is not possible, with a remedy; empty: it is possible. `ending` with the dot.
 std::string format_problem(std::string_view ending, Codec codec, bool transparent);
 std::string size_problem(Codec codec, int width, int height);
 std::string rate_problem(Codec codec, double fps);

@@ -1,7 +1,7 @@
-// What the module that links FFmpeg offers (beamcam_video.so, from output/ffmpeg/): encoders, decoders, and joining
-// films packet by packet. It is loaded when first used.
+// Interface of the module that links FFmpeg (beamcam_video.so, from output/film/ffmpeg/): encoders, decoders, and
+// joining of films packet by packet. It is loaded at its first use.
 //
-// Every function throws what went wrong in the user's terms (errors.hpp), CodecFailure, or std::bad_alloc.
+// All functions throw the errors of errors.hpp, CodecFailure, or std::bad_alloc.
 #pragma once
 
 #include <array>
@@ -20,12 +20,12 @@
 
 namespace beamcam::output {
 
-// FFmpeg failed where no rule of ours foresaw it.
+// FFmpeg failed for a reason that beamcam does not check.
 struct CodecFailure : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
 
-// Segments that do not make one film: another codec, size, rate, encoder setting or scene, out of order, or no film.
+// Segments that cannot be joined: not films, different codecs, sizes, rates, settings or scenes, or a wrong order.
 struct Mismatch : IoError {
     using IoError::IoError;
 };
@@ -39,7 +39,7 @@ struct Chapter {
 
 struct EncoderSettings {
     std::filesystem::path file;   // exists; it is overwritten
-    std::filesystem::path named;  // what messages call it
+    std::filesystem::path named;  // its name in messages
     int width = 0, height = 0;    // [px]
     int rate = 0, rate_base = 1;  // frames per second = rate / rate_base
     int threads = 1;
@@ -48,13 +48,13 @@ struct EncoderSettings {
     std::string pixel_format;                               // FFmpeg's name
     OptionList encoder_options;                             // keys "x:name" are for encoder x alone
     OptionList container_options;                           //
-    std::string missing;                                    // the message when there is none of these encoders
+    std::string missing;                                    // message if none of these encoders exists
     std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"
     OptionList metadata;
     std::vector<Chapter> chapters;
 };
 
-// A picture to be filled by the caller: the planes of its pixel format, those that it has.
+// The planes of a frame that the caller fills; unused planes are null.
 struct FramePlanes {
     std::uint8_t* plane[4] = {};
     std::ptrdiff_t stride[4] = {};  // [bytes]
@@ -62,20 +62,20 @@ struct FramePlanes {
 
 class Encoder {
   public:
-    virtual ~Encoder() = default;  // finished or not
-    // A frame of the encoder's own. Any thread, one at a time.
+    virtual ~Encoder() = default;  // also without `finish`
+    // A new frame, which belongs to the encoder. From any thread, one at a time.
     virtual FramePlanes& make_frame() = 0;
-    // Adds the frame to the film; the caller may change it again as soon as this returns.
+    // Adds the frame to the film; afterwards the caller may change it again.
     virtual void encode(FramePlanes& frame) = 0;
-    // The frame added last is shown for so many frames' time more.
+    // Shows the last added frame for this number of frames longer.
     virtual void hold(std::int64_t frames) = 0;
     virtual void finish() = 0;
 };
 
 struct VideoInfo {
     int width = 0, height = 0;  // [px]
-    long frames = 0;            // as the file says; 0: it does not
-    double seconds = 0;         // as the file says; 0: it does not
+    long frames = 0;            // as stated in the file; 0: not stated
+    double seconds = 0;         // as stated in the file; 0: not stated
     std::string codec, container;
     std::map<std::string, std::string> metadata;
 
@@ -86,7 +86,7 @@ class Decoder {
   public:
     virtual ~Decoder() = default;
     virtual const VideoInfo& info() const = 0;
-    // The next picture as 4·width·height bytes R, G, B, A. False after the last one.
+    // The next picture as 4·width·height bytes R, G, B, A. False after the last.
     virtual bool next(std::uint8_t* rgba) = 0;
 };
 
@@ -95,8 +95,8 @@ class VideoLibrary {
     virtual ~VideoLibrary() = default;
     virtual std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) const = 0;
     virtual std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file) const = 0;
-    // One film out of several, packets as they are. `file` exists and is overwritten; messages call it `named`.
-    // Returns how many frames there are.
+    // Joins films without encoding them again. `file` exists and is overwritten; its name in messages is `named`.
+    // Returns the number of frames.
     virtual std::int64_t concatenate(const std::vector<std::filesystem::path>& segments,
                                      const std::filesystem::path& file, const std::filesystem::path& named,
                                      const std::string& container) const = 0;

@@ -30,7 +30,7 @@ bool VideoReader::next(Raster& picture) {
 VideoCapabilities video_capabilities() {
     const VideoLibrary& library = video_library();
     VideoCapabilities found{library.versions(), {}};
-    const std::pair<const char*, std::vector<const char*>> wanted[] = {
+    const std::pair<const char*, std::vector<const char*>> encoders[] = {
         {"H.264 (libx264)", {"libx264"}},
         {"HEVC (libx265)", {"libx265"}},
         {"VP9 (libvpx)", {"libvpx-vp9"}},
@@ -39,7 +39,7 @@ VideoCapabilities video_capabilities() {
         {"FFV1", {"ffv1"}},
         {"GIF", {"gif"}},
         {"APNG", {"apng"}}};
-    for (const auto& [name, any] : wanted)
+    for (const auto& [name, any] : encoders)
         found.encoders[name] =
             std::any_of(any.begin(), any.end(), [&](const char* encoder) { return library.has_encoder(encoder); });
     return found;

@@ -1,8 +1,6 @@
-// Films as pixels, decoded by FFmpeg's libraries: MP4, WebM, GIF, APNG and whatever else they know.
-//
-// The colours are those of
+// Decodes films by FFmpeg's libraries: MP4, WebM, GIF, APNG and others. The colours are those of
 //     ffmpeg -i FILM -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba -f framehash -hash sha256 -
-// so that anyone can check a digest. A film that is damaged or ends early is an error, not a shorter film.
+// so that FFmpeg can verify a digest. A damaged or truncated film is an error, not a shorter film.
 #pragma once
 
 #include <filesystem>
@@ -29,10 +27,10 @@ class VideoReader {
     long read_ = 0;
 };
 
-// What the FFmpeg libraries of this machine can do. Throws MissingCodec.
+// Versions and encoders of the FFmpeg libraries of this machine. Throws MissingCodec.
 struct VideoCapabilities {
     std::string versions;                  // "libavcodec 59.37.100, …"
-    std::map<std::string, bool> encoders;  // of those that beamcam's outputs use
+    std::map<std::string, bool> encoders;  // whether each encoder that beamcam uses exists
 };
 VideoCapabilities video_capabilities();
 

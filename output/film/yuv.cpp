@@ -1,12 +1,14 @@
 #include "output/film/yuv.hpp"
 
+#include <array>
 #include <stdexcept>
 #include <string>
 
+#include "output/image/pixels.hpp"
 #include "render/draw/color.hpp"
 
-// The loops below are plain C++ that compilers vectorize; on x86-64 a wider version is chosen when the program
-// starts. Sanitizers cannot instrument that choice, and integers give the same bytes in every version.
+// Compilers vectorize the loops below; on x86-64 a wider version is chosen when the program starts. All versions give
+// the same bytes. Sanitizers cannot instrument this choice.
 #if defined(__x86_64__) && defined(__GNUC__) && !defined(__clang__) && !defined(__SANITIZE_ADDRESS__) && \
     !defined(__SANITIZE_THREAD__)
 #define BEAMCAM_WIDEST __attribute__((target_clones("avx2", "sse4.1", "default")))
@@ -61,24 +63,15 @@ BEAMCAM_WIDEST void convert_two_rows(const std::uint32_t* __restrict above, cons
 
 namespace {
 
-using render::kLumaBlue;
-using render::kLumaRed;
-
 void require_even(const render::Image& image, const char* what) {
     if (image.width % 2 != 0 || image.height % 2 != 0)
         throw std::logic_error(std::string(what) + ": odd size " + std::to_string(image.width) + "x" +
                                std::to_string(image.height));
 }
 
-render::DirtyTiles whole(const render::Image& image) {
-    render::DirtyTiles all(image.width, image.height);
-    all.add_all();
-    return all;
-}
-
 }  // namespace
 
-void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const render::DirtyTiles& part) {
+void convert_to_yuv420(const render::Image& image, const FramePlanes& to, const render::DirtyTiles& part) {
     require_even(image, "convert_to_yuv420");
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int row = top; row < bottom; row += 2) {
@@ -90,31 +83,16 @@ void convert_to_yuv420(const render::Image& image, const YuvPlanes& to, const re
         }
     });
 }
-void convert_to_yuv420(const render::Image& image, const YuvPlanes& to) { convert_to_yuv420(image, to, whole(image)); }
 
 namespace {
 
-using render::kLumaBlue;
-using render::kLumaRed;
-
-struct Straight {
-    int r = 0, g = 0, b = 0, a = 0;
-};
-Straight straight(std::uint32_t p) {
-    const int a = static_cast<int>(p >> 24);
-    if (a == 0) return {};
-    const auto channel = [&](int c) { return a == 255 ? c : (255 * c + a / 2) / a; };
-    return {channel(static_cast<int>(p >> 16 & 255)), channel(static_cast<int>(p >> 8 & 255)),
-            channel(static_cast<int>(p & 255)), a};
-}
-
 // Four pixels with the upper left one at (x, y).
-void convert_four(const render::Image& image, const YuvaPlanes& to, int x, int y) {
+void convert_four(const render::Image& image, const FramePlanes& to, int x, int y) {
     int r = 0, g = 0, b = 0, weight = 0;
     for (int j = 0; j < 2; ++j)
         for (int i = 0; i < 2; ++i) {
-            const Straight c =
-                straight(image.pixels[std::size_t(y + j) * std::size_t(image.width) + std::size_t(x + i)]);
+            const StraightColor c =
+                straight_color(image.pixels[std::size_t(y + j) * std::size_t(image.width) + std::size_t(x + i)]);
             to.plane[0][(y + j) * to.stride[0] + x + i] =
                 static_cast<std::uint8_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 15)) >> 16);
             to.plane[3][(y + j) * to.stride[3] + x + i] = static_cast<std::uint8_t>(c.a);
@@ -128,13 +106,13 @@ void convert_four(const render::Image& image, const YuvaPlanes& to, int x, int y
         static_cast<std::uint8_t>((kCrR * r + kCrG * g + kCrB * b + offset) >> 16);
 }
 
-void convert_row_10(const render::Image& image, const YuvaPlanes& to, int y, int left, int right) {
+void convert_row_10(const render::Image& image, const FramePlanes& to, int y, int left, int right) {
     const std::uint32_t* row = image.pixels.data() + std::ptrdiff_t(y) * image.width;
     std::array<std::uint16_t*, 4> out{};
     for (std::size_t i = 0; i < 4; ++i) out[i] = reinterpret_cast<std::uint16_t*>(to.plane[i] + y * to.stride[i]);
     for (int x = left; x < right; ++x) {
-        const Straight c = straight(row[x]);
-        // Two bits more of the same numbers: four times the levels of 8 bits.
+        const StraightColor c = straight_color(row[x]);
+        // Two more bits: four times the levels of 8 bits.
         out[0][x] = static_cast<std::uint16_t>((kYR * c.r + kYG * c.g + kYB * c.b + (16 << 16) + (1 << 13)) >> 14);
         out[1][x] = static_cast<std::uint16_t>((kCbR * c.r + kCbG * c.g + kCbB * c.b + (128 << 16) + (1 << 13)) >> 14);
         out[2][x] = static_cast<std::uint16_t>((kCrR * c.r + kCrG * c.g + kCrB * c.b + (128 << 16) + (1 << 13)) >> 14);
@@ -144,24 +122,18 @@ void convert_row_10(const render::Image& image, const YuvaPlanes& to, int y, int
 
 }  // namespace
 
-void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to, const render::DirtyTiles& part) {
+void convert_to_yuva420(const render::Image& image, const FramePlanes& to, const render::DirtyTiles& part) {
     require_even(image, "convert_to_yuva420");
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; y += 2)
             for (int x = left; x < right; x += 2) convert_four(image, to, x, y);
     });
 }
-void convert_to_yuva420(const render::Image& image, const YuvaPlanes& to) {
-    convert_to_yuva420(image, to, whole(image));
-}
 
-void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to, const render::DirtyTiles& part) {
+void convert_to_yuva444p10(const render::Image& image, const FramePlanes& to, const render::DirtyTiles& part) {
     part.for_each_run([&](int left, int top, int right, int bottom) {
         for (int y = top; y < bottom; ++y) convert_row_10(image, to, y, left, right);
     });
-}
-void convert_to_yuva444p10(const render::Image& image, const YuvaPlanes& to) {
-    convert_to_yuva444p10(image, to, whole(image));
 }
 
 }  // namespace beamcam::output

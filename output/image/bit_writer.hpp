@@ -1,4 +1,4 @@
-// Bits one after the other into bytes, the lowest bit of a byte first, as deflate packs them (RFC 1951, section 3.1.1).
+// Packs bits into bytes, the lowest bit first, as deflate does (RFC 1951, section 3.1.1).
 #pragma once
 
 #include <bit>
@@ -19,12 +19,12 @@ struct BitWord {
 
 class BitWriter {
   public:
-    // The word of each token, `bits` in all.
+    // Writes the word of each token, `bits` bits in total.
     void put(std::span<const std::uint16_t> tokens, std::span<const BitWord> words, std::size_t bits) {
         static_assert(std::endian::native == std::endian::little, "words are stored whole, lowest byte first");
         bytes_.resize(size_ + bits / 8 + 2 * sizeof begun_);
         char* to = bytes_.data() + size_;
-        std::uint64_t begun = begun_;  // copies: for all that compilers know, `to` points to the members
+        std::uint64_t begun = begun_;  // local copies: compilers assume that `to` may point to the members
         unsigned count = begun_count_;
         for (const std::uint16_t token : tokens) {
             const BitWord word = words[token];
@@ -46,20 +46,20 @@ class BitWriter {
         put({&token, 1}, {&word, 1}, count);
     }
 
-    // Fills the byte begun with zeros.
+    // Fills the last byte with zeros.
     void align() { put(0, (8 - begun_count_) % 8); }
 
-    // The whole bytes written; the writer is used up.
+    // Returns the written bytes; at most once.
     std::string finish() && {
         bytes_.resize(size_);
         return std::move(bytes_);
     }
 
   private:
-    std::string bytes_;         // longer than what is written
-    std::size_t size_ = 0;      // whole bytes written
-    std::uint64_t begun_ = 0;   // the byte begun
-    unsigned begun_count_ = 0;  // [bit] of it, 0 … 7
+    std::string bytes_;         // longer than the written part
+    std::size_t size_ = 0;      // complete bytes
+    std::uint64_t begun_ = 0;   // the incomplete byte
+    unsigned begun_count_ = 0;  // its bits, 0 … 7
 };
 
 }  // namespace beamcam::output

@@ -69,7 +69,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-// Bytes of "(…)" or "<…>" at the front. `is_open`: it begins there and never ends.
+// The bytes of "(…)" or "<…>" at the beginning. `is_open`: the string begins but never ends.
 std::optional<std::string> string_object(std::string_view pdf, bool& is_open) {
     while (!pdf.empty() && (pdf.front() == ' ' || pdf.front() == '\n' || pdf.front() == '\r')) pdf.remove_prefix(1);
     is_open = !pdf.empty() && (pdf.front() == '<' || pdf.front() == '(');
@@ -127,14 +127,14 @@ std::string from_utf16(std::string_view bytes) {
 }
 
 std::string entry(std::string_view pdf, std::string_view key) {
-    bool is_open = false;  // then every later one would be read to the end, too
+    bool is_open = false;  // then the search would read to the end for every later key
     for (std::size_t at = 0; !is_open && (at = pdf.find(key, at)) != std::string_view::npos; at += key.size())
         if (const auto bytes = string_object(pdf.substr(at + key.size()), is_open))
             return bytes->starts_with("\xFE\xFF") ? from_utf16(*bytes) : *bytes;
     return {};
 }
 
-// What stands in compressed object streams, where newer writers put the document's information.
+// The content of compressed object streams, where newer writers put the document information.
 std::string object_streams(std::string_view pdf) {
     constexpr std::size_t kMost = 256u << 20;  // [bytes]: a scene with a drive table of a million points
     std::string all;
@@ -154,14 +154,15 @@ std::string object_streams(std::string_view pdf) {
 
 DocumentMetadata read_svg_metadata(const std::filesystem::path& file) {
     const std::string xml = read_file(file);
-    if (xml.find("<svg") == std::string::npos) throw IoError("cannot read " + file.string() + ": it is no SVG picture");
+    if (xml.find("<svg") == std::string::npos)
+        throw IoError("cannot read " + file.string() + ": it is not an SVG picture");
     const std::string own = element(xml, "metadata").empty() ? std::string() : xml;
     return {element(xml, "title"), element(xml, "desc"), element(own, "creator"), element(own, "scene")};
 }
 
 DocumentMetadata read_pdf_metadata(const std::filesystem::path& file) {
     const std::string pdf = read_file(file);
-    if (!pdf.starts_with("%PDF")) throw IoError("cannot read " + file.string() + ": it is no PDF document");
+    if (!pdf.starts_with("%PDF")) throw IoError("cannot read " + file.string() + ": it is not a PDF document");
     if (pdf.rfind("%%EOF") == std::string::npos)
         throw IoError("cannot read " + file.string() + ": the document is cut off; make or copy it again");
     std::string place = pdf;

@@ -1,5 +1,5 @@
-// What SVG and PDF figures say of themselves, without a library for either: the few elements that beamcam's own figures
-// have. Values are UTF-8; absent ones are empty.
+// Metadata of SVG and PDF figures, read without a library: only the elements that beamcam writes. Values are UTF-8;
+// absent values are empty.
 #pragma once
 
 #include <filesystem>
@@ -14,7 +14,7 @@ struct DocumentMetadata {
     std::string scene;  // JSON text
 };
 
-// Throws IoError: unreadable, or no such document.
+// Throw IoError if the file is unreadable or not such a document.
 DocumentMetadata read_svg_metadata(const std::filesystem::path& file);
 DocumentMetadata read_pdf_metadata(const std::filesystem::path& file);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kLongest = 15;  // [bit]
 
-// What package-merge sorts: a symbol, or two lighter items of the list before.
+// An item of package-merge: a symbol, or two lighter items of the previous list.
 struct Item {
     std::uint64_t weight;
     bool symbol;

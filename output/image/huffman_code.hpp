@@ -1,7 +1,7 @@
 // Prefix codes of least total length among those with a bound on the word length: package-merge, Larmore and
 // Hirschberg, "A fast algorithm for optimal length-limited Huffman codes", J. ACM 37 (1990). The words are the
-// canonical ones of RFC 1951, section 3.2.2. Equal weights are taken in the order of the symbols, so that a histogram
-// has one code.
+// canonical ones of RFC 1951, section 3.2.2. Symbols of equal weight keep their order, so that the code
+// of a histogram is unique.
 #pragma once
 
 #include <cstdint>
@@ -11,8 +11,8 @@
 namespace beamcam::output {
 
 struct HuffmanCode {
-    std::vector<std::uint8_t> lengths;  // [bit] of each symbol's word; 0: the symbol does not occur
-    std::vector<std::uint16_t> words;   // the first bit of the word is the lowest
+    std::vector<std::uint8_t> lengths;  // [bit] of each symbol's word; 0: unused symbol
+    std::vector<std::uint16_t> words;   // the lowest bit is written first
 };
 
 // Code for symbols that occur `weights` times; no word is longer than `longest` ≤ 15 bits. The code is complete:

@@ -41,7 +41,7 @@ void for_neighbours(const Raster& r, int x, int y, Visit visit) {
             if (u != x || v != y) visit(u, v);
 }
 
-// Three neighbours or more of the pixel's own colour; the picture's border counts as one.
+// At least three neighbours have the pixel's colour; the border of the picture counts as one.
 bool in_plain_area(const Raster& r, int x, int y) {
     int same = x == 0 || y == 0 || x == r.width - 1 || y == r.height - 1 ? 1 : 0;
     for_neighbours(r, x, y, [&](int u, int v) { same += same_pixel(r.at(x, y), r.at(u, v)) ? 1 : 0; });
@@ -109,7 +109,7 @@ void measure_similarity(const Raster& a, const Raster& b, PictureDifference& d) 
         d.ssim = d.lowest_ssim = similarity(sums_of(a, b, 0, 0, a.width, a.height), static_cast<double>(a.pixels()));
         return;
     }
-    // Blocks of 4 × 4, of which each window has four; two rows of them are kept.
+    // A window consists of four blocks of 4 × 4; the sums of two rows of blocks are kept.
     std::array<std::vector<Sums>, 2> kept;
     for (auto& row : kept) row.resize(static_cast<std::size_t>(columns));
     double total = 0;
@@ -144,7 +144,7 @@ void put(Raster& r, int x, int y, const Rgb& color) {
     p[3] = 255;
 }
 
-// Two pixels wide, four away from what it frames.
+// Two pixels wide, four pixels outside the box.
 void draw_frame(Raster& r, const PixelBox& box) {
     for (int away = 4; away <= 5; ++away) {
         for (int x = box.left - away; x < box.right + away; ++x) {
@@ -190,7 +190,7 @@ Raster difference_picture(const Raster& a, const Raster& b, int threshold) {
     PixelBox box{a.width, a.height, 0, 0};
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
-            // A quarter of the contrast, towards white: what changed stands out, and one sees where it is.
+            // A quarter of the contrast, towards white, so that changed pixels are conspicuous.
             const auto grey = static_cast<std::uint8_t>(std::lround(255 - (255 - brightness(a.at(x, y))) / 4));
             Rgb color{grey, grey, grey};
             if (channel_difference(a.at(x, y), b.at(x, y)) > threshold) {

@@ -1,4 +1,4 @@
-// How two pictures of one size differ: in numbers, and as a picture that shows where.
+// The difference of two pictures of the same size, in numbers and as a picture.
 #pragma once
 
 #include <cstddef>
@@ -17,10 +17,10 @@ struct PixelBox {  // [px], right and bottom not included
 
 struct PictureDifference {
     std::size_t pixels = 0;
-    std::size_t changed = 0;      // some channel differs by more than the threshold
-    std::size_t antialiased = 0;  // of those, what looks like the edge of a shape in one of the pictures (see below)
-    int largest = 0;              // difference of a channel, 0…255, whatever the threshold
-    PixelBox box;                 // around what changed
+    std::size_t changed = 0;      // pixels with a channel that differs by more than the threshold
+    std::size_t antialiased = 0;  // of these, pixels that look like antialiasing in one of the pictures (see below)
+    int largest = 0;              // largest difference of a channel, 0…255
+    PixelBox box;                 // around the changed pixels
     double ssim = 1;              // mean structural similarity of brightness, −1…1
     double lowest_ssim = 1;       // of the least similar window
 
@@ -31,11 +31,11 @@ struct PictureDifference {
 // Structural similarity: Z. Wang et al., IEEE Trans. Image Process. 13 (2004) 600, of the brightness (BT.709) over
 // white, in windows of 8 × 8 pixels four apart, as in FFmpeg's filter "ssim". Antialiasing: a pixel between a brighter
 // and a darker neighbour, one of which lies in a plain area of both pictures; V. Vyšniauskas, "Anti-aliased pixel and
-// intensity slope detector", Elektronika ir Elektrotechnika 95 (2009) 107. Throws std::logic_error when the sizes
+// intensity slope detector", Elektronika ir Elektrotechnika 95 (2009) 107. Throws std::logic_error if the sizes
 // differ.
 PictureDifference difference(const Raster& a, const Raster& b, int threshold = 0);
 
-// `a` faded to grey, with what changed in vermilion, antialiasing in yellow, and a frame around all of it.
+// `a` in pale grey, with changed pixels in vermilion, antialiasing in yellow, and a frame around them.
 Raster difference_picture(const Raster& a, const Raster& b, int threshold = 0);
 
 }  // namespace beamcam::output

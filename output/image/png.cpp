@@ -22,12 +22,12 @@ namespace beamcam::output {
 
 namespace {
 
-constexpr int kCompressionLevel = 6;   // of libdeflate; higher ones take twice the time for a part in a thousand
-constexpr std::uint8_t kFilterUp = 2;  // each byte less the one above it
+constexpr int kCompressionLevel = 6;   // of libdeflate; higher levels take twice the time for 0.1 %
+constexpr std::uint8_t kFilterUp = 2;  // each byte minus the byte above
 using Pixels = std::span<const std::uint32_t>;
 constexpr std::size_t kLongestChunk = 0x7fffffff;
-constexpr std::size_t kStretch = 8;  // pixels that are compared with those above at once
-static_assert(render::DirtyTiles::kWidth % kStretch == 0, "a stretch lies in one tile");
+constexpr std::size_t kSegment = 8;  // pixels that are compared at once with those above
+static_assert(render::DirtyTiles::kWidth % kSegment == 0, "a segment lies in one tile");
 constexpr double kMetresPerInch = 0.0254;
 
 void put_u32(std::string& out, std::uint32_t value) {
@@ -82,8 +82,8 @@ std::uint64_t two_pixels(const std::uint32_t* from) {
     return both;
 }
 
-// Each byte less the other's, modulo 256.
-std::uint64_t less(std::uint64_t now, std::uint64_t above) {
+// The differences of the bytes, modulo 256.
+std::uint64_t difference_of(std::uint64_t now, std::uint64_t above) {
     constexpr std::uint64_t kHigh = 0x8080808080808080;  // the bits that must not borrow from the next byte
     return ((now | kHigh) - (above & ~kHigh)) ^ ((now ^ ~above) & kHigh);
 }
@@ -91,28 +91,28 @@ std::uint64_t less(std::uint64_t now, std::uint64_t above) {
 // R, G, B from the lowest byte upwards.
 std::uint64_t rgb(std::uint64_t pixel) { return __builtin_bswap32(static_cast<std::uint32_t>(pixel)) >> 8; }
 
-// The bytes of pixels less those of the pixels above: of opaque ones R, G, B, with room for 8 bytes behind. False if
-// some are not opaque.
+// The bytes R, G, B of opaque pixels minus those of the pixels above; `out` needs space for 8 more bytes. False if a
+// pixel is not opaque.
 bool rgb_less_above(Pixels now, Pixels above, std::uint8_t* out) {
     static_assert(std::endian::native == std::endian::little, "pixels are taken two at once, in memory order");
     constexpr std::uint64_t kOpaque = 0xff000000'ff000000;
     std::uint64_t all = kOpaque;
     std::size_t x = 0;
     for (; x + 2 <= now.size(); x += 2, out += 6) {
-        const std::uint64_t both = two_pixels(&now[x]), difference = less(both, two_pixels(&above[x]));
+        const std::uint64_t both = two_pixels(&now[x]), difference = difference_of(both, two_pixels(&above[x]));
         const std::uint64_t bytes = rgb(difference) | rgb(difference >> 32) << 24;
         std::memcpy(out, &bytes, sizeof bytes);
         all &= both;
     }
     if (x < now.size()) {
-        const std::uint64_t bytes = rgb(less(now[x], above[x]));
+        const std::uint64_t bytes = rgb(difference_of(now[x], above[x]));
         std::memcpy(out, &bytes, sizeof bytes);
         all &= now[x] | kOpaque << 32;
     }
     return (all & kOpaque) == kOpaque;
 }
 
-// The same of any pixels: R, G, B, A.
+// The same for any pixels: R, G, B, A.
 void rgba_less_above(Pixels now, Pixels above, std::uint8_t* out) {
     std::vector<std::uint8_t> other(4 * above.size());
     rgba_bytes(now, out);
@@ -120,33 +120,33 @@ void rgba_less_above(Pixels now, Pixels above, std::uint8_t* out) {
     for (std::size_t i = 0; i < 4 * now.size(); ++i) out[i] = static_cast<std::uint8_t>(out[i] - other[i]);
 }
 
-// Without a way out in between, which compilers turn into wide words.
-bool stretch_differs(const std::uint32_t* now, const std::uint32_t* above) {
-    std::uint32_t others = 0;
-    for (std::size_t i = 0; i < kStretch; ++i) others |= now[i] ^ above[i];
-    return others != 0;
+// Without an early exit, so that compilers vectorize it.
+bool segment_differs(const std::uint32_t* now, const std::uint32_t* above) {
+    std::uint32_t differences = 0;
+    for (std::size_t i = 0; i < kSegment; ++i) differences |= now[i] ^ above[i];
+    return differences != 0;
 }
 
-// Pixels from … to, none from the width on.
-struct Stretch {
+// Pixels from … to − 1; empty at the end of the row.
+struct Segment {
     std::size_t from, to;
 };
 
-// From `x` on, the next that may not be as above, neighbouring stretches together.
-Stretch next_others(std::span<const std::uint8_t> others, std::size_t x, std::size_t width) {
+// The next pixels from `x` on that may differ from those above.
+Segment next_changed(std::span<const std::uint8_t> changed, std::size_t x, std::size_t width) {
     const auto find = [&](std::size_t at, int value) {
-        const void* found = std::memchr(others.data() + at, value, others.size() - at);
-        return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - others.data())
-                     : others.size();
+        const void* found = std::memchr(changed.data() + at, value, changed.size() - at);
+        return found ? static_cast<std::size_t>(static_cast<const std::uint8_t*>(found) - changed.data())
+                     : changed.size();
     };
-    const std::size_t first = find(x / kStretch, 1);
-    return {std::min(first * kStretch, width), std::min(find(first, 0) * kStretch, width)};
+    const std::size_t first = find(x / kSegment, 1);
+    return {std::min(first * kSegment, width), std::min(find(first, 0) * kSegment, width)};
 }
 
-// Tells `rows` every row behind its filter byte, each byte less the one above it; above the first row stand zeros. What
-// is as above is not computed. False, early, if pixels said to be `opaque` are not: those as above are like them.
+// Passes every row to `rows`: the filter byte, then each byte minus the byte above; above the first row are zeros.
+// Skips pixels that equal those above. Returns false early if the picture is not `opaque`.
 template <class Rows>
-bool put_filtered(const render::Image& image, const PngSequence::Others& others, bool opaque, Rows& rows) {
+bool put_filtered(const render::Image& image, const PngSequence::ChangedSegments& segments, bool opaque, Rows& rows) {
     const auto width = static_cast<std::size_t>(image.width);
     const std::size_t pixel = opaque ? 3 : 4;  // [byte]
     const std::vector<std::uint32_t> nothing(width, opaque ? 0xff000000 : 0);
@@ -156,7 +156,7 @@ bool put_filtered(const render::Image& image, const PngSequence::Others& others,
         const Pixels now(image.pixels.data() + y * width, width);
         rows.bytes({&kFilterUp, 1});
         for (std::size_t x = 0; x < width;) {
-            const auto [from, to] = next_others(others.row(y), x, width);
+            const auto [from, to] = next_changed(segments.row(y), x, width);
             rows.zeros(pixel * (from - x));
             const Pixels here = now.subspan(from, to - from), there = above.subspan(from, to - from);
             x = to;
@@ -172,11 +172,11 @@ bool put_filtered(const render::Image& image, const PngSequence::Others& others,
     return true;
 }
 
-// Like RunDeflate; libdeflate wants all rows in one piece.
+// Like RunDeflate; libdeflate needs all rows in one piece.
 class WholeDeflate {
   public:
     WholeDeflate(std::size_t pixel, const render::Image& image) {
-        // All at once: a picture of a gigabyte is not copied while it grows.
+        // At once, so that a picture of a gigabyte is not copied while it grows.
         rows_.reserve((pixel * static_cast<std::size_t>(image.width) + 1) * static_cast<std::size_t>(image.height));
     }
     void bytes(std::span<const std::uint8_t> data) { rows_.insert(rows_.end(), data.begin(), data.end()); }
@@ -185,7 +185,7 @@ class WholeDeflate {
         const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
             libdeflate_alloc_compressor(kCompressionLevel), libdeflate_free_compressor);
         if (!compressor) throw std::bad_alloc();
-        // Left as it is: most of the room is never used, and memory that is not touched is not taken.
+        // Uninitialized: most of it is never used, and the system provides only memory that is used.
         const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), rows_.size());
         const auto room = std::make_unique_for_overwrite<char[]>(most);
         return {room.get(), libdeflate_zlib_compress(compressor.get(), rows_.data(), rows_.size(), room.get(), most)};
@@ -200,20 +200,21 @@ struct Compressed {
     std::string data;
 };
 
-// `deflate(bytes of a pixel)` makes what takes the rows.
+// `deflate(bytes of a pixel)` creates the compressor of the rows.
 template <class Make>
-Compressed compressed(const render::Image& image, const PngSequence::Others& others, Make deflate) {
-    if (auto rgb = deflate(3); put_filtered(image, others, true, rgb)) return {true, std::move(rgb).finish()};
+Compressed compressed(const render::Image& image, const PngSequence::ChangedSegments& segments, Make deflate) {
+    if (auto rgb = deflate(3); put_filtered(image, segments, true, rgb)) return {true, std::move(rgb).finish()};
     auto rgba = deflate(4);
-    put_filtered(image, others, false, rgba);
+    put_filtered(image, segments, false, rgba);
     return {false, std::move(rgba).finish()};
 }
 
-std::string png_file(const render::Image& image, const PngSequence::Others& others, const PngOptions& options) {
+std::string png_file(const render::Image& image, const PngSequence::ChangedSegments& segments,
+                     const PngOptions& options) {
     const auto [opaque, data] =
         options.compression == PngCompression::small
-            ? compressed(image, others, [&](std::size_t pixel) { return WholeDeflate(pixel, image); })
-            : compressed(image, others, [](std::size_t pixel) { return RunDeflate(pixel); });
+            ? compressed(image, segments, [&](std::size_t pixel) { return WholeDeflate(pixel, image); })
+            : compressed(image, segments, [](std::size_t pixel) { return RunDeflate(pixel); });
     std::string file = "\x89PNG\r\n\x1a\n";
     put_chunk(file, "IHDR", header(image, opaque));
     put_chunk(file, "sRGB", std::string_view("\0", 1));  // rendering intent: perceptual
@@ -226,28 +227,28 @@ std::string png_file(const render::Image& image, const PngSequence::Others& othe
 
 }  // namespace
 
-// ---- what pictures of a sequence share ---------------------------------------------------------
+// ---- sequences of pictures ---------------------------------------------------------
 
-PngSequence::Others::Others(int width, int height)
-    : columns_((static_cast<std::size_t>(width) + kStretch - 1) / kStretch),
-      stretches_(columns_ * static_cast<std::size_t>(height), 1) {}
+PngSequence::ChangedSegments::ChangedSegments(int width, int height)
+    : columns_((static_cast<std::size_t>(width) + kSegment - 1) / kSegment),
+      segments_(columns_ * static_cast<std::size_t>(height), 1) {}
 
-std::span<const std::uint8_t> PngSequence::Others::row(std::size_t y) const {
-    return {stretches_.data() + y * columns_, columns_};
+std::span<const std::uint8_t> PngSequence::ChangedSegments::row(std::size_t y) const {
+    return {segments_.data() + y * columns_, columns_};
 }
 
-// The row below a tile is compared with the tile's last.
-void PngSequence::Others::compare(const render::Image& image, const render::DirtyTiles& changed) {
+// The row below a tile is compared with the last row of the tile.
+void PngSequence::ChangedSegments::compare(const render::Image& image, const render::DirtyTiles& changed) {
     const auto width = static_cast<std::size_t>(image.width);
     changed.for_each_run([&](int left, int top, int right, int bottom) {
         const auto end = static_cast<std::size_t>(right);
         for (int row = std::max(top, 1); row <= std::min(bottom, image.height - 1); ++row) {
             const auto y = static_cast<std::size_t>(row);
             const std::uint32_t *now = image.pixels.data() + y * width, *above = now - width;
-            for (auto x = static_cast<std::size_t>(left); x < end; x += kStretch)
-                stretches_[y * columns_ + x / kStretch] = x + kStretch <= end
-                                                              ? stretch_differs(now + x, above + x)
-                                                              : !std::equal(now + x, now + end, above + x);
+            for (auto x = static_cast<std::size_t>(left); x < end; x += kSegment)
+                segments_[y * columns_ + x / kSegment] = x + kSegment <= end
+                                                             ? segment_differs(now + x, above + x)
+                                                             : !std::equal(now + x, now + end, above + x);
         }
     });
 }
@@ -257,11 +258,11 @@ PngSequence::PngSequence(PngOptions options) : options_(std::move(options)) {}
 const std::string& PngSequence::encode(const render::Image& image, const render::DirtyTiles& changed) {
     if (image.width <= 0 || image.height <= 0) throw std::logic_error("encode_png: an empty image");
     if (file_.empty())
-        others_ = Others(image.width, image.height);
+        segments_ = ChangedSegments(image.width, image.height);
     else if (!changed.any())
         return file_;
-    others_.compare(image, changed);
-    return file_ = png_file(image, others_, options_);
+    segments_.compare(image, changed);
+    return file_ = png_file(image, segments_, options_);
 }
 
 std::string encode_png(const render::Image& image, const PngOptions& options) {

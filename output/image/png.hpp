@@ -1,5 +1,5 @@
 // PNG stills and frames: 8 bits, RGB when every pixel is opaque, otherwise RGBA; sRGB; text as iTXt (UTF-8).
-// One filter ("up") and two ways to compress; with either the same picture gives the same bytes.
+// The filter is "up"; there are two compressors. The same picture gives the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -18,12 +18,12 @@
 namespace beamcam::output {
 
 enum class PngCompression {
-    small,  // libdeflate: for single pictures
-    quick,  // literals and runs (run_deflate.hpp), in a tenth of the time and a fifth larger: for sequences of drawings
+    small,  // libdeflate, level 6: for single pictures
+    quick,  // literals and runs (run_deflate.hpp), in a tenth of the time, a fifth larger: for sequences of drawings
 };
 
 struct PngOptions {
-    std::optional<double> dpi;                    // [1/inch], > 0; absent: the file says nothing about size
+    std::optional<double> dpi;                    // [1/inch], > 0; absent: the file contains no size
     std::map<std::string, std::string> metadata;  // keyword (1–79 characters of ASCII) → text (UTF-8)
     PngCompression compression = PngCompression::small;
 };
@@ -31,32 +31,32 @@ struct PngOptions {
 // The file's bytes. Throws UnsupportedOption for impossible options, std::logic_error for an empty image.
 std::string encode_png(const render::Image& image, const PngOptions& options = {});
 
-// Pictures of one size and with the same options, one after the other: only what changed is looked at for repetition.
-// The bytes are those of encode_png.
+// Encodes pictures of equal size and options one after the other: only changed pixels are compared with those above
+// them. The bytes are those of encode_png.
 class PngSequence {
   public:
     explicit PngSequence(PngOptions options);
 
-    // `changed`: where the picture may differ from the one before; all of the first. The file's bytes stay until the
-    // next is encoded. Throws as encode_png.
+    // `changed`: tiles that may differ from the previous picture; all tiles of the first. The bytes are valid until the
+    // next call. Throws as encode_png.
     const std::string& encode(const render::Image& image, const render::DirtyTiles& changed);
 
-    // The stretches of a row in which a pixel may differ from the one above it.
-    class Others {
+    // The segments of each row in which a pixel may differ from the pixel above it.
+    class ChangedSegments {
       public:
-        Others() = default;
-        Others(int width, int height);
+        ChangedSegments() = default;
+        ChangedSegments(int width, int height);
         void compare(const render::Image& image, const render::DirtyTiles& changed);
-        std::span<const std::uint8_t> row(std::size_t y) const;  // 0 or 1 for each stretch
+        std::span<const std::uint8_t> row(std::size_t y) const;  // 0 or 1 for each segment
 
       private:
         std::size_t columns_ = 0;
-        std::vector<std::uint8_t> stretches_;
+        std::vector<std::uint8_t> segments_;
     };
 
   private:
     PngOptions options_;
-    Others others_;
+    ChangedSegments segments_;
     std::string file_;
 };
 

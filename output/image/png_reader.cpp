@@ -26,12 +26,12 @@ std::uint32_t big_endian(const char* p) {
     return value;
 }
 
-// libpng reports errors by longjmp: between setjmp and the last call of the library nothing with a destructor lives in
-// the functions that it may leave.
+// libpng reports errors by longjmp: the functions that it may leave must have no objects with destructors between
+// setjmp and the last call of the library.
 class PngDecoder {
   public:
     PngDecoder(const fs::path& file, std::string bytes) : file_(file), bytes_(std::move(bytes)) {
-        refuse_what_is_no_picture();
+        require_picture();
         png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error, on_warning);
         info_ = png_ != nullptr ? png_create_info_struct(png_) : nullptr;
         if (info_ == nullptr) {
@@ -77,13 +77,13 @@ class PngDecoder {
                "); make or copy it again");
     }
 
-    void refuse_what_is_no_picture() const {
+    void require_picture() const {
         if (bytes_.empty()) refuse("the file is empty");
         if (!bytes_.starts_with(kSignature)) refuse("it is not a PNG file");
         if (bytes_.size() < 24) refuse("the picture is cut off after its first bytes; make or copy it again");
         const std::uint32_t width = big_endian(bytes_.data() + 16), height = big_endian(bytes_.data() + 20);
         if (width == 0 || height == 0)
-            refuse("it says that it has " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
+            refuse("its size is " + std::to_string(width) + "x" + std::to_string(height) + " pixels");
         if (width > kLargestSide || height > kLargestSide)
             refuse(std::to_string(width) + "x" + std::to_string(height) + " pixels are more than the " +
                    std::to_string(kLargestSide) + "x" + std::to_string(kLargestSide) + " that beamcam handles");
@@ -101,13 +101,13 @@ class PngDecoder {
     }
     void read_pixels() {
         png_set_expand(png_);    // palettes, fewer than 8 bits, transparent colours
-        png_set_strip_16(png_);  // for callers that want no FFmpeg
+        png_set_strip_16(png_);  // for callers that do not use FFmpeg
         png_set_gray_to_rgb(png_);
         png_set_add_alpha(png_, 0xff, PNG_FILLER_AFTER);
         png_set_interlace_handling(png_);
         png_read_update_info(png_, info_);
         png_read_image(png_, rows_.data());
-        png_read_end(png_, nullptr);  // the end must be there too
+        png_read_end(png_, nullptr);  // the end must exist, too
     }
 
     static void on_error(png_structp png, png_const_charp what) {

@@ -1,4 +1,4 @@
-// Reads any PNG, of beamcam or not, through libpng. Every damage is an IoError in words, never a picture with holes.
+// Reads any PNG file through libpng. A damaged file is an IoError, never an incomplete picture.
 #pragma once
 
 #include <filesystem>
@@ -10,16 +10,16 @@
 
 namespace beamcam::output {
 
-// By the first bytes. Pictures of 16 bits a channel are left to FFmpeg (video_reader.hpp), whose rounding to 8 bits the
-// digests follow.
+// By the first bytes. FFmpeg reads pictures of 16 bits per channel (video_reader.hpp), because digests use its
+// rounding.
 enum class PngKind { none, up_to_8_bits, of_16_bits };
 PngKind png_kind(const std::filesystem::path& file);
 
 // The pixels as 8-bit RGBA, as FFmpeg's `-pix_fmt rgba` gives them; colour profiles and gamma are left alone.
-// Throws IoError: unreadable, damaged, cut off, larger than kLargestSide.
+// Throws IoError if the file is unreadable, damaged, cut off, or larger than kLargestSide.
 Raster read_png(const std::filesystem::path& file);
 
-// What stands before the pixels; those are not decoded.
+// Size and metadata, without decoding the pixels.
 struct PngInfo {
     int width = 0, height = 0;                    // [px]
     std::map<std::string, std::string> metadata;  // keyword → text (UTF-8)

@@ -1,5 +1,5 @@
-// Pixels as decoders give them: R, G, B, A bytes, colour not premultiplied, rows top to bottom. What digests are taken
-// of, and what pictures are compared as; a picture to be drawn on is render::Image.
+// Decoded pixels: R, G, B, A bytes, colour not premultiplied, rows from top to bottom. Digests and comparisons use this
+// form; render::Image is the form for drawing.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace beamcam::output {
 
-// Pictures larger than any that beamcam draws are refused when they are read, before memory is asked for.
+// Larger pictures than beamcam draws are rejected before memory is allocated for them.
 constexpr int kLargestSide = 16384;  // [px]
 
 struct Raster {
@@ -33,10 +33,10 @@ struct Raster {
 };
 
 void to_raster(const render::Image& image, Raster& out);
-// What was transparent is premultiplied, and loses digits.
+// Premultiplies transparent pixels, which loses precision.
 render::Image to_image(const Raster& raster);
 
-// SHA-256 of the bytes: what `ffmpeg -i still.png -f framehash -hash sha256 -pix_fmt rgba -` prints.
+// SHA-256 of the bytes, as `ffmpeg -i still.png -f framehash -hash sha256 -pix_fmt rgba -` prints it.
 std::string digest(const Raster& raster);
 
 }  // namespace beamcam::output

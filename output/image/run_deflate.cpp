@@ -31,7 +31,7 @@ std::uint64_t eight_bytes(const std::uint8_t* from) {
     return value;
 }
 
-// How many of the first `size` bytes at `a` and `b` are equal before two differ. Mostly few are, or very many.
+// The number of equal bytes at the beginning of `a` and `b`, at most `size`. Mostly few or very many are equal.
 std::size_t equal_bytes(const std::uint8_t* a, const std::uint8_t* b, std::size_t size) {
     const auto differing = [&](std::size_t at) { return eight_bytes(a + at) ^ eight_bytes(b + at); };
     const auto first_in = [](std::uint64_t bits) { return static_cast<std::size_t>(std::countr_zero(bits)) / 8; };
@@ -61,7 +61,7 @@ LengthSymbol length_symbol(std::size_t length) {
     if (length == kLongestRun) return {285, 0, 0};
     const std::size_t above = length - kShortestRun;
     if (above < 8) return {257 + above, 0, 0};
-    // Four symbols for each power of two: the two bits behind the leading one tell them apart, the rest is extra.
+    // Four symbols for each power of two: the two bits after the leading one select the symbol, the rest is extra.
     const auto extra_count = static_cast<unsigned>(std::bit_width(above)) - 3;
     const std::size_t quarter = above >> extra_count & 3;
     return {261 + 4 * static_cast<std::size_t>(extra_count) + quarter, extra_count,
@@ -77,14 +77,14 @@ std::vector<std::uint8_t> distance_lengths(std::size_t pixel) {
     return lengths;
 }
 
-// A piece of a list of word lengths (3.2.7): a length itself, 16 for the last one again, 17 and 18 for zeros.
+// A piece of a list of word lengths (3.2.7): a length, 16 for repetitions of the last length, 17 and 18 for zeros.
 struct LengthPiece {
     std::size_t symbol;
     std::uint64_t extra = 0;
     unsigned extra_count = 0;  // [bit]
 };
 constexpr std::size_t kPieceSymbols = 19;
-// In the order in which their own lengths are told: likely ones first.
+// The order of their own lengths in the stream: likely ones first.
 constexpr std::array<std::size_t, kPieceSymbols> kPieceOrder = {16, 17, 18, 0, 8,  7, 9,  6, 10, 5,
                                                                 11, 4,  12, 3, 13, 2, 14, 1, 15};
 
@@ -110,7 +110,7 @@ std::vector<LengthPiece> pieces_of(const std::vector<std::uint8_t>& lengths) {
     return pieces;
 }
 
-// What a token is written as: for a run the length's word, its further bits, and the distance's word.
+// The bits of each token; of a run: the word of the length, its extra bits, and the word of the distance.
 std::vector<BitWord> token_words(const HuffmanCode& code) {
     std::vector<BitWord> words(kTokens);
     for (std::size_t b = 0; b < kLiterals; ++b) words[b] = {code.words[b], code.lengths[b]};
@@ -124,7 +124,7 @@ std::vector<BitWord> token_words(const HuffmanCode& code) {
     return words;
 }
 
-// 3.2.7: the numbers of words, then the lengths of all words in a code that is told first.
+// 3.2.7: the numbers of words, then the lengths of all words in a code that precedes them.
 void put_header(BitWriter& out, bool last, std::vector<std::uint8_t> lengths,
                 const std::vector<std::uint8_t>& distances) {
     const std::size_t symbols = lengths.size();
@@ -133,15 +133,15 @@ void put_header(BitWriter& out, bool last, std::vector<std::uint8_t> lengths,
     std::vector<std::uint32_t> weights(kPieceSymbols, 0);
     for (const LengthPiece& piece : pieces) ++weights[piece.symbol];
     const HuffmanCode code = huffman_code(weights, kLongestPieceWord);
-    std::size_t told = kPieceSymbols;
-    while (told > 4 && code.lengths[kPieceOrder[told - 1]] == 0) --told;
+    std::size_t sent = kPieceSymbols;
+    while (sent > 4 && code.lengths[kPieceOrder[sent - 1]] == 0) --sent;
 
     out.put(last ? 1 : 0, 1);
-    out.put(2, 2);  // codes of its own
+    out.put(2, 2);  // own codes
     out.put(symbols - 257, 5);
     out.put(distances.size() - 1, 5);
-    out.put(told - 4, 4);
-    for (std::size_t i = 0; i < told; ++i) out.put(code.lengths[kPieceOrder[i]], 3);
+    out.put(sent - 4, 4);
+    for (std::size_t i = 0; i < sent; ++i) out.put(code.lengths[kPieceOrder[i]], 3);
     for (const LengthPiece& piece : pieces) {
         out.put(code.words[piece.symbol], code.lengths[piece.symbol]);
         out.put(piece.extra, piece.extra_count);

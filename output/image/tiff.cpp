@@ -17,7 +17,7 @@ void put(std::string& out, std::uint64_t value, int bytes) {
     for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
 }
 
-// Each byte as its difference from the pixel at the left (predictor 2), which deflates better.
+// Each byte minus that of the pixel at the left (predictor 2), which compresses better.
 std::string rows_of(const render::Image& image) {
     std::string out;
     out.reserve(image.pixels.size() * 3);
@@ -42,7 +42,7 @@ std::string deflated(const std::string& plain) {
     return out;
 }
 
-// The entries of the directory, by ascending tags; what is longer than four bytes stands behind the directory.
+// The entries of the directory, by ascending tags; values longer than four bytes follow the directory.
 class Directory {
   public:
     enum Type { text = 2, short_number = 3, long_number = 4, ratio = 5 };
@@ -88,7 +88,7 @@ class Directory {
 
 std::string encode_tiff(const render::Image& image, const TiffOptions& options) {
     const std::string rows = rows_of(image);
-    if (rows.size() > 0xf0000000) throw UnsupportedOption("a TIFF beyond 4 GiB cannot be written; lower the dpi");
+    if (rows.size() > 0xf0000000) throw UnsupportedOption("a TIFF file cannot exceed 4 GiB; lower the dpi");
     std::string out("II*\0", 4);
     const std::string strip = deflated(rows);
     const std::size_t at = 8 + strip.size() + strip.size() % 2;

@@ -1,3 +1,4 @@
+// `beamcam accept`: the pictures and motions of a report become references.
 #include "scenes/regression/accept.hpp"
 
 #include <fmt/format.h>
@@ -20,16 +21,16 @@ int act(const AcceptArguments& args) {
     const Acceptance done = accept_report(options);
     bool changed = false, complete = true;
     for (const AcceptedEntry& entry : done.entries) {
-        const bool taken = entry.refused.empty();
-        (taken ? changed : complete) = taken;
+        const bool accepted = entry.rejected.empty();
+        (accepted ? changed : complete) = accepted;
         print_text(fmt::format("{:<8}  {}{}\n",
-                               !taken           ? "refused"
+                               !accepted        ? "rejected"
                                : entry.replaced ? "replaced"
                                                 : "added",
-                               entry.name, taken ? "" : ": " + entry.refused));
+                               entry.name, accepted ? "" : ": " + entry.rejected));
     }
-    say(args.common, changed ? fmt::format("{} was changed; keep it if it is right", done.baselines)
-                             : "nothing in the report is to be accepted");
+    inform(args.common, changed ? fmt::format("{} was changed; check it before you keep it", done.baselines)
+                                : "the report contains nothing to accept");
     return complete ? kDone : kDiffers;
 }
 
@@ -37,14 +38,15 @@ int act(const AcceptArguments& args) {
 
 void add_accept(Grammar& grammar) {
     auto args = std::make_shared<AcceptArguments>();
-    Command& app =
-        grammar.command("accept", "Take pictures and motions from the report of a test, once they have been looked at");
-    app.positional("REPORT", &args->report, "The folder of beamcam test --report, such as one kept by a CI run")
+    Command& app = grammar.command("accept", "Accept the pictures and motions of a test report as references");
+    app.examples = {"accept report", "accept downloads/report 'fall-*' --baselines tests/baselines.json"};
+    app.positional("REPORT", &args->report, "The folder that `beamcam test --report` wrote, here or in a CI run")
         .required();
-    app.positional("NAME", &args->options.entries, "These entries only; patterns such as 'fall-*' (default: all)");
+    app.positional("NAME", &args->options.entries,
+                   "Only these entries; patterns such as 'fall-*' are allowed (default: all)");
     app.option("--baselines", &args->options.baselines, "FILE",
-               "The baselines (default: the file that the report names)");
-    app.flag("--force", args->common.force, "Replace references that beamcam did not make");
+               "File of baselines to change (default: the file that the report names)");
+    add_force(app, args->common);
     add_quiet(app, args->common);
     app.bind(args, act);
 }

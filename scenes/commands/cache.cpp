@@ -1,3 +1,4 @@
+// `beamcam cache`: the stored trajectories.
 #include "scenes/motions/cache.hpp"
 
 #include <fmt/format.h>
@@ -11,10 +12,10 @@ struct CacheArguments {
     Common common;
 };
 
-Cache the_cache() {
+Cache open_cache() {
     const auto directory = cache_directory();
     if (!directory)
-        throw UsageError("there is no place for a cache: HOME is not set; set BEAMCAM_CACHE_DIR or XDG_CACHE_HOME");
+        throw UsageError("there is no cache directory: HOME is not set; set BEAMCAM_CACHE_DIR or XDG_CACHE_HOME");
     return Cache(*directory, cache_limit());
 }
 
@@ -23,7 +24,7 @@ std::string megabytes(std::uintmax_t bytes) {
 }
 
 int list(const CacheArguments& args) {
-    const Cache cache = the_cache();
+    const Cache cache = open_cache();
     std::uintmax_t sum = 0;
     std::string text;
     for (const Cache::Kept& kept : cache.list()) {
@@ -33,30 +34,31 @@ int list(const CacheArguments& args) {
                             kept.about.empty() ? "damaged, or of another version" : kept.about);
     }
     print_text(text);
-    say(args.common,
-        fmt::format("{} of {} in {}", megabytes(sum), megabytes(cache.limit()), cache.directory().string()));
+    inform(args.common,
+           fmt::format("{} of {} in {}", megabytes(sum), megabytes(cache.limit()), cache.directory().string()));
     return 0;
 }
 
 int clear(const CacheArguments& args) {
-    const auto [count, bytes] = the_cache().clear();
-    say(args.common, fmt::format("removed {} trajector{}, {}", count, count == 1 ? "y" : "ies", megabytes(bytes)));
+    const auto [count, bytes] = open_cache().clear();
+    inform(args.common, fmt::format("removed {} trajector{}, {}", count, count == 1 ? "y" : "ies", megabytes(bytes)));
     return 0;
 }
 
 }  // namespace
 
 void add_cache(Grammar& grammar) {
-    Command& app = grammar.command("cache", "The trajectories that are kept between runs");
+    Command& app = grammar.command("cache", "List or remove the trajectories that are stored between runs");
     app.footer =
-        "They are kept below $BEAMCAM_CACHE_DIR, else in beamcam below $XDG_CACHE_HOME, else in ~/.cache/beamcam, up "
-        "to\n"
-        "$BEAMCAM_CACHE_SIZE MiB (1024); those used longest ago go first.";
+        "The cache is in $BEAMCAM_CACHE_DIR, or else in $XDG_CACHE_HOME/beamcam, or else in ~/.cache/beamcam. Its "
+        "largest\n"
+        "size is $BEAMCAM_CACHE_SIZE MiB (1024); the least recently used trajectories are removed first.";
     auto args = std::make_shared<CacheArguments>();
-    Command& ls = app.subcommand("ls", "List them, the last used first: size, duration, steps, model");
+    Command& ls =
+        app.subcommand("ls", "List the trajectories, the most recently used first: size, duration, steps, model");
     add_quiet(ls, args->common);
     ls.bind(args, list);
-    Command& all = app.subcommand("clear", "Remove them all");
+    Command& all = app.subcommand("clear", "Remove all trajectories");
     add_quiet(all, args->common);
     all.bind(args, clear);
 }

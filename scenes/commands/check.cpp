@@ -1,3 +1,4 @@
+// `beamcam check`: validation of scenes.
 #include <fmt/format.h>
 
 #include "output/files/standard_output.hpp"
@@ -19,7 +20,7 @@ int act(const CheckArguments& args) {
         const Reading reading = read_scene(load_source(path), args.common.overrides);
         output::print_message("{}", reading.report());
         if (reading.scene)
-            say(args.common, fmt::format("{}: fine", path));
+            inform(args.common, fmt::format("{}: fine", path));
         else
             fine = false;
     }
@@ -30,10 +31,10 @@ int act(const CheckArguments& args) {
 
 void add_check(Grammar& grammar) {
     auto args = std::make_shared<CheckArguments>();
-    Command& app = grammar.command("check", "Validate scenes: every issue at once, with its place and remedy");
-    app.positional("SCENE", &args->scenes, "Scenes, JSON files; - is standard input").required();
-    add_set(app, args->common);
-    add_quiet(app, args->common);
+    Command& app =
+        grammar.command("check", "Validate scenes: print all errors and warnings with line, column and remedy");
+    app.examples = {"check fall.json"};
+    add_scenes(app, args->scenes, args->common);
     app.bind(args, act);
 }
 

@@ -1,3 +1,4 @@
+// The only file that sees CLI11.
 #include "scenes/commands/cli.hpp"
 
 #include <fmt/format.h>
@@ -32,36 +33,60 @@
 namespace beamcam::scenes {
 namespace {
 
-// An unknown command is named before the parser guesses.
-void refuse_unknown_command(int argc, const char* const* argv, const Grammar& grammar) {
+// Before the parser takes an unknown command for something else.
+void reject_unknown_command(int argc, const char* const* argv, const Grammar& grammar) {
     if (argc < 2 || argv[1][0] == '-') return;
     const std::string word = argv[1];
     std::vector<std::string> known;
     for (const Command& command : grammar.commands) known.push_back(command.name);
     if (std::find(known.begin(), known.end(), word) != known.end()) return;
     if (word.ends_with(".json"))
-        throw UsageError(fmt::format("no command before the scene; write beamcam run {}", word));
+        throw UsageError(fmt::format("there is no command before the scene; write beamcam run {}", word));
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));
 }
 
-std::string exit_code_words() {
-    constexpr std::size_t kColumns = 100;
-    std::string text = "Exit codes:";
-    std::size_t line = 0;  // where it begins
-    for (const auto& [code, meaning] : kExitCodes) {
-        const std::string word = fmt::format("{} {},", int(code), meaning);
-        const bool fits = text.size() - line + 1 + word.size() <= kColumns;
-        text += (fits ? " " : "\n") + word;
-        if (!fits) line = text.size() - word.size();
+constexpr std::size_t kHelpColumns = 100;  // of the help
+
+// The text with line breaks, so that its lines fit into `width` columns.
+std::string wrapped(std::string_view text, std::size_t width) {
+    std::string out;
+    std::size_t column = 0;
+    for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find(' ', at), text.size());
+        const std::string_view word = text.substr(at, end - at);
+        if (column > 0 && column + 1 + word.size() > width) {
+            out += '\n';
+            column = 0;
+        }
+        if (column > 0) out += ' ';
+        out += word;
+        column += word.size() + (column > 0 ? 1 : 0);
+        at = end + 1;
     }
-    text.back() = '.';
-    return text;
+    return out;
 }
 
-// A parsed command and its parser.
-using ParserOf = std::vector<std::pair<const CLI::App*, const Command*>>;
+std::string exit_code_text() {
+    std::string text = "Exit codes:";
+    for (const auto& [code, meaning] : kExitCodes) text += fmt::format(" {} {},", int(code), meaning);
+    text.back() = '.';
+    return wrapped(text, kHelpColumns);
+}
 
-void add_parameter(CLI::App& app, const Parameter& parameter) {
+class HelpFormatter final : public CLI::Formatter {
+  public:
+    std::string make_option_desc(const CLI::Option* option) const override {
+        return wrapped(option->get_description(), kHelpColumns - get_column_width());
+    }
+};
+
+// The parsers of commands, and the options whose help is looked up only when it is printed.
+struct Parsers {
+    std::vector<std::pair<const CLI::App*, const Command*>> commands;
+    std::vector<std::pair<CLI::Option*, const Parameter*>> key_options;
+};
+
+void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) {
     CLI::Option* option = std::visit(
         [&](auto* target) {
             if constexpr (std::is_same_v<decltype(target), bool*>)
@@ -71,50 +96,60 @@ void add_parameter(CLI::App& app, const Parameter& parameter) {
         },
         parameter.target);
     option->required(parameter.is_required);
-    if (!parameter.choices.empty()) option->check(CLI::IsMember(parameter.choices));
+    if (!parameter.key.empty()) parsers.key_options.emplace_back(option, &parameter);
+    if (!parameter.choices.empty()) option->check(CLI::IsMember(parameter.choices).description(""));
+    if (!parameter.choices.empty()) option->description(help_of(parameter));
     if (parameter.limits) {
         const auto [low, high] = *parameter.limits;
         const bool whole = std::holds_alternative<int*>(parameter.target);
-        option->check(whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : CLI::Range(low, high));
+        option->check((whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : CLI::Range(low, high))
+                          .description(""));
+        option->description(fmt::format("{} ({:g} to {:.10g})", parameter.meaning, low, high));
     }
     if (parameter.is_positive) option->check(CLI::PositiveNumber);
     if (parameter.separator != 0) option->delimiter(parameter.separator);
-    if (parameter.names.starts_with('-') && !parameter.takes_several) option->allow_extra_args(false);
+    if (parameter.is_option() && !parameter.takes_several) option->allow_extra_args(false);
 }
 
-void add_command(CLI::App& parent, const Command& command, ParserOf& parsers) {
+void add_command(CLI::App& parent, const Command& command, Parsers& parsers) {
     CLI::App* app = parent.add_subcommand(command.name, command.summary);
-    if (!command.footer.empty()) app->footer(command.footer);  // else the program's own
+    std::string footer = command.examples.empty() ? "" : "Examples:\n";
+    for (const std::string& example : command.examples) footer += fmt::format("  beamcam {}\n", example);
+    if (!command.footer.empty()) footer += fmt::format("{}{}\n", footer.empty() ? "" : "\n", command.footer);
+    if (!footer.empty()) app->footer(fmt::format("{}\n{}", footer, exit_code_text()));  // else that of the program
     if (!command.subcommands.empty()) app->require_subcommand(1);
-    for (const Parameter& parameter : command.parameters) add_parameter(*app, parameter);
+    for (const Parameter& parameter : command.parameters) add_parameter(*app, parameter, parsers);
     for (const Command& subcommand : command.subcommands) add_command(*app, subcommand, parsers);
-    if (command.action) parsers.emplace_back(app, &command);
+    if (command.action) parsers.commands.emplace_back(app, &command);
 }
 
 int parse_and_run(int argc, const char* const* argv) {
     Grammar grammar;
     for (const auto add : kCommands) add(grammar);
-    refuse_unknown_command(argc, argv, grammar);
+    reject_unknown_command(argc, argv, grammar);
 
     CLI::App app(Grammar::kSummary, "beamcam");
-    app.set_version_flag("--version", fmt::format("beamcam {}", kVersion));
+    app.formatter(std::make_shared<HelpFormatter>());
+    app.set_version_flag("--version", fmt::format("beamcam {}", kVersion), "Print the version");
+    app.set_help_flag("-h,--help", "Print this help");
     app.require_subcommand(1);
-    app.footer(exit_code_words());
-    ParserOf parsers;
+    app.footer(exit_code_text());
+    Parsers parsers;
     for (const Command& command : grammar.commands) add_command(app, command, parsers);
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
+        for (const auto& [option, parameter] : parsers.key_options) option->description(help_of(*parameter));
         app.exit(success, std::cout, std::cerr);
         std::cout.flush();
         return kDone;
     } catch (const CLI::ParseError& error) {
         std::string name;
-        for (const auto& [parser, command] : parsers)
+        for (const auto& [parser, command] : parsers.commands)
             if (parser->parsed()) name = " " + command->name;
         throw UsageError(fmt::format("{} (see beamcam{} --help)", error.what(), name));
     }
-    for (const auto& [parser, command] : parsers)
+    for (const auto& [parser, command] : parsers.commands)
         if (parser->parsed()) return command->action();
     return kDone;
 }
@@ -124,7 +159,7 @@ int fail(int code, const std::string& text) {
     return code;
 }
 
-// Where memory is short, most other causes are its consequences.
+// If memory is short, most other errors are consequences.
 int fail_or_blame_memory(int code, const std::string& text) {
     if (!render::memory_is_short()) return fail(code, text);
     return fail(kInputOutput, fmt::format("{}\nbeamcam: {}", text, render::out_of_memory_message()));

@@ -1,3 +1,4 @@
+// `beamcam collect`: parts of a sweep joined.
 #include <fmt/format.h>
 
 #include "output/data/manifest.hpp"
@@ -16,7 +17,7 @@ struct CollectArguments {
 };
 
 int act(const CollectArguments& args) {
-    need_ending("-o", args.file, {".nc", ".csv", ".npz"});
+    require_ending("-o", args.file, {".nc", ".csv", ".npz"});
     if (args.file == "-") throw UsageError("-o -: name a file that ends in .nc, .csv or .npz");
     output::Manifest manifest(args.common.force);
     manifest.require_replaceable(args.file);
@@ -25,7 +26,8 @@ int act(const CollectArguments& args) {
     output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), to_json(all.scene)};
     output::write_sweep(manifest.target(args.file, std::move(origin)), all.data);
     manifest.save();
-    say(args.common, fmt::format("wrote {} ({} points of {} parts)", args.file, all.data.points(), args.parts.size()));
+    inform(args.common,
+           fmt::format("wrote {} ({} points of {} parts)", args.file, all.data.points(), args.parts.size()));
     return 0;
 }
 
@@ -33,10 +35,11 @@ int act(const CollectArguments& args) {
 
 void add_collect(Grammar& grammar) {
     auto args = std::make_shared<CollectArguments>();
-    Command& app = grammar.command("collect", "Join the parts of a sweep (sweep --shard)");
-    app.positional("PART", &args->parts, "The parts, .nc, in any order").required();
+    Command& app = grammar.command("collect", "Join the parts of a sweep, made with `sweep --shard`");
+    app.examples = {"collect sweep.*of8.nc -o sweep.nc"};
+    app.positional("PART", &args->parts, "The parts, .nc files, in any order").required();
     app.option("-o,--output", &args->file, "FILE", "Table to make: .nc, .csv or .npz").required();
-    app.flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    add_force(app, args->common);
     add_quiet(app, args->common);
     app.bind(args, act);
 }

@@ -1,5 +1,5 @@
-// What the commands share: their common options, how scenes are read for them, and how they refuse.
-// Each command is one file of this folder: `add_NAME` puts its grammar into the program and binds its action.
+// The commands and what they share: common options, reading of scenes, checks of arguments. Each command is one file of
+// this folder: `add_NAME` adds its grammar to the program and binds its action.
 #pragma once
 
 #include <initializer_list>
@@ -66,37 +66,47 @@ struct Common {
     bool dry_run = false, json = false;
 };
 
-void add_set(Command& app, Common& common);                        // --set
-void add_quiet(Command& app, Common& common);                      // -q
-void add_scene(Command& app, std::string& scene, Common& common);  // SCENE, --set, -q
-void add_work(Command& app, Common& common);                       // -v -j --progress --force --no-cache -n --json
+void add_set(Command& app, Common& common);                                       // --set
+void add_quiet(Command& app, Common& common);                                     // -q
+void add_scene(Command& app, std::string& scene, Common& common);                 // SCENE, --set, -q
+void add_scenes(Command& app, std::vector<std::string>& scenes, Common& common);  // SCENE..., --set, -q
+void add_jobs(Command& app, Common& common, const char* what);                    // -j
+void add_progress(Command& app, Common& common);                                  // --progress
+void add_json(Command& app, Common& common);                                      // --json
+void add_force(Command& app, Common& common);                                     // --force
+void add_column(Command& app, std::string& column);                               // --column
+void add_lang(Command& app, std::string& lang);                                   // --lang
+void add_work(Command& app, Common& common);  // -v -j --progress --force --no-cache -n --json
 void add_shard(Command& app, std::optional<std::string>& shard);
 Selection shard_argument(const std::string& text);  // "2/3"; throws UsageError
 
-// ---- what they do alike -------------------------------------------------------------------------
+// ---- steps that several commands share ----------------------------------------------------------
 
 // A message on standard error, unless -q.
-void say(const Common& common, const std::string& text);
+void inform(const Common& common, const std::string& text);
 using output::print_data;
 using output::print_json;
 using output::print_text;
 // Throws SceneError with every issue of the scene; warnings go to standard error.
-Scene read_or_refuse(const std::string& path, const Common& common);
-// The scene with the film that one without outputs yields.
+Scene load_scene(const std::string& path, const Common& common);
+// The scene with the film that a scene without outputs yields.
 Scene with_default_output(Scene scene);
-// What new films of a scene look like: its first film, sequence or still, else the default film.
-VideoOutput film_to_imitate(const Scene& scene);
+// The look of new films of a scene: its first film, sequence or still picture, else the default film.
+VideoOutput film_template(const Scene& scene);
 RunOptions run_options(const Common& common, std::string directory);
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans
 
-// The value of an option with a unit or without; throws UsageError.
+// The value of an option, with a unit or as a plain number in SI units; throws UsageError.
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension);
 // The same, not negative.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
 double seconds_argument(const char* option, const std::string& text);
+Lang lang_named(const std::string* name);        // null: English
 std::string ending_of(const std::string& file);  // ".png"
 // Throws UsageError unless `file` is "-" or ends in one of these.
-void need_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
+void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
+inline constexpr std::initializer_list<const char*> kCaptionEndings{".txt", ".md", ".tex"};
+void replace_all(std::string& text, std::string_view from, std::string_view to);
 
 }  // namespace beamcam::scenes

@@ -1,3 +1,4 @@
+// What the commands share.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,17 +9,20 @@
 #include "output/files/errors.hpp"
 #include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
+#include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
+
 void add_set(Command& app, Common& common) {
-    app.option("--set", &common.overrides, "KEY=VALUE",
-               "Change the scene: key.path=value, a JSON value or a plain word (repeatable)");
+    app.option(
+        "--set", &common.overrides, "KEY=VALUE",
+        "Change a key of the scene, for example --set cam.speed=300rpm: a JSON value or a plain word (repeatable)");
 }
-void add_quiet(Command& app, Common& common) { app.flag("-q,--quiet", common.quiet, "No messages but errors"); }
+void add_quiet(Command& app, Common& common) { app.flag("-q,--quiet", common.quiet, "Print errors only"); }
 
 void add_scene(Command& app, std::string& scene, Common& common) {
     app.positional("SCENE", &scene, "The scene, a JSON file; - is standard input").required();
@@ -26,22 +30,46 @@ void add_scene(Command& app, std::string& scene, Common& common) {
     add_quiet(app, common);
 }
 
-void add_work(Command& app, Common& common) {
-    app.flag("-v,--verbose", common.verbose, "Tell where the time went, and count the work");
-    app.option("-j,--jobs", &common.threads, "N", "Threads that draw, at most (default: one for each core)")
-        .range(1, 1024);
-    app.option("--progress", &common.progress, "STYLE", "Progress on standard error: auto, bar, plain, json or none");
-    app.flag("--force", common.force, "Replace files that beamcam did not make, and make anew what is there already");
-    app.flag("--no-cache", common.no_cache, "Neither read nor keep trajectories (beamcam cache --help)");
-    app.flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
-    app.flag("--json", common.json, "With -n: the plan as JSON");
+void add_scenes(Command& app, std::vector<std::string>& scenes, Common& common) {
+    app.positional("SCENE", &scenes, "Scenes, JSON files; - is standard input").required();
+    add_set(app, common);
+    add_quiet(app, common);
 }
 
-void say(const Common& common, const std::string& text) {
+void add_jobs(Command& app, Common& common, const char* what) {
+    app.option("-j,--jobs", &common.threads, "N", fmt::format("{} (default: one for each core)", what)).range(1, 1024);
+}
+void add_progress(Command& app, Common& common) {
+    app.option("--progress", &common.progress, "STYLE", "Progress on standard error: auto, bar, plain, json or none");
+}
+void add_json(Command& app, Common& common) { app.flag("--json", common.json, "Print JSON"); }
+void add_force(Command& app, Common& common) {
+    app.flag("--force", common.force, "Replace existing files, even those that beamcam did not make");
+}
+void add_column(Command& app, std::string& column) {
+    app.option("--column", &column, "COLUMN", "Column of a journal: sets width and font size of the figure")
+        .one_of(render::figure::column_names());
+}
+void add_lang(Command& app, std::string& lang) {
+    app.option("--lang", &lang, "LANG", "Language of the figure").one_of({"en", "zh"});
+}
+
+void add_work(Command& app, Common& common) {
+    app.flag("-v,--verbose", common.verbose, "Print where the time was spent, and counts of the work");
+    add_jobs(app, common, "Largest number of threads that draw");
+    add_progress(app, common);
+    app.flag("--force", common.force,
+             "Replace existing files, even those that beamcam did not make, and make files again that are up to date");
+    app.flag("--no-cache", common.no_cache, "Neither read nor store trajectories (see beamcam cache --help)");
+    app.flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
+    app.flag("--json", common.json, "With -n: print the plan as JSON");
+}
+
+void inform(const Common& common, const std::string& text) {
     if (!common.quiet) output::print_message("{}\n", text);
 }
 
-Scene read_or_refuse(const std::string& path, const Common& common) {
+Scene load_scene(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) output::print_message("{}", reading.report());
@@ -50,8 +78,8 @@ Scene read_or_refuse(const std::string& path, const Common& common) {
 
 void add_shard(Command& app, std::optional<std::string>& shard) {
     app.option("--shard", &shard, "I/N",
-               "The I-th of N parts of every film and sequence, with the pixels of the whole: 2/3 makes "
-               "NAME.2of3.mp4. Other outputs belong to the first");
+               "Make part I of N of every film and sequence, with the pixels of the whole: 2/3 writes NAME.2of3.mp4. "
+               "Part 1 makes the other outputs");
 }
 
 Selection shard_argument(const std::string& text) {
@@ -71,12 +99,12 @@ Scene with_default_output(Scene scene) {
     return scene;
 }
 
-VideoOutput film_to_imitate(const Scene& scene) {
+VideoOutput film_template(const Scene& scene) {
     VideoOutput film = default_film(scene);
     for (const Output& output : scene.outputs) {
         if (const auto* video = std::get_if<VideoOutput>(&output)) {
             film = *video;
-            film.span.poster.reset();  // what is asked for is made, nothing beside it
+            film.span.poster.reset();  // one file only
             return film;
         }
         if (const auto* frames = std::get_if<FramesOutput>(&output)) {
@@ -109,12 +137,12 @@ RunOptions run_options(const Common& common, std::string directory) {
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json) {
     std::string text;
     for (const Scene& scene : scenes) {
-        const Plan made = plan_for(scene, options);
+        const Plan planned = plan_for(scene, options);
         if (json) {
-            text += (text.empty() ? "" : ",\n") + to_json(made, scene);
+            text += (text.empty() ? "" : ",\n") + to_json(planned, scene);
         } else {
             if (scenes.size() > 1) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", scene.name);
-            text += to_text(made, scene);
+            text += to_text(planned, scene);
         }
     }
     if (json)
@@ -135,7 +163,7 @@ double signed_argument(const std::string& option, const std::string& text, const
     if (!read.quantity) throw UsageError(fmt::format("{} {}: {}", option, text, read.problem));
     const bool plain = same(read.quantity->dimension, dimension::kNone) && text.find('%') == std::string::npos;
     if (!plain && !same(read.quantity->dimension, dimension))
-        throw UsageError(fmt::format("{} {}: it is measured in {}", option, text, si_unit(dimension)));
+        throw UsageError(fmt::format("{} {}: its unit is {}", option, text, si_unit(dimension)));
     return read.quantity->value;
 }
 
@@ -149,11 +177,18 @@ double seconds_argument(const char* option, const std::string& text) {
     return quantity_argument(option, text, dimension::kTime);
 }
 
+Lang lang_named(const std::string* name) { return name && *name == "zh" ? Lang::zh : Lang::en; }
+
 std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
 
-void need_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
+void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
     if (file == "-" || std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end()) return;
     throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
 }
 
 }  // namespace beamcam::scenes

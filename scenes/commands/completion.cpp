@@ -1,3 +1,4 @@
+// `beamcam completion`: completion scripts for shells, made from the grammar.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -21,12 +22,12 @@ struct CompletionArguments {
     const Grammar* grammar = nullptr;
 };
 
-// What may stand for a placeholder of the help.
+// The words that complete a value.
 struct Completion {
     Names words;
     bool files = false;
     bool in_list = false;  // several words with commas between them
-    bool open = false;     // more follows without a blank
+    bool open = false;     // the word goes on without a blank
 };
 
 Names channel_names() {
@@ -46,27 +47,27 @@ Names key_names() {
 }
 
 Completion completion_of(const Parameter& parameter) {
-    const std::string& what = parameter.value.empty() ? parameter.names : parameter.value;
+    const std::string& placeholder = parameter.value.empty() ? parameter.names : parameter.value;
     Completion out;
-    out.words = parameter.choices;
-    if (what == "CHANNEL,...") {
+    out.words = words_of(parameter);
+    if (placeholder == "CHANNEL,...") {
         out.words = channel_names();
         out.in_list = true;
-    } else if (what == "KEY=VALUE") {
+    } else if (placeholder == "KEY=VALUE") {
         out.words = key_names();
         out.open = true;
-    } else if (what == "FIGURE") {
+    } else if (placeholder == "FIGURE") {
         out.words = recipe_names();
-    } else if (what == "EXAMPLE") {
+    } else if (placeholder == "EXAMPLE") {
         for (const EmbeddedScene& scene : embedded_scenes()) out.words.emplace_back(scene.name);
     }
-    constexpr std::string_view kFiles[] = {"FILE", "DIR", "SCENE", "OTHERS", "BASELINES", "SEGMENT", "A", "B"};
-    out.files = out.words.empty() && std::ranges::find(kFiles, what) != std::end(kFiles);
+    constexpr std::string_view kFiles[] = {"FILE",   "DIR",  "SCENE", "OTHERS", "BASELINES", "SEGMENT",
+                                           "REPORT", "FILM", "PART",  "A",      "B"};
+    out.files = out.words.empty() && std::ranges::find(kFiles, placeholder) != std::end(kFiles);
     return out;
 }
 
-bool is_option(const Parameter& parameter) { return parameter.names.starts_with('-'); }
-bool takes_value(const Parameter& parameter) { return is_option(parameter) && !parameter.value.empty(); }
+bool takes_value(const Parameter& parameter) { return parameter.is_option() && !parameter.value.empty(); }
 
 // "-o,--output" as two words.
 Names spellings(const Parameter& parameter) {
@@ -97,8 +98,8 @@ std::string bash_command(const Command& command) {
     std::string values, positional;
     for (const Parameter& parameter : command.parameters) {
         const Completion completion = completion_of(parameter);
-        if (!is_option(parameter)) {
-            // Candidates of all arguments are offered together: after `figure`, files and names of figures.
+        if (!parameter.is_option()) {
+            // The candidates of all arguments are offered together: after `figure`, files and names of figures.
             if (completion.files || !completion.words.empty())
                 positional += fmt::format("            {}\n", bash_words(completion));
             continue;
@@ -119,7 +120,7 @@ std::string bash_command(const Command& command) {
 std::string bash_script(const Grammar& grammar) {
     std::string commands;
     for (const Command& command : grammar.commands) commands += bash_command(command);
-    return fmt::format(R"(# bash completion of beamcam, made by `beamcam completion bash`
+    return fmt::format(R"(# bash completion of beamcam, printed by `beamcam completion bash`
 _beamcam_words() {{ mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -W "$1" -- "$cur"); }}
 _beamcam_open() {{ compopt -o nospace 2>/dev/null; _beamcam_words "$1"; }}
 _beamcam_files() {{ compopt -o filenames 2>/dev/null; mapfile -t -O "${{#COMPREPLY[@]}}" COMPREPLY < <(compgen -f -- "$cur"); }}
@@ -169,8 +170,8 @@ std::string zsh_values(const Completion& c) {
 std::string zsh_command(const Command& command) {
     std::string lines;
     for (const Parameter& parameter : command.parameters) {
-        const std::string meaning = quoted_for_zsh(parameter.meaning), values = zsh_values(completion_of(parameter));
-        if (!is_option(parameter)) {
+        const std::string meaning = quoted_for_zsh(help_of(parameter)), values = zsh_values(completion_of(parameter));
+        if (!parameter.is_option()) {
             lines += fmt::format(" \\\n                '*:{}:{}'", parameter.names, values);
             continue;
         }
@@ -190,7 +191,7 @@ std::string zsh_script(const Grammar& grammar) {
         names += fmt::format("        '{}:{}'\n", command.name, quoted_for_zsh(command.summary));
     }
     return fmt::format(R"(#compdef beamcam
-# zsh completion of beamcam, made by `beamcam completion zsh`
+# zsh completion of beamcam, printed by `beamcam completion zsh`
 _beamcam() {{
     local -a commands
     commands=(
@@ -223,12 +224,12 @@ std::string quoted_for_fish(const std::string& text) {
 std::string fish_parameter(const Command& command, const Parameter& parameter) {
     const Completion completion = completion_of(parameter);
     std::string line = fmt::format("complete -c beamcam -n '__fish_seen_subcommand_from {}'", command.name);
-    if (is_option(parameter)) {
+    if (parameter.is_option()) {
         for (const std::string& spelling : spellings(parameter))
             line += spelling.starts_with("--") ? fmt::format(" -l {}", spelling.substr(2))
                                                : fmt::format(" -s {}", spelling.substr(1));
         if (takes_value(parameter)) line += completion.files ? " -r -F" : " -x";
-        line += fmt::format(" -d {}", quoted_for_fish(parameter.meaning));
+        line += fmt::format(" -d {}", quoted_for_fish(help_of(parameter)));
     } else if (completion.files) {
         line += " -F";
     } else if (completion.words.empty()) {
@@ -239,7 +240,7 @@ std::string fish_parameter(const Command& command, const Parameter& parameter) {
 }
 
 std::string fish_script(const Grammar& grammar) {
-    std::string text = "# fish completion of beamcam, made by `beamcam completion fish`\ncomplete -c beamcam -f\n";
+    std::string text = "# fish completion of beamcam, printed by `beamcam completion fish`\ncomplete -c beamcam -f\n";
     for (const Command& command : grammar.commands) {
         text += fmt::format("complete -c beamcam -n __fish_use_subcommand -a {} -d {}\n", command.name,
                             quoted_for_fish(command.summary));
@@ -263,8 +264,9 @@ int act(const CompletionArguments& args) {
 void add_completion(Grammar& grammar) {
     auto args = std::make_shared<CompletionArguments>();
     args->grammar = &grammar;
-    Command& app = grammar.command("completion", "Print the completion of a shell: bash, zsh or fish");
-    app.positional("SHELL", &args->shell, "Which").required().one_of({"bash", "zsh", "fish"});
+    Command& app = grammar.command("completion", "Print the completion script for a shell");
+    app.examples = {"completion bash > ~/.local/share/bash-completion/completions/beamcam"};
+    app.positional("SHELL", &args->shell, "The shell").required().one_of({"bash", "zsh", "fish"});
     app.bind(args, act);
 }
 

@@ -1,3 +1,4 @@
+// `beamcam concat`: segments of a film joined without encoding them again.
 #include <fmt/format.h>
 
 #include "output/data/manifest.hpp"
@@ -14,13 +15,14 @@ struct ConcatArguments {
 };
 
 int act(const ConcatArguments& args) {
-    if (args.file == "-") throw UsageError("-o -: films go to files; name one that ends as the segments do");
+    if (args.file == "-") throw UsageError("-o -: films go to files; name one with the ending of the segments");
     const std::string ending = std::filesystem::path(args.file).extension().string();
-    need_ending("-o", args.file, {".mp4", ".mov", ".webm", ".mkv"});
+    require_ending("-o", args.file, {".mp4", ".mov", ".webm", ".mkv"});
     for (const std::string& segment : args.segments) {
         if (std::filesystem::path(segment).extension() != ending)
-            throw UsageError(fmt::format("-o {}: {} is another kind of film; segments and film have one ending",
-                                         args.file, segment));
+            throw UsageError(
+                fmt::format("-o {}: {} is another kind of film; the film and its segments must have the same ending",
+                            args.file, segment));
         std::error_code unreadable;
         if (std::filesystem::equivalent(segment, args.file, unreadable))
             throw UsageError(fmt::format("-o {}: it is one of the segments; name another file", args.file));
@@ -29,7 +31,7 @@ int act(const ConcatArguments& args) {
     manifest.require_replaceable(args.file);
     const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, manifest.target(args.file));
     manifest.save();
-    say(args.common, fmt::format("wrote {} ({} frames of {} segments)", args.file, frames, args.segments.size()));
+    inform(args.common, fmt::format("wrote {} ({} frames of {} segments)", args.file, frames, args.segments.size()));
     return 0;
 }
 
@@ -37,11 +39,14 @@ int act(const ConcatArguments& args) {
 
 void add_concat(Grammar& grammar) {
     auto args = std::make_shared<ConcatArguments>();
-    Command& app = grammar.command("concat", "Join segments of a film (--shard, --frames) without re-encoding");
-    app.positional("SEGMENT", &args->segments, "Films, in order").required();
-    app.option("-o,--output", &args->file, "FILE", "Film to make, with the segments' ending: .mp4, .mov, .webm or .mkv")
+    Command& app = grammar.command(
+        "concat", "Join segments of a film, made with --shard or --frames, without encoding them again");
+    app.examples = {"concat fall.1of2.mp4 fall.2of2.mp4 -o fall.mp4"};
+    app.positional("SEGMENT", &args->segments, "The segments, in order").required();
+    app.option("-o,--output", &args->file, "FILE",
+               "Film to make, with the ending of the segments: .mp4, .mov, .webm or .mkv")
         .required();
-    app.flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    add_force(app, args->common);
     add_quiet(app, args->common);
     app.bind(args, act);
 }

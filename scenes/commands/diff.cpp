@@ -1,3 +1,4 @@
+// `beamcam diff`: the difference of two pictures, sequences, films or tables.
 #include <fmt/format.h>
 
 #include <charconv>
@@ -26,17 +27,17 @@ struct DiffArguments {
     std::optional<double> tolerance, ssim;
 };
 
-bool is_table(const std::string& file) { return file.ends_with(".csv") || file.ends_with(".npz"); }
+bool is_csv_or_npz(const std::string& file) { return file.ends_with(".csv") || file.ends_with(".npz"); }
 
-// ---- the picture of the difference --------------------------------------------------------------
+// ---- difference pictures ------------------------------------------------------------------------
 
-// One file: of the picture that changed most. A sequence: of every picture that changed.
+// Writes one file, for the pair of pictures that differs most, or a sequence, for every pair that differs.
 class DifferencePictures {
   public:
     DifferencePictures(const DiffArguments& args) : args_(args), manifest_(args.common.force) {
         if (!args.picture) return;
         if (ending_of(*args.picture) != ".png")
-            throw UsageError(fmt::format("-o {}: the picture of the difference is a .png file", *args.picture));
+            throw UsageError(fmt::format("-o {}: the difference picture is a .png file", *args.picture));
         numbered_ = is_numbered(fs::path(*args.picture).filename().string());
         if (!numbered_) manifest_.require_replaceable(*args.picture);
     }
@@ -60,12 +61,12 @@ class DifferencePictures {
     };
 
     void write(const std::string& file, const output::Raster& a, const output::Raster& b) {
-        // What the tolerance lets pass is worth seeing too, when nothing else changed.
+        // If all differences are within the tolerance, the picture shows these.
         const int threshold = static_cast<int>(args_.tolerance.value_or(0));
         const bool beyond = output::difference(a, b, threshold).changed > 0;
         output::write_png(manifest_.target(file),
                           output::to_image(output::difference_picture(a, b, beyond ? threshold : 0)));
-        say(args_.common, fmt::format("wrote {}", file));
+        inform(args_.common, fmt::format("wrote {}", file));
     }
 
     const DiffArguments& args_;
@@ -78,7 +79,7 @@ class DifferencePictures {
 
 Comparison compare_pictures(const DiffArguments& args) {
     if (args.tolerance && (*args.tolerance < 0 || *args.tolerance > 255))
-        throw UsageError("--tolerance: of pictures it is a difference of colour, 0 … 255");
+        throw UsageError("--tolerance: of pictures it is a difference of a colour channel, 0 … 255");
     const int tolerance = static_cast<int>(args.tolerance.value_or(0));
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
     output::PictureSource a(args.a), b(args.b);
@@ -92,7 +93,7 @@ Comparison compare_pictures(const DiffArguments& args) {
         all.pictures_a += more_a ? 1 : 0;
         all.pictures_b += more_b ? 1 : 0;
         if (!more_a || !more_b) {
-            all.verdict = Verdict::different;  // the others are only counted
+            all.verdict = Verdict::different;  // further pictures are only counted
             continue;
         }
         PictureComparison found = compare(left, right, tolerance);
@@ -109,8 +110,8 @@ Comparison compare_pictures(const DiffArguments& args) {
 }
 
 Comparison compare_tables(const DiffArguments& args) {
-    if (args.picture) throw UsageError("-o draws how pictures differ; tables are compared in numbers");
-    if (args.ssim) throw UsageError("--ssim is for pictures; tables are compared in numbers");
+    if (args.picture) throw UsageError("-o is for pictures; tables are compared by their numbers");
+    if (args.ssim) throw UsageError("--ssim is for pictures; tables are compared by their numbers");
     if (args.tolerance && *args.tolerance < 0) throw UsageError("--tolerance must not be negative");
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
     all.table = output::difference(output::read_table(args.a), output::read_table(args.b));
@@ -121,10 +122,10 @@ Comparison compare_tables(const DiffArguments& args) {
 }
 
 int act(const DiffArguments& args) {
-    if (is_table(args.a) != is_table(args.b))
-        throw UsageError(fmt::format("{} and {} are of two kinds; compare pictures with pictures, tables with tables",
-                                     args.a, args.b));
-    const Comparison found = is_table(args.a) ? compare_tables(args) : compare_pictures(args);
+    if (is_csv_or_npz(args.a) != is_csv_or_npz(args.b))
+        throw UsageError(fmt::format(
+            "{} and {} are of different kinds; compare pictures with pictures, tables with tables", args.a, args.b));
+    const Comparison found = is_csv_or_npz(args.a) ? compare_tables(args) : compare_pictures(args);
     if (args.common.json)
         print_json(to_json(found));
     else if (!args.common.quiet)
@@ -137,17 +138,21 @@ int act(const DiffArguments& args) {
 void add_diff(Grammar& grammar) {
     auto args = std::make_shared<DiffArguments>();
     Command& app =
-        grammar.command("diff", "How two pictures, sequences, films or tables differ; ends with 7 if they do");
-    app.positional("A", &args->a, "PNG, directory or sequence (name-####.png), film; or .csv, .npz").required();
-    app.positional("B", &args->b, "What it is compared with").required();
+        grammar.command("diff", "Compare two pictures, sequences, films or tables; exit code 7 if they differ");
+    app.examples = {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"};
+    app.positional("A", &args->a, "PNG file, directory or sequence (name-####.png), film, .csv or .npz table")
+        .required();
+    app.positional("B", &args->b, "The same kind of file").required();
     app.option("-o,--output", &args->picture, "FILE",
-               "Picture of the difference, .png; with #### in its name one for each picture that changed");
+               "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");
     app.option("--tolerance", &args->tolerance, "X",
-               "Differences up to this are equivalent: of colour, 0 … 255; of tables, a share of a column's range");
-    app.option("--ssim", &args->ssim, "X", "Pictures at least so similar are equivalent (structural similarity, 0 … 1)")
+               "Differences up to this count as equivalent: of pictures, a difference of a colour channel, 0 … 255; of "
+               "tables, a share of a column's range");
+    app.option("--ssim", &args->ssim, "X",
+               "Pictures with at least this structural similarity (0 … 1) count as equivalent")
         .range(0, 1);
-    app.flag("--json", args->common.json, "As JSON");
-    app.flag("--force", args->common.force, "Replace a picture that beamcam did not make");
+    add_json(app, args->common);
+    add_force(app, args->common);
     add_quiet(app, args->common);
     app.bind(args, act);
 }

@@ -1,18 +1,127 @@
-#include <algorithm>
+// `beamcam doctor`: libraries, fonts and encoders of this machine.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
-#include "scenes/commands/cli.hpp"
+#include <algorithm>
+#include <sstream>
+
+#include "output/film/video_reader.hpp"
+#include "render/base/versions.hpp"
+#include "render/draw/fonts.hpp"
+#include "render/gl/lit.hpp"
+#include "scenes/commands/child.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/regression/provenance.hpp"
+#include "scenes/format/tree.hpp"
+#include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/fingerprint.hpp"
+#include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
+struct Check {
+    std::string group, part;
+    bool ok = true;
+    std::string found;   // version, name, or the error
+    std::string remedy;  // the package to install
+};
+
+// Adds a check whose result `find` returns; an exception is a failure.
+template <class Find>
+void examine(std::vector<Check>& checks, const char* group, const std::string& part, const std::string& remedy,
+             Find find) {
+    Check check{group, part, true, "", remedy};
+    try {
+        check.found = find();
+    } catch (const std::exception& error) {
+        check.ok = false;
+        check.found = error.what();
+    }
+    checks.push_back(std::move(check));
+}
+
+void examine_films(std::vector<Check>& checks) {
+    const std::string available = "available";
+    std::istringstream lines;  // the versions, then two lines for each encoder
+    examine(checks, "films", "FFmpeg",
+            "install the Debian packages libavcodec59, libavformat59, libswscale6 (or newer)", [&] {
+                lines.str(in_child([&] {
+                    const output::VideoCapabilities found = output::video_capabilities();
+                    std::string text = found.versions + "\n";
+                    for (const auto& [name, exists] : found.encoders)
+                        text += fmt::format("{}\n{}\n", name, exists ? available : "not in these libraries");
+                    return text;
+                }));
+                std::string versions;
+                std::getline(lines, versions);
+                return versions;
+            });
+    if (!checks.back().ok) return;
+    for (std::string name, state; std::getline(lines, name) && std::getline(lines, state);)
+        checks.push_back({"films", name + " encoder", state == available, state,
+                          "install the Debian package libavcodec59 or libavcodec-extra59 (or newer)"});
+}
+
+std::vector<Check> examine_machine() {
+    std::vector<Check> checks;
+    checks.push_back({"program", "beamcam", true, std::string(kVersion), ""});
+    checks.push_back({"program", "processor", true, processor_path(), ""});
+    checks.push_back({"program", "threads", true, std::to_string(thread_count(0)), ""});
+    for (const auto& [name, version] : render::library_versions())
+        checks.push_back({"pictures", name, true, version, ""});
+    for (const render::FontFile& font : render::font_files())
+        checks.push_back({"pictures", "font " + font.name, !font.path.empty(),
+                          font.path.empty() ? "not found" : font.path.string(),
+                          fmt::format("install the Debian package {}", font.package)});
+    if (const std::vector<std::string>& ignored = render::ignored_gl_settings(); !ignored.empty())
+        checks.push_back({"pictures", "ignored settings", true, fmt::format("{}", fmt::join(ignored, ", ")), ""});
+    examine(
+        checks, "pictures", "OpenGL",
+        "install the Debian package libosmesa6, or libegl1 where libosmesa6 does not exist; flat views need neither",
+        [] { return in_child([] { return render::make_lit_renderer(16, 16)->name(); }); });
+    for (const render::FontFile& font : render::font_files(render::Typefaces::print))
+        checks.push_back({"figures", "font " + font.name, !font.path.empty(),
+                          font.path.empty() ? "not found" : font.path.string(),
+                          fmt::format("install the Debian package {}", font.package)});
+    examine_films(checks);
+    examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
+    examine(checks, "fingerprint", "figures", "see the fonts of figures above",
+            [] { return figure_fingerprint().id(); });
+    examine(checks, "fingerprint", "lit", "see OpenGL above",
+            [] { return in_child([] { return lit_fingerprint().id(); }); });
+    return checks;
+}
+
+std::string checks_text(const std::vector<Check>& checks) {
+    std::string text, group;
+    for (const Check& check : checks) {
+        if (check.group != group) text += check.group + "\n";
+        group = check.group;
+        text += fmt::format("  {:<4} {:<28} {}\n", check.ok ? "ok" : "MISS", check.part, check.found);
+        if (!check.ok) text += fmt::format("       {:<28} → {}\n", "", check.remedy);
+    }
+    return text;
+}
+
+Node checks_node(const std::vector<Check>& checks) {
+    Node groups = object_node();
+    for (const Check& check : checks) {
+        Node one = object_node();
+        add(one, "ok", boolean_node(check.ok));
+        add(one, "found", text_node(check.found));
+        if (!check.ok) add(one, "remedy", text_node(check.remedy));
+        if (!groups.find(check.group)) add(groups, check.group, object_node());
+        add(groups.find(check.group)->value, check.part, std::move(one));
+    }
+    return groups;
+}
+
 int act(const Common& common) {
     const std::vector<Check> checks = examine_machine();
     if (common.json)
-        print_json(to_json(checks));
+        print_json(to_text(checks_node(checks)));
     else
-        print_text(to_text(checks));
+        print_text(checks_text(checks));
     return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.ok; }) ? kDone : kMissingPart;
 }
 
@@ -21,8 +130,9 @@ int act(const Common& common) {
 void add_doctor(Grammar& grammar) {
     auto args = std::make_shared<Common>();
     Command& app = grammar.command(
-        "doctor", "What this machine has for pictures and films, and which package brings what is missing (then 5)");
-    app.flag("--json", args->json, "As JSON");
+        "doctor",
+        "List libraries, fonts and encoders, and packages that contain missing ones; exit code 5 if any is missing");
+    add_json(app, *args);
     app.bind(args, act);
 }
 

@@ -1,5 +1,5 @@
-// The grammar of the command line as data: every command lists its options here once. The parser reads the lists
-// (cli.cpp, the only file that sees CLI11).
+// The grammar of the command line as data: each command lists its options once. The parser (cli.cpp, the only file that
+// includes CLI11), the completion and the manual page are made from these lists.
 #pragma once
 
 #include <deque>
@@ -13,7 +13,7 @@
 
 namespace beamcam::scenes {
 
-// Where a value goes. A vector collects repeated values; a bool becomes true.
+// Where the parser stores a value. A vector collects repeated values; a bool becomes true.
 using Target = std::variant<bool*, int*, double*, std::optional<double>*, std::string*, std::optional<std::string>*,
                             std::vector<std::string>*>;
 
@@ -21,24 +21,28 @@ using Target = std::variant<bool*, int*, double*, std::optional<double>*, std::s
 struct Parameter {
     std::string names;  // "-o,--output"; a positional argument: "SCENE"
     Target target;
-    std::string value;  // placeholder of an option's value in the help: "FILE"
-    std::string meaning;
-    std::vector<std::string> choices;  // the allowed values; none: any
+    std::string value;                 // placeholder of an option's value in the help: "FILE"
+    std::string meaning;               // help text; of an option that sets a key of an output, empty: see help_of
+    std::string output_type, key;      // the option sets this key of outputs of this type: "video", "view.style"
+    std::vector<std::string> choices;  // the allowed values; empty: any
     std::optional<std::pair<double, double>> limits;
-    char separator = 0;  // of several values in one word
+    char separator = 0;  // between several values in one word
     bool is_required = false, is_positive = false, takes_several = false;
 
     Parameter& required() { return is_required = true, *this; }
     Parameter& positive() { return is_positive = true, *this; }
-    // One occurrence of the option takes all the words that follow.
+    // One occurrence of the option takes all words that follow it.
     Parameter& several() { return takes_several = true, *this; }
     Parameter& separated_by(char c) { return separator = c, *this; }
     Parameter& one_of(std::vector<std::string> values) { return choices = std::move(values), *this; }
     Parameter& range(double low, double high) { return limits.emplace(low, high), *this; }
+    bool is_option() const { return names.starts_with('-'); }
 };
 
 struct Command {
-    std::string name, summary, footer;
+    std::string name, summary;
+    std::vector<std::string> examples;  // arguments after "beamcam", one command line each
+    std::string footer;                 // notes after the options
     std::deque<Parameter> parameters;
     std::deque<Command> subcommands;  // one of them is required if there are any
     std::function<int()> action;      // returns the exit code
@@ -47,9 +51,9 @@ struct Command {
     void flag(std::string names, bool& target, std::string meaning);
     Parameter& option(std::string names, Target target, std::string value, std::string meaning);
     Parameter& positional(std::string name, Target target, std::string meaning);
-    Command& subcommand(std::string command, std::string what);
+    Command& subcommand(std::string command, std::string text);
 
-    // `arguments` lives as long as the grammar; `act` takes it.
+    // `arguments` lives as long as the grammar; `act` receives it.
     template <class Arguments>
     void bind(std::shared_ptr<Arguments> arguments, int (*act)(const Arguments&)) {
         action = [arguments, act] { return act(*arguments); };
@@ -58,11 +62,17 @@ struct Command {
 
 struct Grammar {
     static constexpr const char* kSummary =
-        "Films a mechanism: JSON scenes of a flexible beam and a turning cam in; films, stills and data out.";
+        "Simulates a flexible beam that strikes a turning cam and films it: JSON scenes in; films, stills, figures and "
+        "data out.";
 
     std::deque<Command> commands;  // in the order of --help
 
     Command& command(std::string name, std::string summary);
 };
+
+// The help text of a parameter: its own, or the meaning of the key that it sets, with the key's unit and words.
+std::string help_of(const Parameter& parameter);
+// The words that a parameter accepts; empty: other values, too.
+std::vector<std::string> words_of(const Parameter& parameter);
 
 }  // namespace beamcam::scenes

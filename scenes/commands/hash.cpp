@@ -1,3 +1,4 @@
+// `beamcam hash`: digests of decoded pixels.
 #include <fmt/format.h>
 
 #include <optional>
@@ -20,7 +21,7 @@ struct HashArguments {
 
 void print_line(const std::string& digest, const std::string& name) { print_text(digest + "  " + name + "\n"); }
 
-// Each picture is a file of its own: they are decoded side by side and told in their order.
+// Separate files are decoded in parallel; their digests are printed in order.
 void hash_files(const std::vector<std::filesystem::path>& files, int threads) {
     Gate gate;
     auto make_worker = [&]() -> Worker {
@@ -50,7 +51,7 @@ void hash_in_order(output::PictureSource& source, const std::string& file, bool 
 
 int act(const HashArguments& args) {
     const int threads = thread_count(args.common.threads);
-    std::vector<std::filesystem::path> stills;  // named one after the other, not hashed yet
+    std::vector<std::filesystem::path> stills;  // not hashed yet
     auto hash_stills = [&] {
         hash_files(stills, threads);
         stills.clear();
@@ -72,14 +73,15 @@ int act(const HashArguments& args) {
 
 void add_hash(Grammar& grammar) {
     auto args = std::make_shared<HashArguments>();
-    Command& app = grammar.command("hash", "SHA-256 of the decoded pixels of pictures and films");
-    app.positional("FILE", &args->files, "PNG files, directories or sequences (name-####.png) of them, films")
-        .required();
-    app.flag("--whole", args->whole, "One digest a FILE, over all its pictures, instead of one a picture");
-    app.option("-j,--jobs", &args->common.threads, "N", "Threads that decode PNG files (default: one for each core)")
-        .range(1, 1024);
+    Command& app = grammar.command("hash", "Print the SHA-256 digests of the decoded pixels of pictures and films");
+    app.examples = {"hash fall.png", "hash fall.mp4 --whole"};
+    app.positional("FILE", &args->files, "PNG files, directories or sequences (name-####.png), films").required();
+    app.flag("--whole", args->whole,
+             "Print one digest for each FILE, over all its pictures, instead of one for each picture");
+    add_jobs(app, args->common, "Largest number of threads that decode PNG files");
     app.footer =
-        "The digests are of R, G, B, A bytes, 8 bits each, row by row; for a picture FFmpeg prints the same with\n"
+        "The digest is taken over R, G, B, A bytes of 8 bits, row by row. FFmpeg prints the same digest of a picture "
+        "with\n"
         "  ffmpeg -i FILE -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba \\\n"
         "         -f framehash -hash sha256 -\n"
         "and for --whole with -f hash -hash sha256.";

@@ -1,12 +1,192 @@
+// `beamcam info`: the provenance of a file, from its metadata or from the manifest beside it.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
+#include <map>
+
+#include "output/data/manifest.hpp"
+#include "output/data/table_reader.hpp"
 #include "output/files/errors.hpp"
-#include "scenes/commands/cli.hpp"
+#include "output/files/text_safety.hpp"
+#include "output/film/video_reader.hpp"
+#include "output/image/document_metadata.hpp"
+#include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/regression/provenance.hpp"
+#include "scenes/format/tree.hpp"
 
 namespace beamcam::scenes {
 namespace {
+
+namespace fs = std::filesystem;
+
+struct Provenance {
+    std::string file, kind;                    // "PNG picture", "film", "SVG figure", "PDF figure", "table", "record"
+    std::map<std::string, std::string> facts;  // size, frames, codec …
+    std::string version, title, accuracy;
+    std::string scene;  // JSON text; empty: the file contains none
+    bool made_by_beamcam() const { return !version.empty() || !scene.empty(); }
+};
+
+// ---- reading ---------------------------------------------------------------------------------------
+
+// Of a key in any case: containers change the case.
+std::string find(const std::map<std::string, std::string>& metadata, std::string_view key) {
+    for (const auto& [name, value] : metadata)
+        if (name.size() == key.size() && std::equal(name.begin(), name.end(), key.begin(), [](char a, char b) {
+                return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+            }))
+            return value;
+    return {};
+}
+
+// "beamcam 0.1.0" → "0.1.0".
+std::string version_in(const std::string& text) {
+    const std::size_t at = text.find("beamcam ");
+    return at == std::string::npos ? std::string() : text.substr(at + 8);
+}
+
+void read_own_keys(const std::map<std::string, std::string>& metadata, Provenance& p) {
+    p.scene = find(metadata, "beamcam-scene");
+    p.accuracy = find(metadata, "beamcam-accuracy");
+    p.title = find(metadata, "title");
+    p.version = find(metadata, "beamcam-version");
+    for (const char* key : {"software", "comment", "creator"})
+        if (p.version.empty()) p.version = version_in(find(metadata, key));
+}
+
+void read_document(const output::DocumentMetadata& document, Provenance& p) {
+    p.title = document.title;
+    p.version = version_in(document.creator);
+    if (document.scene.starts_with("{")) p.scene = document.scene;
+    if (!document.subject.empty()) p.facts["subject"] = document.subject;
+}
+
+void read_png_info(const std::string& file, Provenance& p) {
+    p.kind = "PNG picture";
+    const output::PngInfo info = output::read_png_info(file);
+    p.facts["size"] = fmt::format("{}x{}", info.width, info.height);
+    read_own_keys(info.metadata, p);
+}
+
+void read_manifest(const std::string& file, Provenance& p);
+
+void read_film(const std::string& file, Provenance& p) {
+    const output::VideoReader film(file);
+    const output::VideoInfo& info = film.info();
+    p.kind = info.is_still() ? "picture" : "film";
+    p.facts["size"] = fmt::format("{}x{}", info.width, info.height);
+    p.facts["codec"] = info.codec;
+    if (info.frames > 0) p.facts["frames"] = std::to_string(info.frames);
+    if (info.seconds > 0) p.facts["duration"] = fmt::format("{:.6g} s", info.seconds);
+    read_own_keys(info.metadata, p);
+    if (!p.made_by_beamcam()) read_manifest(file, p);  // formats without metadata, such as GIF
+}
+
+// Tables contain only numbers; the manifest beside them describes them.
+void read_manifest(const std::string& file, Provenance& p) {
+    const auto record = output::Manifest::find(file);
+    if (!record) return;
+    p.version = record->origin.version;
+    p.scene = record->origin.scene;
+    p.facts["changed since"] = record->unchanged ? "no" : "yes";
+}
+
+void read_table(const std::string& file, Provenance& p) {
+    p.kind = "table";
+    const output::NamedTable table = output::read_table(file);
+    p.facts["rows"] = std::to_string(table.rows());
+    p.facts["columns"] = std::to_string(table.names.size());
+    read_manifest(file, p);
+}
+
+std::string lower_ending(const std::string& file) {
+    std::string ending = fs::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
+Provenance provenance_of(const std::string& file) {
+    std::error_code error;
+    if (fs::is_directory(file, error)) throw output::IoError(fmt::format("{} is a directory; name a file in it", file));
+    if (!fs::exists(file, error)) throw output::read_error(file, ENOENT);
+    Provenance p;
+    p.file = file;
+    const std::string ending = lower_ending(file);
+    if (output::png_kind(file) != output::PngKind::none && ending != ".apng") {
+        read_png_info(file, p);
+    } else if (ending == ".svg") {
+        p.kind = "SVG figure";
+        read_document(output::read_svg_metadata(file), p);
+    } else if (ending == ".pdf") {
+        p.kind = "PDF figure";
+        read_document(output::read_pdf_metadata(file), p);
+    } else if (ending == ".eps" || ending == ".tif" || ending == ".tiff") {
+        p.kind = ending == ".eps" ? "EPS figure" : "TIFF figure";
+        read_manifest(file, p);
+    } else if (ending == ".webp") {  // FFmpeg does not read animated ones
+        p.kind = "film";
+        read_manifest(file, p);
+    } else if (ending == ".csv" || ending == ".npz") {
+        read_table(file, p);
+    } else if (ending == ".json") {
+        p.kind = "record";
+        read_manifest(file, p);
+    } else {
+        read_film(file, p);
+    }
+    return p;
+}
+
+std::string provenance_text(const Provenance& p) {
+    std::string text = fmt::format("{}: {}\n", output::one_line(p.file), p.kind);
+    auto line = [&](std::string_view key, std::string_view value) {
+        if (!value.empty()) text += fmt::format("  {:<14} {}\n", key, output::one_line(value));
+    };
+    for (const auto& [key, value] : p.facts) line(key, value);
+    line("title", p.title);
+    if (!p.made_by_beamcam()) {
+        line("made by", "not by beamcam, or the metadata is lost");
+        return text;
+    }
+    line("made by", "beamcam " + p.version);
+    line("accuracy", p.accuracy);
+    line("scene", p.scene.empty() ? "none" : "--scene prints it");
+    return text;
+}
+
+// The scene with outputs in the current folder, so that it can be run where it is; empty: it is not JSON.
+std::string runnable_scene(const std::string& scene) {
+    Parsed parsed = parse(scene);
+    if (!parsed.is_json || parsed.root.kind != Node::Kind::object) return {};
+    if (Member* outputs = parsed.root.find("outputs"))
+        for (Node& output : outputs->value.items) {
+            Member* file = output.find("file");
+            if (!file || file->value.kind != Node::Kind::string) continue;
+            if (file->value.text == "-")
+                remove(output, "file");
+            else
+                file->value.text.erase(0, file->value.text.rfind('/') + 1);  // npos + 1 is 0
+        }
+    return to_text(parsed.root);
+}
+
+Node provenance_node(const Provenance& p) {
+    Node out = object_node();
+    add(out, "file", text_node(p.file));
+    add(out, "kind", text_node(p.kind));
+    for (const auto& [key, value] : p.facts) add(out, key, text_node(value));
+    add(out, "made_by_beamcam", boolean_node(p.made_by_beamcam()));
+    for (const auto& [key, value] :
+         {std::pair{"version", &p.version}, std::pair{"accuracy", &p.accuracy}, std::pair{"title", &p.title}})
+        if (!value->empty()) add(out, key, text_node(*value));
+    if (p.scene.empty()) return out;
+    Parsed scene = parse(p.scene);
+    add(out, "scene", scene.is_json ? std::move(scene.root) : text_node(p.scene));
+    return out;
+}
 
 struct InfoArguments {
     Common common;
@@ -20,17 +200,15 @@ int act(const InfoArguments& args) {
         const Provenance found = provenance_of(file);
         if (!args.scene) {
             if (args.common.json)
-                print_json(to_json(found));
+                print_json(to_text(provenance_node(found)));
             else
-                print_text(to_text(found));
+                print_text(provenance_text(found));
             continue;
         }
         const std::string scene = runnable_scene(found.scene);
         if (scene.empty())
             throw output::IoError(fmt::format(
-                "{} carries no scene: beamcam did not make it, or something that handled it since dropped what "
-                "it said of itself",
-                file));
+                "{} contains no scene: beamcam did not make it, or another program removed its metadata", file));
         print_json(scene);
     }
     return kDone;
@@ -40,10 +218,12 @@ int act(const InfoArguments& args) {
 
 void add_info(Grammar& grammar) {
     auto args = std::make_shared<InfoArguments>();
-    Command& app = grammar.command("info", "Where a picture, film, figure or table came from");
+    Command& app = grammar.command("info", "Print the provenance of a picture, film, figure or table");
+    app.examples = {"info fall.mp4", "info fall.mp4 --scene > fall.json"};
     app.positional("FILE", &args->files, "Files that beamcam made").required();
-    app.flag("--scene", args->scene, "Print the scene out of it: `beamcam run` makes the same from that");
-    app.flag("--json", args->common.json, "As JSON");
+    app.flag("--scene", args->scene,
+             "Print the scene that the file was made from; `beamcam run` makes the same file from it");
+    add_json(app, args->common);
     app.bind(args, act);
 }
 

@@ -1,3 +1,4 @@
+// `beamcam init`, `examples` and `schema`: scenes to start from.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -28,11 +29,6 @@ const EmbeddedScene& example_named(const std::string& name) {
     throw UsageError(fmt::format("no example is named {}{}", in_quotes(name), suggestion_or_list(name, known)));
 }
 
-void replace_all(std::string& text, const std::string& what, const std::string& by) {
-    for (std::size_t at = text.find(what); at != std::string::npos; at = text.find(what, at + by.size()))
-        text.replace(at, what.size(), by);
-}
-
 int act(const InitArguments& args) {
     const EmbeddedScene& example = example_named(args.from);
     const std::string own = std::filesystem::path(example.name).filename().string();
@@ -44,16 +40,16 @@ int act(const InitArguments& args) {
         return 0;
     }
     const std::filesystem::path path(name.ends_with(".json") ? name : name + ".json");
-    // Files that are named like the example are named like the new scene.
+    // Outputs named after the example get the name of the new scene.
     replace_all(text, fmt::format("\"{}.", own), fmt::format("\"{}.", path.stem().string()));
     std::error_code ignored;
     if (std::filesystem::exists(std::filesystem::symlink_status(path, ignored)) && !args.common.force)
         throw output::WouldOverwrite(
             fmt::format("{} exists; choose another name, or replace it with --force", path.string()));
     output::write_file(path, text);
-    say(args.common, fmt::format("wrote {}; `beamcam run {}` makes its outputs, `beamcam schema > "
-                                 "beamcam-scene.schema.json` lets an editor complete its keys",
-                                 path.string(), path.string()));
+    inform(args.common, fmt::format("wrote {}; `beamcam run {}` makes its outputs, `beamcam schema > "
+                                    "beamcam-scene.schema.json` lets an editor complete its keys",
+                                    path.string(), path.string()));
     return 0;
 }
 
@@ -80,23 +76,26 @@ int print_schema(const SchemaArguments& args) {
 
 void add_init(Grammar& grammar) {
     auto args = std::make_shared<InitArguments>();
-    Command& app = grammar.command("init", "Write a commented scene to start from");
-    app.positional("NAME", &args->name, "Its name (default: scene, or that of the example); - is standard output");
-    app.option("--from", &args->from, "EXAMPLE", "Copy this shipped scene; `beamcam examples` lists them");
+    Command& app = grammar.command("init", "Write a scene with comments to start from");
+    app.examples = {"init fall", "init slow --from slow-motion"};
+    app.positional("NAME", &args->name,
+                   "Name of the new file (default: scene, or the name of the example); - is standard output");
+    app.option("--from", &args->from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");
     app.flag("--force", args->common.force, "Replace an existing file");
     add_quiet(app, args->common);
     app.bind(args, act);
 }
 
 void add_examples(Grammar& grammar) {
-    Command& app = grammar.command("examples", "List the scenes that come with beamcam, for `beamcam init --from`");
+    Command& app = grammar.command("examples", "List the examples that `beamcam init --from` copies");
     app.bind(std::make_shared<Common>(), list_examples);
 }
 
 void add_schema(Grammar& grammar) {
     Command& app = grammar.command("schema", "Print the JSON Schema of scenes, for editors");
+    app.examples = {"schema > beamcam-scene.schema.json"};
     auto args = std::make_shared<SchemaArguments>();
-    app.flag("--baselines", args->baselines, "That of the baselines of `beamcam test`");
+    app.flag("--baselines", args->baselines, "Print the schema of the baselines of `beamcam test` instead");
     app.bind(args, print_schema);
 }
 

@@ -1,3 +1,4 @@
+// `beamcam keys`: the reference of scene keys.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,7 +22,7 @@ std::string lowered(std::string text) {
     return text;
 }
 
-// Whether the words of the pattern, in this order, are in the text; '*' stands for anything, as blanks do.
+// Whether the text contains the words of the pattern in this order; words are separated by blanks or '*'.
 bool matches(const std::string& text, const std::string& pattern) {
     std::size_t at = 0;
     for (std::size_t begin = 0; begin < pattern.size();) {
@@ -94,7 +95,7 @@ int act(const KeysArguments& args) {
     if (rows.empty()) {
         std::vector<std::string> names;
         for (const KeyRow& row : key_rows()) names.push_back(row.path);
-        throw UsageError(fmt::format("no key is named like {}{}", args.pattern, suggestion(args.pattern, names)));
+        throw UsageError(fmt::format("no key matches {}{}", args.pattern, suggestion(args.pattern, names)));
     }
     print_data(text_of(rows));
     return 0;
@@ -105,9 +106,11 @@ int act(const KeysArguments& args) {
 void add_keys(Grammar& grammar) {
     auto args = std::make_shared<KeysArguments>();
     Command& app = grammar.command("keys", "Explain the keys of scenes: type, unit, range, default, meaning");
-    app.positional("PATTERN", &args->pattern, "Only keys with this in their path or meaning; * stands for anything");
-    app.flag("--json", args->json, "As JSON");
-    app.flag("--markdown", args->markdown, "All of them, as scenes/FORMAT.md");
+    app.examples = {"keys damping", "keys 'contact*'"};
+    app.positional("PATTERN", &args->pattern,
+                   "Only keys with this text in their path or meaning; * stands for any text");
+    app.flag("--json", args->json, "Print JSON");
+    app.flag("--markdown", args->markdown, "Print all keys as Markdown (scenes/FORMAT.md)");
     app.bind(args, act);
 }
 

@@ -1,3 +1,4 @@
+// `beamcam lyapunov`: the Lyapunov exponents of a motion.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +7,7 @@
 
 #include "output/data/orbit_records.hpp"
 #include "output/files/interrupt.hpp"
-#include "scenes/commands/answer_files.hpp"
+#include "scenes/commands/result_files.hpp"
 #include "scenes/figures/exponents.hpp"
 #include "scenes/motions/progress.hpp"
 
@@ -16,7 +17,7 @@ namespace {
 struct LyapunovArguments {
     Common common;
     std::string scene;
-    AnswerFiles files;
+    ResultFiles files;
     std::optional<std::string> transient, duration;
     int count = 0, blocks = 20;
 };
@@ -24,18 +25,19 @@ struct LyapunovArguments {
 const char* verdict(sim::Chaos chaos) {
     switch (chaos) {
         case sim::Chaos::shown:
-            return "the largest exponent is positive beyond its error: the motion is chaotic\n";
+            return "the motion is chaotic: the largest exponent exceeds its error\n";
         case sim::Chaos::doubtful:
-            return "whether the motion is chaotic is doubtful: the largest exponent is positive beyond its error only "
-                   "by what near-grazing impacts add to it\n";
+            return "it is doubtful whether the motion is chaotic: without the contribution of near-grazing impacts the "
+                   "largest exponent does not exceed its error\n";
         case sim::Chaos::not_shown:
-            return "no chaos is shown: the largest exponent is not positive beyond its error, differences grow by less "
-                   "than e³ in the later half, or the motion had not settled\n";
+            return "no chaos is shown: the largest exponent does not exceed its error, differences grow by less than "
+                   "e³ "
+                   "in the second half, or the motion had not settled\n";
     }
     return "";
 }
 
-std::string report(const sim::Exponents& e) {
+std::string exponents_text(const sim::Exponents& e) {
     std::string text = fmt::format("Lyapunov exponents over {:g} s after {:g} s; {} impacts, {} near grazing\n",
                                    e.duration, e.transient, e.impacts, e.near_grazing);
     double sum = 0;
@@ -50,7 +52,7 @@ std::string report(const sim::Exponents& e) {
 }
 
 int act(const LyapunovArguments& args) {
-    const Scene scene = read_or_refuse(args.scene, args.common);
+    const Scene scene = load_scene(args.scene, args.common);
     if (const auto refusal = sim::tangent_refusal(scene.problem)) throw UsageError(*refusal);
     sim::ExponentsRequest request;
     request.count = args.count;
@@ -59,7 +61,7 @@ int act(const LyapunovArguments& args) {
     request.duration = args.duration ? seconds_argument("--duration", *args.duration) : 100;
     if (!(request.duration > 0)) throw UsageError("--duration must be positive");
     output::Manifest manifest(args.common.force);
-    need_room("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
+    require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
     const auto reached = [&](double t) {
         progress.reach(t);
@@ -69,19 +71,16 @@ int act(const LyapunovArguments& args) {
     sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, reached);
     progress.end();
     if (found.chaos() != sim::Chaos::not_shown) {
-        progress.begin("does it last", request.transient + 2 * request.duration, "s");
+        progress.begin("confirming", request.transient + 2 * request.duration, "s");
         sim::confirm_chaos(scene.problem, request, found, reached);
         progress.end();
     }
-    const auto content = [&](const std::string& file) {
-        if (file == "-" || file.ends_with(".json")) return output::exponents_json(found);
-        return args.files.drawn(exponents_figure(found, scene.problem, args.files.lang()), scene, file);
-    };
-    write_answer({[&] { return output::exponents_json(found); }, [&] { return report(found); }, content}, args.files,
-                 args.common, manifest);
+    write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
+                  [&] { return exponents_figure(found, scene.problem, args.files.lang()); }},
+                 args.files, scene, args.common, manifest);
     if (std::cmp_greater(args.count, found.lambda.size()))
-        say(args.common, fmt::format("note: there are {} exponents, no {}", found.lambda.size(), args.count));
-    for (const std::string& warning : found.warnings) say(args.common, "warning: " + warning);
+        inform(args.common, fmt::format("note: there are {} exponents, not {}", found.lambda.size(), args.count));
+    for (const std::string& warning : found.warnings) inform(args.common, "warning: " + warning);
     return 0;
 }
 
@@ -89,16 +88,18 @@ int act(const LyapunovArguments& args) {
 
 void add_lyapunov(Grammar& grammar) {
     auto args = std::make_shared<LyapunovArguments>();
-    Command& app = grammar.command("lyapunov", "Lyapunov exponents of a motion: is it chaotic?");
+    Command& app = grammar.command("lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos");
+    app.examples = {"lyapunov chaos.json --transient 200 --duration '300 s' -o convergence.pdf"};
     add_scene(app, args->scene, args->common);
-    app.option("-o,--output", &args->files.names, "FILE",
-               "Also as .json, or their convergence as .png, .svg or .pdf (repeatable)");
-    app.option("--count", &args->count, "K", "Only the K largest (default: the whole spectrum)").range(1, 82);
+    add_result_options(app, args->files, args->common,
+                       "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");
+    app.option("--count", &args->count, "K", "Compute the K largest only (default: all)").range(1, 82);
     app.option("--transient", &args->transient, "T",
-               "Left out at the start: turns of the cam, as 200, or a time, as \"30 s\" (default: 20 s)");
-    app.option("--duration", &args->duration, "T", "Averaged over (default: 100 s)");
-    app.option("--blocks", &args->blocks, "N", "Blocks whose spread gives the error (default: 20)").range(2, 1000);
-    add_answer_files(app, args->files, args->common);
+               "Time left out at the start: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
+    app.option("--duration", &args->duration, "T", "Averaging time (default: 100 s)");
+    app.option("--blocks", &args->blocks, "N",
+               "Number of blocks of that time; their scatter gives the error (default: 20)")
+        .range(2, 1000);
     app.bind(args, act);
 }
 

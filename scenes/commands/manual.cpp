@@ -1,3 +1,4 @@
+// `beamcam manual`: the manual page, made from the grammar.
 #include <fmt/format.h>
 
 #include <string>
@@ -12,7 +13,7 @@ struct ManualArguments {
     const Grammar* grammar = nullptr;
 };
 
-// Text for troff: backslashes and hyphens as they are, no line that begins like a request.
+// Text for troff: literal backslashes and hyphens, no line that begins like a request.
 std::string escaped_for_roff(const std::string& text) {
     std::string out;
     for (const char c : text) {
@@ -29,18 +30,16 @@ std::string escaped_for_roff(const std::string& text) {
 }
 
 std::string parameter_entry(const Parameter& p) {
-    std::string head = p.names.starts_with('-') ? fmt::format("\\fB{}\\fR", escaped_for_roff(p.names))
-                                                : fmt::format("\\fI{}\\fR", escaped_for_roff(p.names));
+    std::string head = fmt::format("\\f{}{}\\fR", p.is_option() ? 'B' : 'I', escaped_for_roff(p.names));
     if (!p.value.empty()) head += fmt::format(" \\fI{}\\fR", escaped_for_roff(p.value));
-    std::string words;
-    for (const std::string& choice : p.choices) words += fmt::format("{}{}", words.empty() ? "" : ", ", choice);
-    if (!words.empty()) words = fmt::format("\n({})", escaped_for_roff(words));
-    return fmt::format(".TP\n{}\n{}{}\n", head, escaped_for_roff(p.meaning), words);
+    return fmt::format(".TP\n{}\n{}\n", head, escaped_for_roff(help_of(p)));
 }
 
 std::string command_section(const std::string& name, const Command& command) {
     std::string text = fmt::format(".SS beamcam {}\n{}\n", escaped_for_roff(name), escaped_for_roff(command.summary));
     for (const Parameter& parameter : command.parameters) text += parameter_entry(parameter);
+    for (const std::string& example : command.examples)
+        text += fmt::format(".PP\n.RS\nbeamcam {}\n.RE\n", escaped_for_roff(example));
     if (!command.footer.empty()) text += fmt::format(".PP\n{}\n", escaped_for_roff(command.footer));
     for (const Command& subcommand : command.subcommands)
         text += command_section(fmt::format("{} {}", name, subcommand.name), subcommand);
@@ -49,13 +48,13 @@ std::string command_section(const std::string& name, const Command& command) {
 
 constexpr const char* kEnvironment = R"(.TP
 \fBBEAMCAM_CACHE_DIR\fR, \fBBEAMCAM_CACHE_SIZE\fR
-Folder of the kept trajectories, and its limit in MiB (1024)
+Directory of the stored trajectories, and its largest size in MiB (1024)
 .TP
 \fBBEAMCAM_GL\fR
-osmesa or egl: how lit and solid views get their OpenGL (default: the first that works)
+OpenGL of lit and solid views: osmesa or egl (default: the first that works)
 .TP
 \fBBEAMCAM_FONT_DIR\fR, \fBBEAMCAM_MODULE_DIR\fR
-Where fonts and modules are looked for instead of the places of the system
+Directories that are searched for fonts and modules instead of those of the system
 )";
 
 constexpr const char* kExamples = R"(.nf
@@ -69,7 +68,7 @@ beamcam simulate fall.json \-\-trajectory motion.csv \-\-summary \-
 
 int act(const ManualArguments& args) {
     std::string text = fmt::format(".TH BEAMCAM 1 \"\" \"beamcam {}\" \"User Commands\"\n", kVersion);
-    text += ".SH NAME\nbeamcam \\- films a flexible beam that falls on a turning cam\n";
+    text += ".SH NAME\nbeamcam \\- simulates and films a flexible beam that strikes a turning cam\n";
     text += ".SH SYNOPSIS\n\\fBbeamcam\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n";
     text += fmt::format(".SH DESCRIPTION\n{}\nEvery key of a scene is explained by \\fBbeamcam keys\\fR.\n",
                         escaped_for_roff(Grammar::kSummary));
@@ -87,7 +86,7 @@ int act(const ManualArguments& args) {
 void add_manual(Grammar& grammar) {
     auto args = std::make_shared<ManualArguments>();
     args->grammar = &grammar;
-    grammar.command("manual", "Print the manual page (for man -l -)").bind(args, act);
+    grammar.command("manual", "Print the manual page, for `man -l -`").bind(args, act);
 }
 
 }  // namespace beamcam::scenes

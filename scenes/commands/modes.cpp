@@ -1,3 +1,4 @@
+// `beamcam modes`: natural frequencies.
 #include "sim/beam/modes.hpp"
 
 #include <fmt/format.h>
@@ -19,23 +20,16 @@ struct ModesArguments {
 };
 
 int act(const ModesArguments& args) {
-    const Scene scene = read_or_refuse(args.scene, args.common);
+    const Scene scene = load_scene(args.scene, args.common);
     std::optional<double> speed;
-    if (args.speed) {
-        const QuantityText read = parse_quantity(*args.speed);
-        if (!read.quantity) throw UsageError(fmt::format("--speed {}: {}", *args.speed, read.problem));
-        const bool plain = same(read.quantity->dimension, dimension::kNone);
-        if (!plain && !same(read.quantity->dimension, dimension::kAngularSpeed))
-            throw UsageError(fmt::format("--speed {}: it is measured in rad/s", *args.speed));
-        speed = read.quantity->value;
-    }
+    if (args.speed) speed = signed_argument("--speed", *args.speed, dimension::kAngularSpeed);
     const std::vector<sim::Mode> modes = sim::natural_modes(scene.problem, speed);
     if (args.common.json) {
         print_json(output::modes_json(modes));
         return 0;
     }
     if (modes.empty()) {
-        say(args.common, "a rigid beam has no bending modes");
+        inform(args.common, "a rigid beam has no bending modes");
         return 0;
     }
     std::string text = fmt::format("{:>4}  {:>20}  {:>20}\n", "mode", "omega [rad/s]", "f [Hz]");
@@ -54,12 +48,13 @@ int act(const ModesArguments& args) {
 
 void add_modes(Grammar& grammar) {
     auto args = std::make_shared<ModesArguments>();
-    Command& app = grammar.command("modes", "Natural frequencies of beam and hub, at rest or turning");
+    Command& app =
+        grammar.command("modes", "Print the natural frequencies of the beam on its hub, at rest or rotating");
+    app.examples = {"modes fall.json", "modes fall.json --speed 300rpm --json"};
     add_scene(app, args->scene, args->common);
-    app.option(
-        "--speed", &args->speed, "RAD_S",
-        "The beam turns at this speed, clamped to a hub held at it, for example 300rpm; without it the hub is free");
-    app.flag("--json", args->common.json, "As JSON, with mass-normalized shapes");
+    app.option("--speed", &args->speed, "RAD_S",
+               "Clamp the beam to a hub that rotates at this speed, for example 300rpm (default: a free hub at rest)");
+    app.flag("--json", args->common.json, "Print JSON, with mass-normalized mode shapes");
     app.bind(args, act);
 }
 

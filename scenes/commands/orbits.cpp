@@ -1,4 +1,4 @@
-// Periodic orbits of a scene and their branches over one of its keys: the search, the continuation, the files.
+// `beamcam orbits`: periodic orbits of a scene, and their branches over one of its keys.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -9,8 +9,8 @@
 #include "output/data/orbit_records.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
-#include "scenes/commands/answer_files.hpp"
-#include "scenes/commands/orbit_words.hpp"
+#include "scenes/commands/orbit_text.hpp"
+#include "scenes/commands/result_files.hpp"
 #include "scenes/figures/branches.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/units.hpp"
@@ -27,7 +27,7 @@ namespace {
 struct OrbitsArguments {
     Common common;
     std::string scene;
-    AnswerFiles files;
+    ResultFiles files;
     std::optional<std::string> transient, over, at, scene_file, sweep_file;
     int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000, row = 0;
     double step = 0.01;
@@ -86,13 +86,7 @@ void need_narrow(const KeyRange& range, double start) {
 
 bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || is_table(file); }
 
-std::string content(const output::BranchTable& table, const SweptImpacts& swept, const OrbitsArguments& args,
-                    const Scene& scene, const std::string& file) {
-    if (file == "-" || file.ends_with(".json")) return output::orbits_json(table);
-    return args.files.drawn(branches_figure(table, swept, scene.problem, args.files.lang()), scene, file);
-}
-
-// Of a NetCDF file.
+// Attributes of a NetCDF file.
 std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scene) {
     return {{"Conventions", "CF-1.8"},
             {"source", fmt::format("beamcam {}", kVersion)},
@@ -101,16 +95,16 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scen
             {"beamcam_program", program_identity()}};
 }
 
-// The first that rests on the cam for a while, or that does not.
+// The first orbit with a phase of rest on the cam, or the first without.
 const sim::PeriodicOrbit* first_of(const std::vector<sim::PeriodicOrbit>& orbits, bool resting) {
     for (const sim::PeriodicOrbit& orbit : orbits)
         if (orbit.chatters() == resting) return &orbit;
     return nullptr;
 }
 
-// Where the start has no orbit to continue, another value of the range may have.
-void begin_elsewhere(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
-                     sim::OrbitRequest request, const sim::Progress& progress) {
+// Searches at other values of the range if there is no orbit to continue at the start.
+void search_elsewhere(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
+                      sim::OrbitRequest request, const sim::Progress& progress) {
     request.transient = 0;
     for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
         const double value = range.from + share * (range.to - range.from);
@@ -122,7 +116,7 @@ void begin_elsewhere(output::BranchTable& table, const ProblemFamily& family, co
     }
 }
 
-// Of the first orbit without rest on the cam, and of the first with it.
+// Follows the first orbit without a phase of rest on the cam, and the first with one.
 void follow_branches(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
                      const sim::OrbitRequest& request, const OrbitsArguments& args, const sim::Progress& progress) {
     const sim::ContinuationRequest how{range.from, range.to, args.step, args.most_points, args.doublings};
@@ -134,16 +128,16 @@ void follow_branches(output::BranchTable& table, const ProblemFamily& family, co
     };
     const double start = table.start;
     const std::vector<sim::PeriodicOrbit> found = table.orbits;
-    if (!first_of(found, false)) begin_elsewhere(table, family, range, request, progress);
+    if (!first_of(found, false)) search_elsewhere(table, family, range, request, progress);
     follow(table.start, first_of(table.orbits, false));
     follow(start, first_of(found, true));
 }
 
-// The scene that moves on the orbit, with one film: the second period, whose first picture follows on its last. It
-// looks like the scene's own film and lasts as long, at least three seconds.
+// The scene that begins on the orbit, with one film of the second period, which loops. The film looks like the scene's
+// own and lasts as long, but at least three seconds.
 Scene scene_on(const Scene& scene, const sim::PeriodicOrbit& orbit, const sim::Problem& begun, std::string name) {
     constexpr double kShortest = 3;  // [s]
-    VideoOutput film = film_to_imitate(scene);
+    VideoOutput film = film_template(scene);
     const FrameSpan before = film.span;
     film.span = {.fps = before.fps};
     film.span.from = orbit.period;
@@ -161,7 +155,7 @@ Scene scene_on(const Scene& scene, const sim::PeriodicOrbit& orbit, const sim::P
     return out;
 }
 
-// False where the beam never leaves the cam: a scene begins in flight.
+// False if the beam never leaves the cam: a scene must begin in flight.
 bool write_scene(const OrbitsArguments& args, const Scene& scene, const std::vector<sim::PeriodicOrbit>& orbits,
                  output::Manifest& manifest) {
     for (const sim::PeriodicOrbit& orbit : orbits)
@@ -169,34 +163,34 @@ bool write_scene(const OrbitsArguments& args, const Scene& scene, const std::vec
             const Scene on = scene_on(scene, orbit, *begun, std::filesystem::path(*args.scene_file).stem().string());
             output::write_file(manifest.target(*args.scene_file), to_json(on));
             manifest.save();
-            say(args.common, "wrote " + *args.scene_file);
+            inform(args.common, "wrote " + *args.scene_file);
             return true;
         }
     if (!orbits.empty())
-        say(args.common, fmt::format("{} is not written: on these orbits the beam never leaves the cam; film "
-                                     "the scene itself, after its transient",
-                                     *args.scene_file));
+        inform(args.common, fmt::format("{} is not written: on these orbits the beam never leaves the cam; film "
+                                        "the scene itself, after its transient",
+                                        *args.scene_file));
     return false;
 }
 
-void refuse_idle_options(const OrbitsArguments& args) {
+void reject_unused_options(const OrbitsArguments& args) {
     for (const std::string& file : args.files.names)
         if (!args.over && !is_data_file(file))
             throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
     if (!args.over && (args.at || args.doublings > 0))
-        throw UsageError("--at and --doublings belong to branches: give --over KEY=FROM:TO");
-    if (args.row > 0 && !args.sweep_file) throw UsageError("--row: give the table by --sweep");
+        throw UsageError("--at and --doublings belong to branches; add --over KEY=FROM:TO");
+    if (args.row > 0 && !args.sweep_file) throw UsageError("--row: name the table with --sweep");
     if (args.sweep_file && !args.over && args.row == 0)
         throw UsageError(
-            "--sweep: the points of a sweep stand beneath branches (give --over), or begin a search (give --row)");
+            "--sweep: the points of a sweep are drawn with branches (add --over), or begin a search (add --row)");
 }
 
-// Before any work, whatever cannot be written is refused.
-void need_files(const OrbitsArguments& args, output::Manifest& manifest) {
-    need_room("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, manifest);
+// Before any work.
+void require_writable_files(const OrbitsArguments& args, output::Manifest& manifest) {
+    require_writable("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, manifest);
     if (args.scene_file) {
-        if (*args.scene_file == "-") throw UsageError("--scene -: give a file; films are named after it");
-        need_room("--scene", {*args.scene_file}, {".json"}, manifest);
+        if (*args.scene_file == "-") throw UsageError("--scene -: name a file; the film is named after it");
+        require_writable("--scene", {*args.scene_file}, {".json"}, manifest);
     }
 }
 
@@ -209,13 +203,13 @@ sim::OrbitRequest request_of(const OrbitsArguments& args, const sim::Problem& pr
     return request;
 }
 
-// The scene's orbits; with a range, those of the value where it begins, and their branches.
+// The orbits of the scene; with a range, the orbits at its start value and their branches.
 output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range) {
     std::optional<ProblemFamily> family;
     output::BranchTable table;
     if (range) {
         family.emplace(problem, range->key.path);
-        for (const double end : {range->from, range->to}) family->at(end);  // an impossible end is refused
+        for (const double end : {range->from, range->to}) family->at(end);  // throws if the end is impossible
         table = {range->key.path, si_unit(range->key.dimension), start_value(args, *range), {}, {}};
         need_narrow(*range, table.start);
         problem = family->at(table.start);
@@ -232,30 +226,31 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
 }
 
 int act(const OrbitsArguments& args) {
-    // 1. What is asked for.
-    Scene scene = read_or_refuse(args.scene, args.common);
+    // 1. The request.
+    Scene scene = load_scene(args.scene, args.common);
     if (args.row > 0 && args.sweep_file) scene.problem = problem_at_row(scene.problem, *args.sweep_file, args.row);
     std::optional<KeyRange> range;
     if (args.over) range = range_argument(*args.over, scene.problem);
-    refuse_idle_options(args);
+    reject_unused_options(args);
     output::Manifest manifest(args.common.force);
-    need_files(args, manifest);
+    require_writable_files(args, manifest);
     SweptImpacts swept;
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
 
     // 2. The orbits and their branches.
     const output::BranchTable table = compute(args, scene.problem, range);
 
-    // 3. The answer and its files.
-    write_answer({[&] { return output::orbits_json(table); }, [&] { return orbits_in_words(table); },
-                  [&](const std::string& file) { return content(table, swept, args, scene, file); },
+    // 3. The result and its files.
+    write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table); },
+                  [&] { return branches_figure(table, swept, scene.problem, args.files.lang()); },
                   [&] { return output::orbit_columns(table, attributes_of(scene)); }},
-                 args.files, args.common, manifest);
+                 args.files, scene, args.common, manifest);
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
     if (table.orbits.empty())
-        say(args.common, "no periodic orbit was found: try another initial state, --turns, --impacts or --transient");
+        inform(args.common,
+               "no periodic orbit was found; try another initial state, --turns, --impacts or --transient");
     else if (range && table.branches.empty())
-        say(args.common, "the orbits that were found could not be followed");
+        inform(args.common, "the orbits that were found could not be followed");
     return written ? kDone : kSolverFailed;
 }
 
@@ -263,37 +258,41 @@ int act(const OrbitsArguments& args) {
 
 void add_orbits(Grammar& grammar) {
     auto args = std::make_shared<OrbitsArguments>();
-    Command& app = grammar.command("orbits", "Periodic orbits, their stability, and their branches over a parameter");
+    Command& app =
+        grammar.command("orbits", "Find periodic orbits and their stability, and follow them over a parameter");
+    app.examples = {"orbits fast-cam.json --turns 1",
+                    "orbits fast-cam.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
     add_scene(app, args->scene, args->common);
-    app.option("-o,--output", &args->files.names, "FILE",
-               "Also as .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
+    add_result_options(app, args->files, args->common,
+                       "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf "
+                       "(repeatable)");
     app.option("--over", &args->over, "KEY=FROM:TO",
-               "Continue the orbit over this key of the scene, through folds, for example cam.speed=40:60, and one "
-               "beside it that rests on the cam for a part of its period");
+               "Follow the orbit over this key of the scene, also through folds, for example cam.speed=40:60; follow, "
+               "too, the first orbit that rests on the cam for a part of its period");
     app.option("--at", &args->at, "VALUE",
-               "Where in that range to begin, with a unit or without (default: the scene's own value, or the middle)");
-    app.option("--turns", &args->turns, "N", "Only orbits of this period in turns of the cam (default: the fewest)")
+               "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
+    app.option("--turns", &args->turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
         .range(1, 1000);
-    app.option("--most-turns", &args->most_turns, "N",
-               "Longest period that is tried where --turns names none (default: 8)")
+    app.option("--most-turns", &args->most_turns, "N", "Longest period to try without --turns (default: 8)")
         .range(1, 1000);
-    app.option("--impacts", &args->impacts, "M", "Only orbits of so many impacts").range(0, 100000);
+    app.option("--impacts", &args->impacts, "M", "Number of impacts of the orbit in a period (default: any)")
+        .range(0, 100000);
     app.option("--transient", &args->transient, "T",
-               "Left out before the search: turns of the cam, as 200, or a time, as \"30 s\" (default: 20 s)");
-    app.option("--doublings", &args->doublings, "K", "Branches on which period doublings are followed (default: 0)")
+               "Time left out before the search: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
+    app.option("--doublings", &args->doublings, "K", "Number of successive period doublings to follow (default: 0)")
         .range(0, 20);
-    app.option("--step", &args->step, "SHARE", "Longest step along a branch, of the range (default: 0.01)")
+    app.option("--step", &args->step, "SHARE", "Longest step along a branch, as a share of the range (default: 0.01)")
         .range(1e-6, 0.5);
-    app.option("--most-points", &args->most_points, "N", "Points of a branch in each direction (default: 2000)")
+    app.option("--most-points", &args->most_points, "N",
+               "Largest number of points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
     app.option("--sweep", &args->sweep_file, "FILE",
-               "Impacts of a sweep over the same key, .csv, .npz or .nc, beneath the branches of the diagram");
+               "Draw the impacts of a sweep over the same key (.csv, .npz or .nc) below the branches");
     app.option("--row", &args->row, "K",
-               "Begin in the state of row K of the table of --sweep, with the values of its swept keys")
+               "Start from row K of the table of --sweep: its state and the values of its swept keys")
         .range(1, 1000000000);
     app.option("--scene", &args->scene_file, "FILE.json",
-               "Also a scene that begins on the first orbit, with a film of one period that loops: render it next");
-    add_answer_files(app, args->files, args->common);
+               "Write a scene that begins on the first orbit, with a looping film of one period");
     app.bind(args, act);
 }
 

@@ -1,3 +1,4 @@
+// `beamcam paper`: all figures of the paper and the table of findings.
 #include <fmt/format.h>
 
 #include <filesystem>
@@ -43,7 +44,7 @@ std::string with_ending(const std::string& file, const char* ending) {
     return fs::path(file).replace_extension(ending).string();
 }
 
-// Every figure of the scenes that come with the program.
+// All figures of the embedded scenes of the paper.
 std::vector<Job> jobs_of(const PaperArguments& args) {
     std::vector<Job> jobs;
     for (const EmbeddedScene& embedded : embedded_scenes()) {
@@ -55,7 +56,7 @@ std::vector<Job> jobs_of(const PaperArguments& args) {
             const auto* figure = std::get_if<FigureOutput>(&output);
             if (!figure) continue;
             FigureOutput how = *figure;
-            how.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+            how.lang = lang_named(&args.lang);
             if (!args.column.empty()) how.column = args.column;
             how.dpi = args.dpi;
             Scene alone = *reading.scene;
@@ -67,7 +68,7 @@ std::vector<Job> jobs_of(const PaperArguments& args) {
     return jobs;
 }
 
-// One set of studies for all of them; those that begin or end at events are of all of their scenes without `find`.
+// Adds the studies that the figures need. Without `find`, figures that begin or end at events cover their whole scenes.
 void prepare(std::vector<Job>& jobs, const FindEvents& find, Studies& studies) {
     for (Job& job : jobs) {
         const bool known = find || !job.how.series.needs_events();
@@ -89,7 +90,7 @@ class PaperWriter {
   public:
     PaperWriter(const PaperArguments& args) : args_(args), manifest_(args.common.force) {}
 
-    // Refuses before any work what would be refused after it.
+    // Before any work: throws what `write` would throw.
     void prepare(const std::vector<std::string>& files) {
         output::ensure_directory(args_.directory);
         for (const std::string& file : files) {
@@ -110,7 +111,7 @@ class PaperWriter {
     }
     void finish() {
         manifest_.save();
-        say(args_.common, fmt::format("wrote {} files to {}", count_, args_.directory));
+        inform(args_.common, fmt::format("wrote {} files to {}", count_, args_.directory));
     }
 
   private:
@@ -119,7 +120,7 @@ class PaperWriter {
     int count_ = 0;
 };
 
-std::string plan_words(const std::vector<Study>& studies, const std::vector<std::string>& files) {
+std::string plan_text(const std::vector<Study>& studies, const std::vector<std::string>& files) {
     std::string text;
     for (const Study& s : studies)
         text +=
@@ -136,7 +137,7 @@ int act(const PaperArguments& args) {
     if (args.common.dry_run) {
         prepare(jobs, {}, studies);
         prepare_findings(studies);
-        print_text(plan_words(studies.take(), files_of(args, jobs)));
+        print_text(plan_text(studies.take(), files_of(args, jobs)));
         return 0;
     }
     PaperWriter writer(args);
@@ -184,13 +185,13 @@ int act(const PaperArguments& args) {
 void add_paper(Grammar& grammar) {
     auto args = std::make_shared<PaperArguments>();
     Command& app = grammar.command(
-        "paper", "Make every figure of the paper as .png, .svg and .pdf, their captions, and the table of findings");
-    app.option("-o,--output", &args->directory, "DIR", "Directory of the files").required();
-    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
-        .one_of(render::figure::column_names());
-    app.option("--lang", &args->lang, "LANG", "Language of labels and captions: en or zh").one_of({"en", "zh"});
-    app.option("--dpi", &args->dpi, "N", "Dots per inch of the .png files").range(50, 2400);
-    app.flag("--data", args->data, "Write the plotted numbers too, as .csv");
+        "paper", "Make all figures of the paper as .png, .svg and .pdf, their captions, and the table of findings");
+    app.examples = {"paper -o paper --column aps"};
+    app.option("-o,--output", &args->directory, "DIR", "Directory for the files").required();
+    add_column(app, args->column);
+    add_lang(app, args->lang);
+    app.option("--dpi", &args->dpi, "N", "Dots per inch of the .png files (default: 300)").range(50, 2400);
+    app.flag("--data", args->data, "Write the plotted numbers, too, as .csv");
     add_set(app, args->common);
     add_quiet(app, args->common);
     add_work(app, args->common);

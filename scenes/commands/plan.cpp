@@ -1,3 +1,4 @@
+// `beamcam plan`: a dry run.
 #include "scenes/commands/commands.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
@@ -13,8 +14,7 @@ struct PlanArguments {
 
 int act(const PlanArguments& args) {
     std::vector<Scene> scenes;
-    for (const std::string& path : args.scenes)
-        scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
+    for (const std::string& path : args.scenes) scenes.push_back(with_default_output(load_scene(path, args.common)));
     const RunOptions options = run_options(args.common, args.directory);
     print_plans(scenes, options, args.common.json);
     for (const Scene& scene : scenes)
@@ -27,14 +27,13 @@ int act(const PlanArguments& args) {
 
 void add_plan(Grammar& grammar) {
     auto args = std::make_shared<PlanArguments>();
-    Command& app = grammar.command("plan", "Tell what `run` would do, and what it would skip and why");
-    app.positional("SCENE", &args->scenes, "Scenes, JSON files; - is standard input").required();
-    add_set(app, args->common);
-    add_quiet(app, args->common);
-    app.option("-o,--output", &args->directory, "DIR", "Directory of the outputs (default: the current one)");
-    app.flag("--force", args->common.force, "As if nothing were there yet");
-    app.flag("--no-cache", args->common.no_cache, "As if no trajectory were kept");
-    app.flag("--json", args->common.json, "As JSON");
+    Command& app = grammar.command("plan", "Print what `run` would do, what it would skip, and why");
+    app.examples = {"plan fall.json", "plan fall.json --force --no-cache"};
+    add_scenes(app, args->scenes, args->common);
+    app.option("-o,--output", &args->directory, "DIR", "Directory for the outputs (default: the current one)");
+    app.flag("--force", args->common.force, "Plan as if no output existed");
+    app.flag("--no-cache", args->common.no_cache, "Plan as if the cache were empty");
+    add_json(app, args->common);
     app.bind(args, act);
 }
 

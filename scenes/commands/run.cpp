@@ -1,3 +1,4 @@
+// `beamcam run`: all outputs of scenes.
 #include "scenes/outputs/run.hpp"
 
 #include <fmt/format.h>
@@ -20,19 +21,19 @@ struct RunArguments {
 };
 
 int act(const RunArguments& args) {
-    // A scene that cannot be read costs its own outputs alone.
+    // A scene that cannot be read does not stop the others.
     std::vector<Scene> scenes;
     int code = kDone;
-    const auto refuse = [&code](int why, const std::string& text) {
+    const auto report = [&code](int why, const std::string& text) {
         output::print_message("{}", text);
         if (code == kDone) code = why;
     };
     for (const std::string& path : args.scenes) try {
-            scenes.push_back(with_default_output(read_or_refuse(path, args.common)));
+            scenes.push_back(with_default_output(load_scene(path, args.common)));
         } catch (const SceneError& error) {
-            refuse(kBadScene, error.what());
+            report(kBadScene, error.what());
         } catch (const UnreadableFile& error) {
-            refuse(kInputOutput, fmt::format("beamcam: {}\n", error.what()));
+            report(kInputOutput, fmt::format("beamcam: {}\n", error.what()));
         }
     if (scenes.empty()) return code;
     RunOptions options = run_options(args.common, args.directory);
@@ -45,16 +46,13 @@ int act(const RunArguments& args) {
 
 void add_run(Grammar& grammar) {
     auto args = std::make_shared<RunArguments>();
-    Command& app = grammar.command(
-        "run", "Make every output that the scenes list; a scene that lists none: a film named after it");
-    app.positional("SCENE", &args->scenes,
-                   "Scenes, JSON files; - is standard input. Those of one motion are simulated once")
-        .required();
-    add_set(app, args->common);
-    add_quiet(app, args->common);
-    app.option("-o,--output", &args->directory, "DIR", "Directory of the outputs (default: the current one)");
+    Command& app = grammar.command("run", "Make all outputs that scenes list; of a scene without outputs, a film");
+    app.examples = {"run fall.json -o out", "run *.json -n"};
+    add_scenes(app, args->scenes, args->common);
+    app.option("-o,--output", &args->directory, "DIR", "Directory for the outputs (default: the current one)");
     add_shard(app, args->shard);
     add_work(app, args->common);
+    app.footer = "Scenes with the same mechanics are simulated once.";
     app.bind(args, act);
 }
 

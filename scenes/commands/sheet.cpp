@@ -1,3 +1,4 @@
+// `beamcam sheet`: pictures of a film in one picture.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,21 +23,21 @@ struct SheetArguments {
     int count = 12, columns = 4, width = 1920;
 };
 
-// Where the pictures of a sheet stand.
+// The places of the pictures on the sheet.
 struct Grid {
     int columns, rows;
     int width, height;  // of a picture [px]
-    int gap, words;     // between pictures, and below each for its words [px]
+    int gap, label;     // between pictures; height of the label below each [px]
 
     Grid(const SheetArguments& args, int shown, const output::Raster& picture)
         : columns(std::min(args.columns, shown)), rows((shown + columns - 1) / columns), gap(args.width / 160) {
         width = (args.width - gap * (columns + 1)) / columns;
         height = std::max(1, static_cast<int>(std::lround(double(width) * picture.height / picture.width)));
-        words = std::max(12, width / 16);
+        label = std::max(12, width / 16);
     }
-    int total_height() const { return gap + rows * (height + words + gap); }
+    int total_height() const { return gap + rows * (height + label + gap); }
     render::Box at(int k) const {
-        return {double(gap + k % columns * (width + gap)), double(gap + k / columns * (height + words + gap)),
+        return {double(gap + k % columns * (width + gap)), double(gap + k / columns * (height + label + gap)),
                 double(width), double(height)};
     }
 };
@@ -51,7 +52,7 @@ long count_of(const std::string& film) {
     return count;
 }
 
-// The pictures that a sheet shows, evenly over the film, its first and its last among them.
+// Whether this frame is picture k of the sheet. The pictures are spaced evenly from the first frame to the last.
 bool is_shown(long frame, long frames, int shown, int k) {
     return frame == (shown == 1 ? 0 : std::lround(double(k) * double(frames - 1) / (shown - 1)));
 }
@@ -73,8 +74,8 @@ render::Image sheet_of(const SheetArguments& args) {
             grid.emplace(args, shown, picture);
             if (grid->total_height() > kTallest)
                 throw UsageError(
-                    fmt::format("the sheet would be {} × {} pixels, more than {} high; use more --columns, "
-                                "or a smaller --width or --count",
+                    fmt::format("the sheet would be {} × {} pixels, higher than {}; use more --columns, or a "
+                                "smaller --width or --count",
                                 args.width, grid->total_height(), kTallest));
             sheet = render::Image(args.width, grid->total_height());
             render::Canvas(sheet, fonts).paint(render::rgb(0xFFFFFF));
@@ -82,14 +83,14 @@ render::Image sheet_of(const SheetArguments& args) {
         render::Canvas canvas(sheet, fonts);
         const render::Box box = grid->at(k++);
         canvas.image_fitted(output::to_image(picture), box);
-        canvas.text({box.x, box.bottom() + 0.75 * grid->words}, fmt::format("{} of {}", frame + 1, frames),
-                    {.size = 0.62 * grid->words, .color = render::rgb(0x555555)});
+        canvas.text({box.x, box.bottom() + 0.75 * grid->label}, fmt::format("{} of {}", frame + 1, frames),
+                    {.size = 0.62 * grid->label, .color = render::rgb(0x555555)});
     }
     return sheet;
 }
 
 int act(const SheetArguments& args) {
-    need_ending("-o", args.file, {".png"});
+    require_ending("-o", args.file, {".png"});
     output::Manifest manifest(args.common.force);
     if (args.file != "-") manifest.require_replaceable(args.file);
     const std::string bytes = output::encode_png(sheet_of(args));
@@ -99,7 +100,7 @@ int act(const SheetArguments& args) {
     }
     output::write_file(manifest.target(args.file), bytes);
     manifest.save();
-    say(args.common, fmt::format("wrote {}", args.file));
+    inform(args.common, fmt::format("wrote {}", args.file));
     return kDone;
 }
 
@@ -107,14 +108,14 @@ int act(const SheetArguments& args) {
 
 void add_sheet(Grammar& grammar) {
     auto args = std::make_shared<SheetArguments>();
-    Command& app =
-        grammar.command("sheet", "A contact sheet: pictures of a film, evenly over its length, in one picture");
+    Command& app = grammar.command("sheet", "Make a contact sheet: evenly spaced pictures of a film in one picture");
+    app.examples = {"sheet fall.mp4 -o sheet.png --count 20 --columns 5"};
     app.positional("FILM", &args->film, "Film, directory or sequence (name-####.png)").required();
     app.option("-o,--output", &args->file, "FILE", "Picture to make, .png").required();
-    app.option("--count", &args->count, "N", "How many pictures (default: 12)").range(1, 1000);
-    app.option("--columns", &args->columns, "N", "How many beside each other (default: 4)").range(1, 100);
-    app.option("--width", &args->width, "W", "Of the sheet in pixels (default: 1920)").range(160, 16384);
-    app.flag("--force", args->common.force, "Replace a file that beamcam did not make");
+    app.option("--count", &args->count, "N", "Number of pictures (default: 12)").range(1, 1000);
+    app.option("--columns", &args->columns, "N", "Number of columns (default: 4)").range(1, 100);
+    app.option("--width", &args->width, "W", "Width of the sheet in pixels (default: 1920)").range(160, 16384);
+    add_force(app, args->common);
     add_quiet(app, args->common);
     app.bind(args, act);
 }

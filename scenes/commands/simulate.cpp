@@ -1,13 +1,12 @@
+// `beamcam simulate`: tables, impacts and the summary of a motion, without pictures.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <optional>
 
-#include "scenes/commands/commands.hpp"
-#include "scenes/format/source.hpp"
-#include "scenes/format/suggest.hpp"
+#include "scenes/commands/key_options.hpp"
+#include "scenes/format/keys.hpp"
 #include "scenes/outputs/run.hpp"
-#include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
@@ -16,85 +15,70 @@ namespace {
 struct SimulateArguments {
     Common common;
     std::string scene;
-    std::optional<std::string> trajectory, shapes, impacts, summary, rate;
-    std::vector<std::string> times, channels;
+    std::optional<std::string> trajectory, shapes, impacts, summary;
+    KeyOptions rate{"trajectory"}, times{"trajectory"}, channels{"trajectory"};
     bool horizon = false;
 };
 
-double positive_rate(const std::string& text, double rows_per_rate) {
-    const double rate = quantity_argument("--rate", text, dimension::kFrequency);
-    if (!(rate > 0)) throw UsageError("--rate must be positive");
-    if (rate * rows_per_rate > 2e7) throw UsageError(fmt::format("--rate {}: more than 2e7 rows; lower it", text));
-    return rate;
-}
-
-std::vector<double> instants_of(const SimulateArguments& args) {
-    std::vector<double> times;
-    for (const std::string& text : args.times) times.push_back(seconds_argument("--times", text));
-    return times;
+Node node_of_type(const char* type) {
+    Node node = object_node();
+    add(node, "type", text_node(type));
+    return node;
 }
 
 TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
-    TrajectoryOutput table;
-    table.file = args.trajectory.value_or("-");
-    need_ending("--trajectory", table.file, {".csv", ".npz"});
-    if (args.rate) table.rate = positive_rate(*args.rate, scene.end_time);
-    table.times = instants_of(args);
-    std::vector<std::string> known;
-    const std::vector<sim::Channel> every = all_channels(scene.problem);
-    for (const sim::Channel& channel : every) known.push_back(name(channel));
-    for (const std::string& text : args.channels) {
-        const auto found = std::find(known.begin(), known.end(), text);
-        if (found == known.end())
-            throw UsageError(fmt::format("--channels: {} is not a channel of this scene{}", in_quotes(text),
-                                         suggestion_or_list(text, known)));
-        const sim::Channel channel = every[static_cast<std::size_t>(found - known.begin())];
-        if (std::find(table.channels.begin(), table.channels.end(), channel) != table.channels.end())
-            throw UsageError(fmt::format("--channels: {} stands twice", text));
-        table.channels.push_back(channel);
-    }
+    const std::string file = args.trajectory.value_or("-");
+    require_ending("--trajectory", file, {".csv", ".npz"});
+    auto table = std::get<TrajectoryOutput>(read_output(node_of_type(TrajectoryOutput::kType),
+                                                        {&args.rate, &args.times, &args.channels}, scene, args.scene,
+                                                        args.common));
+    table.file = file;
     return table;
 }
 
-// With no file named, the table goes to standard output if its options were given, else the summary.
+ShapesOutput shapes_output(const SimulateArguments& args, const Scene& scene) {
+    if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
+    require_ending("--shapes", *args.shapes, {".csv", ".npz"});
+    auto shapes = std::get<ShapesOutput>(
+        read_output(node_of_type(ShapesOutput::kType), {&args.rate, &args.times}, scene, args.scene, args.common));
+    shapes.file = *args.shapes;
+    return shapes;
+}
+
+// Without a file name the table goes to standard output if its options were given, else the summary.
 std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
-    if (args.rate && !args.times.empty()) throw UsageError("--rate and --times exclude each other; keep one");
-    const bool wants_table =
-        args.trajectory || !args.channels.empty() || ((args.rate || !args.times.empty()) && !args.shapes);
-    if (wants_table) outputs.push_back(trajectory_output(args, scene));
-    if (args.shapes) {
-        if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
-        need_ending("--shapes", *args.shapes, {".csv", ".npz"});
-        ShapesOutput shapes{*args.shapes};
-        if (args.rate) shapes.rate = positive_rate(*args.rate, scene.end_time * shapes.stations);
-        shapes.times = instants_of(args);
-        outputs.push_back(shapes);
-    }
+    const bool has_rows = args.rate.any() || args.times.any();
+    if (args.trajectory || args.channels.any() || (has_rows && !args.shapes))
+        outputs.push_back(trajectory_output(args, scene));
+    if (args.shapes) outputs.push_back(shapes_output(args, scene));
     if (args.impacts) {
-        need_ending("--impacts", *args.impacts, {".json", ".csv"});
+        require_ending("--impacts", *args.impacts, {".json", ".csv"});
         outputs.push_back(ImpactsOutput{*args.impacts});
     }
     if (args.summary || outputs.empty() || args.horizon) {
         const std::string file = args.summary.value_or("-");
-        need_ending("--summary", file, {".json"});
+        require_ending("--summary", file, {".json"});
         outputs.push_back(SummaryOutput{file, args.horizon});
     }
-    const auto to_stdout =
-        std::count_if(outputs.begin(), outputs.end(), [](const Output& o) { return file_of(o) == "-"; });
+    return outputs;
+}
+
+void require_different_files(const std::vector<Output>& outputs) {
+    const auto to_stdout = std::ranges::count_if(outputs, [](const Output& o) { return file_of(o) == "-"; });
     if (to_stdout > 1) throw UsageError("more than one output would go to standard output; name files for the others");
     FileClaims claims;
     for (std::size_t i = 0; i < outputs.size(); ++i) claims.add(file_of(outputs[i]), i);
     for (const auto& clash : claims.clashes())
-        throw UsageError(fmt::format("{} is named twice; give each output a file of its own", clash.later.file));
-    return outputs;
+        throw UsageError(fmt::format("{} is named twice; give each output its own file", clash.later.file));
 }
 
 int act(const SimulateArguments& args) {
-    Scene scene = read_or_refuse(args.scene, args.common);
-    scene.set_outputs(simulate_outputs(args, scene));
-    const RunOptions options = run_options(args.common, "");
-    run_or_plan({&scene, 1}, options, args.common);
+    Scene scene = load_scene(args.scene, args.common);
+    std::vector<Output> outputs = simulate_outputs(args, scene);
+    require_different_files(outputs);
+    scene.set_outputs(std::move(outputs));
+    run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
     return 0;
 }
 
@@ -102,21 +86,23 @@ int act(const SimulateArguments& args) {
 
 void add_simulate(Grammar& grammar) {
     auto args = std::make_shared<SimulateArguments>();
-    Command& app = grammar.command("simulate", "Compute without pictures; with no option, print the summary");
+    Command& app = grammar.command("simulate", "Compute a motion without pictures; without options, print the summary");
+    app.examples = {"simulate fall.json --trajectory fall.csv --channels theta,contact_force --rate 500",
+                    "simulate fall.json --impacts impacts.json --summary -"};
     add_scene(app, args->scene, args->common);
     app.option("--trajectory", &args->trajectory, "FILE",
-               "Table of channels, .csv or .npz; - is standard output (CSV)");
-    app.option("--shapes", &args->shapes, "FILE", "Deflection along the beam in time, .csv or .npz");
-    app.option("--rate", &args->rate, "HZ", "Rows or shapes a second (default: 1000)");
-    app.option("--times", &args->times, "T,T,...", "Exactly these rows or shapes, in this order").separated_by(',');
-    app.option("--channels", &args->channels, "CHANNEL,...", "Columns besides the time (default: all)")
-        .separated_by(',');
+               "Table of channels against time, .csv or .npz; - is standard output (CSV)");
+    app.option("--shapes", &args->shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
+    args->rate.add(app, "--rate", "rate", "HZ", "Of --trajectory and --shapes (default: 1000).");
+    args->times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
+    args->channels.add_list(app, "--channels", "channels", "CHANNEL,...", "Of --trajectory.");
     app.option("--impacts", &args->impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
-    app.option("--summary", &args->summary, "FILE", "Counts, extremes, energy balance, .json; - is standard output");
+    app.option("--summary", &args->summary, "FILE",
+               "Counts, extreme values and energy balance, .json; - is standard output");
     app.flag("--horizon", args->horizon,
-             "Report in the summary the intervals in which the motion is reproducible (further runs, tighter and by "
-             "another method)");
+             "Add to the summary the intervals in which the motion is reproducible; this takes further runs, with a "
+             "tighter tolerance and with another method");
     add_work(app, args->common);
     app.bind(args, act);
 }

@@ -1,4 +1,5 @@
-// The stress campaign: every case must finish or be rejected with a clear message, else the exit code is 1.
+// `beamcam stress`: the stress campaign. Every case must finish or be rejected with a clear message; otherwise the exit
+// code is 1.
 #include "sim/studies/stress.hpp"
 
 #include <fmt/format.h>
@@ -25,7 +26,7 @@ struct StressArguments {
     std::vector<std::string> files;
 };
 
-std::vector<sim::StressResult> run_all_cases(const sim::Campaign& campaign, const Common& common) {
+std::vector<sim::StressResult> run_cases(const sim::Campaign& campaign, const Common& common) {
     const auto count = static_cast<long>(campaign.cases.size());
     std::vector<sim::StressResult> results(campaign.cases.size());
     std::atomic<long> done = 0;
@@ -38,7 +39,7 @@ std::vector<sim::StressResult> run_all_cases(const sim::Campaign& campaign, cons
                 const auto k = static_cast<std::size_t>(i);
                 results[k] = sim::run_case(campaign.cases[k]);
                 const long now = ++done;
-                if (now % 100 == 0 || now == count) say(common, fmt::format("{} of {} cases", now, count));
+                if (now % 100 == 0 || now == count) inform(common, fmt::format("{} of {} cases", now, count));
             };
         },
         gate);
@@ -67,18 +68,19 @@ int act(const StressArguments& args) {
     if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
     output::Manifest manifest(args.common.force);
     for (const std::string& file : args.files) {
-        if (file == "-") throw UsageError("-o -: the table goes to standard output in any case; name a file");
-        need_ending("-o", file, {".csv", ".json", ".png"});
+        if (file == "-") throw UsageError("-o -: the table is always printed on standard output; name a file");
+        require_ending("-o", file, {".csv", ".json", ".png"});
         manifest.require_replaceable(file);
     }
     const sim::Campaign campaign = sim::stress_campaign(args.full);
-    const std::vector<sim::StressResult> results = run_all_cases(campaign, args.common);
+    const std::vector<sim::StressResult> results = run_cases(campaign, args.common);
     print_text(output::stress_text(campaign, results));
     for (const std::string& file : args.files) write(manifest.target(file), campaign, results);
     manifest.save();
     const bool failed = std::any_of(results.begin(), results.end(),
                                     [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
-    if (failed) throw std::logic_error("the stress campaign found cases that neither finish nor are rejected");
+    if (failed)
+        throw std::logic_error("the stress campaign found cases that neither finish nor are rejected with a message");
     return 0;
 }
 
@@ -86,16 +88,15 @@ int act(const StressArguments& args) {
 
 void add_stress(Grammar& grammar) {
     auto args = std::make_shared<StressArguments>();
-    Command& app = grammar.command("stress",
-                                   "Numerical stability: thousands of extreme problems, each of which must finish or "
-                                   "be rejected with a clear message");
-    app.flag("--quick", args->quick, "One case in eleven and the short single cases (default)");
-    app.flag("--full", args->full, "Every case; minutes to an hour");
-    app.option("-o,--output", &args->files, "FILE",
-               "Also write the cases as .csv or .json, or the survival map as .png (repeatable)");
+    Command& app = grammar.command(
+        "stress", "Test the solver with thousands of extreme problems; each must finish or be rejected with a message");
+    app.examples = {"stress --quick -o cases.csv -o map.png"};
+    app.flag("--quick", args->quick, "Run one case in eleven and the short single cases (default)");
+    app.flag("--full", args->full, "Run every case; takes minutes to an hour");
+    app.option("-o,--output", &args->files, "FILE", "Write the cases, too: .csv, .json, or a map as .png (repeatable)");
     add_quiet(app, args->common);
-    app.option("-j,--jobs", &args->common.threads, "N", "Cases at a time (default: one for each core)").range(1, 1024);
-    app.flag("--force", args->common.force, "Replace files that beamcam did not make");
+    add_jobs(app, args->common, "Largest number of cases at a time");
+    add_force(app, args->common);
     app.bind(args, act);
 }
 

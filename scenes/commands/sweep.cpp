@@ -1,3 +1,4 @@
+// `beamcam sweep`: many motions over one or two keys of a scene.
 #include <fmt/format.h>
 
 #include <cmath>
@@ -19,7 +20,7 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr int kUsualParts = 16;
+constexpr int kDefaultParts = 16;
 
 struct SweepArguments {
     Common common;
@@ -29,7 +30,7 @@ struct SweepArguments {
     std::optional<std::string> diagram, figure, value, caption, film;
     std::string column = "elsevier", lang = "en";
     std::optional<std::string> shard, emit;
-    int parts = 0;  // 0: kUsualParts
+    int parts = 0;  // 0: kDefaultParts
 };
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -42,8 +43,8 @@ std::vector<std::string> split(const std::string& text, char separator) {
     return parts;
 }
 
-// "601", or "601n": so many values; else it is a step, as "0.02", "2.0" and "2 rad/s" are. No range from one number to
-// another has one value, so "1" is a step, too.
+// "601" and "601n" are a number of values; "0.02", "2.0" and "2 rad/s" are a step. "1" is a step, too: a range has more
+// than one value.
 bool is_count(const std::string& text) {
     const bool digits = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
     return text.ends_with('n') || (digits && text != "0" && text != "1");
@@ -59,7 +60,7 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     over.key = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
     const auto key = sim::number_key(problem, over.key);
-    const Dimension dimension = key ? key->dimension : dimension::kNone;  // other keys are refused later
+    const Dimension dimension = key ? key->dimension : dimension::kNone;  // unknown keys are rejected later
     if (value.starts_with('@')) {
         const std::size_t colon = value.rfind(':');
         if (colon == std::string::npos) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
@@ -87,7 +88,7 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     const double count = counted ? output::number_in<int>(third).value_or(0)
                                  : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
     if (!(count >= 1 && count <= 1e8))
-        throw UsageError(fmt::format("{}: {} is no {} from {} to {}", option, parts[2],
+        throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, parts[2],
                                      counted ? "number of values" : "step", parts[0], parts[1]));
     if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
     over.count = static_cast<int>(count);
@@ -110,16 +111,16 @@ sim::CamSpan span_argument(const char* option, const std::string& text) {
     return span;
 }
 
-// The scene's sweep with what the options say.
-Scene with_options(Scene scene, const SweepArguments& args) {
+// The scene with the options in its sweep.
+Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     Sweep sweep = scene.sweep.value_or(Sweep{});
     if (!args.over.empty()) sweep.over.clear();
     for (const std::string& text : args.over) sweep.over.push_back(over_argument(text, scene.problem));
-    const auto need = [](const char* option, const std::string& text, const std::string& problem) {
+    const auto require = [](const char* option, const std::string& text, const std::string& problem) {
         if (!problem.empty()) throw UsageError(fmt::format("{} {}: {}", option, text, problem));
     };
-    if (args.sample) need("--sample", *args.sample, parse_sample(*args.sample, scene.problem, sweep.sampling));
-    if (args.seed) need("--seed", *args.seed, parse_seeds(*args.seed, sweep.seeds));
+    if (args.sample) require("--sample", *args.sample, parse_sample(*args.sample, scene.problem, sweep.sampling));
+    if (args.seed) require("--seed", *args.seed, parse_seeds(*args.seed, sweep.seeds));
     if (args.transient) sweep.sampling.transient = span_argument("--transient", *args.transient);
     if (args.keep) sweep.sampling.keep = span_argument("--keep", *args.keep);
     for (const SweepProblem& problem : problems_of(sweep, scene.problem))
@@ -128,15 +129,15 @@ Scene with_options(Scene scene, const SweepArguments& args) {
     return scene;
 }
 
-void judge_value(const SweepArguments& args, std::string_view diagram, const Scene& scene) {
+void check_value(const SweepArguments& args, std::string_view diagram, const Scene& scene) {
     const std::string problem = problem_with_value(diagram, args.value.value_or(""), scene);
     if (!problem.empty()) throw UsageError(fmt::format("--value {}: {}", *args.value, problem));
 }
 
-// As the scene describes its own film, if it has one.
+// Like the scene's own sweep film, if it has one.
 SweepFilmOutput film_of(const SweepArguments& args, const Scene& scene) {
     if (const auto why = recipe_named("bifurcation")->refusal(scene)) throw UsageError("--film: " + *why);
-    judge_value(args, "bifurcation", scene);
+    check_value(args, "bifurcation", scene);
     SweepFilmOutput film;
     for (const Output& output : scene.outputs)
         if (const auto* own = std::get_if<SweepFilmOutput>(&output)) film = *own;
@@ -158,10 +159,10 @@ std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     diagram.figure = args.figure.value_or(usual_diagram(scene));
     if (const auto why = recipe_named(diagram.figure)->refusal(scene))
         throw UsageError(fmt::format("--figure {}: {}", diagram.figure, *why));
-    judge_value(args, diagram.figure, scene);
+    check_value(args, diagram.figure, scene);
     diagram.value = args.value.value_or("");
     diagram.column = args.column;
-    diagram.lang = args.lang == "zh" ? Lang::zh : Lang::en;
+    diagram.lang = lang_named(&args.lang);
     diagram.caption_file = args.caption.value_or("");
     outputs.emplace_back(std::move(diagram));
     return outputs;
@@ -177,7 +178,7 @@ std::string quoted(const std::string& word) {
     return text + "'";
 }
 
-// The command as it was given, without its output.
+// The command line without -o.
 std::string command_of(const SweepArguments& args) {
     std::string text = "beamcam sweep " + quoted(args.scene);
     for (const std::string& each : args.common.overrides) text += " --set " + quoted(each);
@@ -188,20 +189,22 @@ std::string command_of(const SweepArguments& args) {
     return text;
 }
 
-// Parts are read back to be joined, and a carried row is one task.
-void judge_parts(const SweepArguments& args) {
+// Parts of a sweep are NetCDF files, which `collect` can join.
+void check_parts(const SweepArguments& args) {
     if (!args.shard && !args.emit) return;
-    if (args.file.empty() || args.file == "-") throw UsageError("parts of a sweep are files; name one with -o FILE.nc");
-    need_ending("-o", args.file, {".nc"});
+    if (args.file.empty() || args.file == "-")
+        throw UsageError("parts of a sweep are NetCDF files; name one with -o FILE.nc");
+    require_ending("-o", args.file, {".nc"});
     if (args.diagram || args.film)
-        throw UsageError("--diagram, --film: a part has no diagram; collect the parts first");
+        throw UsageError("--diagram, --film: a part has no diagram or film; collect the parts first");
     if (args.emit && args.shard) throw UsageError("--emit and --shard exclude each other: the script makes all parts");
-    if (args.emit && args.scene == "-") throw UsageError("--emit: the script needs a scene in a file");
+    if (args.emit && args.scene == "-") throw UsageError("--emit: the scene must be in a file, which the script names");
     if (args.emit && quoted(args.file) != args.file)
-        throw UsageError(fmt::format("--emit: -o {}: scripts take names of letters, digits and ._-/ only", args.file));
+        throw UsageError(
+            fmt::format("--emit: -o {}: use letters, digits and ._-/ only in names for scripts", args.file));
 }
 
-void refuse_idle_options(const SweepArguments& args) {
+void reject_unused_options(const SweepArguments& args) {
     if (args.parts > 0 && !args.emit) throw UsageError("--parts belongs to --emit");
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
@@ -218,13 +221,13 @@ std::vector<PlannedFile> planned_files(const Plan& plan) {
 }
 
 int act(const SweepArguments& args) {
-    judge_parts(args);
-    refuse_idle_options(args);
-    if (!args.file.empty()) need_ending("-o", args.file, {".csv", ".npz", ".nc"});
-    if (args.diagram) need_ending("--diagram", *args.diagram, kFigureEndings);
-    if (args.film) need_ending("--film", *args.film, kSweepFilmEndings);
-    if (args.caption) need_ending("--caption", *args.caption, {".txt", ".md", ".tex"});
-    Scene scene = with_options(read_or_refuse(args.scene, args.common), args);
+    check_parts(args);
+    reject_unused_options(args);
+    if (!args.file.empty()) require_ending("-o", args.file, {".csv", ".npz", ".nc"});
+    if (args.diagram) require_ending("--diagram", *args.diagram, kFigureEndings);
+    if (args.film) require_ending("--film", *args.film, kSweepFilmEndings);
+    if (args.caption) require_ending("--caption", *args.caption, kCaptionEndings);
+    Scene scene = with_sweep_options(load_scene(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
     if (args.shard) {
@@ -240,7 +243,7 @@ int act(const SweepArguments& args) {
     if (args.emit)
         print_text(engine_script(
             *args.emit, command_of(args), args.file,
-            static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kUsualParts, grid.tasks()))));
+            static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kDefaultParts, grid.tasks()))));
     else
         print_text(sweep_plan(grid, planned_files(plan(scene, options.selection)), thread_count(options.threads),
                               args.common.json));
@@ -251,40 +254,42 @@ int act(const SweepArguments& args) {
 
 void add_sweep(Grammar& grammar) {
     auto args = std::make_shared<SweepArguments>();
-    Command& app = grammar.command("sweep", "Many motions over one or two keys: samples, classes, diagrams");
+    Command& app = grammar.command("sweep", "Simulate many motions over one or two keys: samples, classes, diagrams");
+    app.examples = {"sweep fast-cam.json --over cam.speed=40:52:601 -o sweep.nc --diagram bifurcation.pdf",
+                    "sweep fast-cam.json --over cam.speed=40:52:601 -o sweep.nc --shard 2/8"};
     add_scene(app, args->scene, args->common);
     app.option("--over", &args->over, "KEY=VALUES",
-               "What varies: KEY=FIRST:LAST:COUNT (ends included; with :log too) or a STEP that is no whole number, "
-               "KEY=v,v,..., KEY=@FILE.csv:COLUMN; "
-               "twice for a grid");
+               "The key to vary and its values: KEY=FIRST:LAST:COUNT (both ends included; add :log for logarithmic "
+               "spacing), KEY=FIRST:LAST:STEP with a step such as 0.02, KEY=v,v,... or KEY=@FILE.csv:COLUMN. Twice "
+               "for a grid");
     app.option("--sample", &args->sample, "WHAT",
-               "impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: impacts)");
-    app.option("--transient", &args->transient, "N", "Turns of the cam, or a time, before samples are kept (200)");
-    app.option("--keep", &args->keep, "N", "Turns of the cam, or a time, in which samples are kept (50)");
+               "When to take samples: impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: "
+               "impacts)");
+    app.option("--transient", &args->transient, "N",
+               "Turns of the cam, or a time, before the first sample (default: 200)");
+    app.option("--keep", &args->keep, "N", "Turns of the cam, or a time, in which samples are taken (default: 50)");
     app.option("--seed", &args->seed, "WHICH",
-               "Starts: same, carry-up, carry-down, both by a comma, or random:N (default: same)");
+               "Initial states: same, carry-up, carry-down, carry-up,carry-down or random:N (default: same)");
     app.option("-o,--output", &args->file, "FILE",
-               "Samples, .csv, .npz or .nc (NetCDF-4); none: CSV on standard output");
-    app.option("--diagram", &args->diagram, "FILE", "A figure of it: .pdf, .svg, .eps, .png or .tif");
+               "Table of samples: .csv, .npz or .nc (NetCDF-4); without any file, CSV on standard output");
+    app.option("--diagram", &args->diagram, "FILE", "Figure of the sweep: .pdf, .svg, .eps, .png or .tif");
     app.option("--film", &args->film, "FILE",
-               "A film in which the diagram grows while the beam moves beside it: .mp4, .mov, .mkv or .webm");
-    app.option("--figure", &args->figure, "NAME",
-               "Which: bifurcation, map, basins, poincare or impact-map (default: what suits the keys)")
+               "Film in which the diagram grows while the beam moves beside it: .mp4, .mov, .mkv or .webm");
+    app.option("--figure", &args->figure, "NAME", "Kind of --diagram (default: depends on the swept keys)")
         .one_of(diagram_names());
     app.option("--value,--ordinate", &args->value, "WHAT",
-               "What it shows. bifurcation: a column of the samples (default: v_n_before, theta); map, basins: class "
-               "(default), exponent, impacts_per_period, or a column, whose mean it shows");
-    app.option("--column", &args->column, "COLUMN", "Width and letters of a journal's column")
-        .one_of(render::figure::column_names());
-    app.option("--lang", &args->lang, "LANG", "Language of the figure: en or zh").one_of({"en", "zh"});
-    app.option("--caption", &args->caption, "FILE", "Write the caption of the figure too, .txt or .tex");
+               "Quantity that --diagram and --film show. bifurcation: a column of the samples (default: v_n_before, "
+               "theta); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
+    add_column(app, args->column);
+    add_lang(app, args->lang);
+    app.option("--caption", &args->caption, "FILE", "Write the caption of the figure, too: .txt, .md or .tex");
     app.option(
         "--shard", &args->shard, "I/N",
-        "The I-th of N parts, a file of its own: 2/3 makes NAME.2of3.nc, which collect joins; auto: by the array "
-        "task of Slurm, Grid Engine or PBS");
-    app.option("--emit", &args->emit, "ENGINE", "Print a script that makes all parts: slurm, parallel or snakemake")
+        "Compute part I of N into a separate file: 2/3 writes NAME.2of3.nc; `beamcam collect` joins the parts. auto: "
+        "the part of this array task of Slurm, Grid Engine or PBS");
+    app.option("--emit", &args->emit, "ENGINE", "Print a script that computes all parts")
         .one_of({"slurm", "parallel", "snakemake"});
-    app.option("--parts", &args->parts, "N", "Into how many parts --emit cuts the sweep (default: 16)").range(1, 1000);
+    app.option("--parts", &args->parts, "N", "Number of parts of --emit (default: 16)").range(1, 1000);
     add_work(app, args->common);
     app.bind(args, act);
 }

@@ -1,3 +1,4 @@
+// `beamcam test`: the regression test of a file of baselines.
 #include <fmt/format.h>
 
 #include <cstdlib>
@@ -32,45 +33,42 @@ const std::map<std::string, NewRenderer> kOnNewRenderer = {
 
 RegressionOptions options_of(const TestArguments& args) {
     if (!args.update.empty() && !args.only.empty())
-        throw UsageError("--update and --only exclude each other; --update runs nothing but what it names");
+        throw UsageError("--update and --only exclude each other; --update runs only the entries that it names");
     if (!args.update.empty() && args.add_digest)
         throw UsageError(
-            "--update and --add-digest exclude each other: one replaces what is expected, the other adds to it");
+            "--update and --add-digest exclude each other: one replaces the expected pictures, the other adds to them");
     RegressionOptions options;
     options.only = args.only;
     options.update = args.update;
     options.add_digest = args.add_digest;
     options.rule.strict = args.strict;
     options.rule.new_renderer = kOnNewRenderer.at(args.on_new_renderer);
-    for (const std::string& text : args.tolerance) apply_tolerance(options.tolerance, text);
+    options.tolerance = tolerance_argument(args.tolerance);
     if (args.report) options.report = *args.report;
     options.run = run_options(args.common, "");
     return options;
 }
 
-// Refused before any work if it stands in the way.
-void need_room(const TestArguments& args, output::Manifest& manifest) {
+// Before any work: throws if a file is in the way of a report.
+void require_replaceable(const TestArguments& args, output::Manifest& manifest) {
     if (args.report) manifest.require_replaceable(fs::path(*args.report) / "index.html");
     if (args.junit) manifest.require_replaceable(*args.junit);
-}
-
-void write_own(output::Manifest& manifest, const fs::path& file, const std::string& text) {
-    output::write_file(manifest.target(file), text);
 }
 
 void write_reports(const TestArguments& args, const RegressionResult& result, const PassRule& rule,
                    output::Manifest& manifest) {
     const std::string title = fs::path(args.baselines).filename().string();
-    if (args.junit) write_own(manifest, *args.junit, to_junit(result, fs::path(title).stem().string(), rule));
+    if (args.junit)
+        output::write_file(manifest.target(*args.junit), to_junit(result, fs::path(title).stem().string(), rule));
     if (args.report) {
         write_page(*args.report, result, title, rule, manifest);
-        say(args.common, fmt::format("wrote {}", (fs::path(*args.report) / "index.html").string()));
+        inform(args.common, fmt::format("wrote {}", (fs::path(*args.report) / "index.html").string()));
     }
     manifest.save();
 }
 
-// GitHub Actions names a file to which steps append their summaries.
-void tell_github(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
+// Annotations, and a table in the file to which the steps of GitHub Actions append their summaries.
+void report_to_github(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
     const char* actions = std::getenv("GITHUB_ACTIONS");
     if (args.annotate == "none" || (args.annotate == "auto" && !(actions && *actions))) return;
     output::print_message("{}", to_annotations(result, rule));
@@ -81,8 +79,8 @@ void tell_github(const TestArguments& args, const RegressionResult& result, cons
     if (!file.flush()) throw output::IoError(fmt::format("cannot write {}, the summary of the step", summary));
 }
 
-// Names in place of the words `all` and `failed`.
-std::vector<std::string> to_update(const TestArguments& args, RegressionOptions options) {
+// The patterns of --update, with `all` and `failed` resolved.
+std::vector<std::string> entries_to_update(const TestArguments& args, RegressionOptions options) {
     if (args.update == std::vector<std::string>{"all"}) return {"*"};
     if (args.update != std::vector<std::string>{"failed"}) return args.update;
     options.update.clear();
@@ -93,40 +91,41 @@ std::vector<std::string> to_update(const TestArguments& args, RegressionOptions 
     return failed;
 }
 
-void tell(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
+void print_result(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
     if (args.common.json)
         print_json(to_json(result));
     else
         print_text(to_text(result, rule, args.common.quiet));
     std::map<Verdict, std::size_t> counts;
     for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
-    const std::size_t of_new_renderer = counts[Verdict::new_renderer];
-    say(args.common,
+    const std::size_t new_renderer = counts[Verdict::new_renderer];
+    inform(
+        args.common,
         fmt::format("{} entries: {} identical, {} equivalent, {}{} different, {} missing; {} simulations, {} pictures, "
                     "{:.2f} s",
                     result.entries.size(), counts[Verdict::identical], counts[Verdict::equivalent],
-                    of_new_renderer > 0 ? fmt::format("{} of a new renderer, ", of_new_renderer) : "",
-                    counts[Verdict::different], counts[Verdict::missing], result.simulations, result.pictures,
-                    result.seconds));
+                    new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "", counts[Verdict::different],
+                    counts[Verdict::missing], result.simulations, result.pictures, result.seconds));
     if (result.changed)
-        say(args.common, fmt::format("{} was changed: look at what it accepts now, and keep it only if it is right",
-                                     args.baselines));
+        inform(args.common,
+               fmt::format("{} was changed: check the pictures and motions that it accepts now before you keep it",
+                           args.baselines));
 }
 
 int act(const TestArguments& args) {
     RegressionOptions options = options_of(args);
     output::Manifest manifest(args.common.force);
-    need_room(args, manifest);
-    options.update = to_update(args, options);
+    require_replaceable(args, manifest);
+    options.update = entries_to_update(args, options);
     if (options.update.empty() && !args.update.empty()) {
-        say(args.common, "no entry fails; nothing is updated");
+        inform(args.common, "no entry fails; nothing is updated");
         return kDone;
     }
     const RegressionResult result = test_regression(args.baselines, options);
     write_reports(args, result, options.rule, manifest);
-    tell(args, result, options.rule);
-    tell_github(args, result, options.rule);
-    bool fine = !result.changed || (options.update.empty() && !args.add_digest);  // for somebody to look
+    print_result(args, result, options.rule);
+    report_to_github(args, result, options.rule);
+    bool fine = !result.changed || (options.update.empty() && !args.add_digest);  // a change must be checked
     for (const EntryResult& entry : result.entries)
         if (entry.exit_code != 0 && entry.exit_code != kDiffers) return entry.exit_code;
     for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry);
@@ -137,38 +136,40 @@ int act(const TestArguments& args) {
 
 void add_test(Grammar& grammar) {
     auto args = std::make_shared<TestArguments>();
-    Command& app = grammar.command(
-        "test", "Render and simulate again what a file of baselines lists; ends with 7 when something differs");
-    app.positional("BASELINES", &args->baselines, "The baselines, a JSON file; - is standard input").required();
-    app.option("--only,--filter", &args->only, "NAME...", "Test these entries only; patterns such as 'fall-*' too")
+    Command& app =
+        grammar.command("test", "Run a regression test of pictures and motions; exit code 7 if any entry differs");
+    app.examples = {"test baselines.json --report report", "test baselines.json --update 'fall-*'"};
+    app.positional("BASELINES", &args->baselines, "The file of baselines, JSON; - is standard input").required();
+    app.option("--only,--filter", &args->only, "NAME...",
+               "Test only these entries; patterns such as 'fall-*' are allowed")
         .several();
     app.option("--update", &args->update, "NAME...",
-               "Replace what these entries expect by what they are now (ends with 7, for somebody to look); patterns "
-               "too, and the words all and failed")
+               "Replace the references of these entries by the present pictures and motions (exit code 7); patterns, "
+               "all and failed are allowed")
         .several();
     app.flag("--add-digest", args->add_digest,
-             "Accept the digests of this machine beside the others, where pictures are equivalent, or where nothing is "
-             "accepted yet of its libraries and fonts (ends with 7)");
+             "Accept the pictures of this machine in addition to the others, where they are equivalent, or where no "
+             "picture of its libraries and fonts is accepted yet (exit code 7)");
     app.option("--on-new-renderer", &args->on_new_renderer, "WHAT",
-               "Pictures of libraries or fonts of which nothing is accepted yet: fail, warn (they pass when they look "
-               "alike), accept (their digests, from now on) (default: fail)")
+               "Verdict on pictures of libraries or fonts of which no picture is accepted yet: fail; warn: similar "
+               "pictures pass; accept: they pass and are accepted (default: fail)")
         .one_of({"fail", "warn", "accept"});
-    app.flag("--strict", args->strict, "What is only equivalent fails too");
+    app.flag("--strict", args->strict, "Fail entries that are only equivalent");
     app.option("--tolerance", &args->tolerance, "KEY=X,...",
-               "Over those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 (repeatable)")
+               "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, "
+               "impacts=1e-4 (repeatable)")
         .separated_by(',');
-    app.option("--report", &args->report, "DIR", "Folder for a page with actual and difference pictures");
-    app.option("--junit", &args->junit, "FILE", "Report for continuous integration, .xml");
+    app.option("--report", &args->report, "DIR",
+               "Directory for an HTML page with actual, expected and difference pictures");
+    app.option("--junit", &args->junit, "FILE", "Write a JUnit report, .xml");
     app.option("--annotate", &args->annotate, "SERVICE",
-               "Tell failures as annotations, and a table as the step's summary: auto, github or none (default: auto, "
-               "where GITHUB_ACTIONS is set)")
+               "Print failures as annotations, and add a table to the summary of the step (default: auto: if "
+               "GITHUB_ACTIONS is set)")
         .one_of({"auto", "github", "none"});
-    app.option("-j,--jobs", &args->common.threads, "N", "Threads that draw, at most (default: one for each core)")
-        .range(1, 1024);
-    app.option("--progress", &args->common.progress, "STYLE",
-               "Progress on standard error: auto, bar, plain, json or none");
-    app.flag("--json", args->common.json, "As JSON");
-    app.flag("--force", args->common.force, "Replace reports and references that beamcam did not make");
+    add_jobs(app, args->common, "Largest number of threads that draw");
+    add_progress(app, args->common);
+    add_json(app, args->common);
+    add_force(app, args->common);
     add_quiet(app, args->common);
     app.bind(args, act);
 }

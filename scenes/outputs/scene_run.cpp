@@ -253,8 +253,8 @@ void SceneRun::write_partial_tables() {
         if (table.rows() == 0) continue;
         fs::path file = files_.path_of(d.file);
         file.replace_extension(".partial.csv");
-        output::write_csv(files_.target(file), reached_rows(table));
-        files_.wrote(file, "until the solver failed");
+        output::write_table(files_.target(file), reached_rows(table));
+        files_.wrote(file, "as far as the solver came");
     }
 }
 

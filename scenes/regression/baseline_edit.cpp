@@ -13,7 +13,7 @@
 namespace beamcam::scenes {
 namespace {
 
-// One past the closing bracket of the object or array that opens at `begin`, or of the scalar. `plain` has no comments.
+// The position after the value that begins at `begin`. `plain` has no comments.
 std::size_t end_of_value(std::string_view plain, std::size_t begin) {
     int depth = 0;
     bool in_string = false;
@@ -33,7 +33,7 @@ std::size_t end_of_value(std::string_view plain, std::size_t begin) {
         } else if (c == '{' || c == '[') {
             ++depth;
         } else if (c == '}' || c == ']') {
-            if (depth == 0) return i;  // of what holds the scalar
+            if (depth == 0) return i;  // the end of the object or array around a scalar
             if (--depth == 0) return i + 1;
         } else if (depth == 0 && (c == ',' || c == ' ' || c == '\n' || c == '\t' || c == '\r')) {
             return i;
@@ -62,7 +62,7 @@ std::string json_text(std::string_view text) {
     return out;
 }
 
-// Replaces the value of a key, or adds the key behind the last one.
+// Replaces the value of a key, or adds the key after the last one.
 void set_member(std::string_view plain, const Node& object, const std::string& key, const std::string& value,
                 const std::string& indent, std::vector<Edit>& edits) {
     if (const Member* member = object.find(key)) {
@@ -112,9 +112,9 @@ std::string renderers_text(const std::map<std::string, RendererParts>& renderers
 Baselines read_recovered(const std::string& path) {
     Baselines baselines = read_baselines(path);
     if (path == "-") return baselines;
-    const std::string told = ReferenceUpdate::recover(baselines.references);
-    if (told.empty()) return baselines;
-    output::print_message("{}: {}\n", path, told);
+    const std::string message = ReferenceUpdate::recover(baselines.references);
+    if (message.empty()) return baselines;
+    output::print_message("{}: {}\n", path, message);
     return read_baselines(path);
 }
 

@@ -1,4 +1,5 @@
-// What the program writes into a file of baselines: digests, horizons and renderers, into the text as people wrote it.
+// Changes of a file of baselines: the program writes digests, horizons and renderers and leaves the rest of the text
+// unchanged.
 #pragma once
 
 #include <map>
@@ -10,18 +11,17 @@
 
 namespace beamcam::scenes {
 
-// What is to be changed: an update of the references that was killed is completed or undone before, which is told.
-// Throws what read_baselines and ReferenceUpdate::recover do.
+// Reads the baselines after it has completed or undone an update that was killed, with a message. Throws the errors of
+// read_baselines and ReferenceUpdate::recover.
 Baselines read_recovered(const std::string& path);
 
-// What changes in one entry.
+// New values of one entry.
 struct BaselineEdit {
     std::string name;
     std::vector<Accepted> accepted;
     std::optional<double> reproducible_until;
 };
-// The text with these entries changed and every other byte left as it was, but for "renderers", which lists those that
-// some entry names.
+// The text with these entries changed, and with "renderers" reduced to those that entries name. All other bytes stay.
 std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& edits,
                    const std::map<std::string, RendererParts>& renderers);
 

@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 // ---- reading -------------------------------------------------------------------------------------
 
-constexpr int kMostPictures = 10'000;  // of one entry: each has a digest in the file and a reference beside it
+constexpr int kMostPictures = 10'000;  // of one entry: each has a digest in the file and a reference picture
 
 bool is_plain_name(std::string_view name) {
     const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
@@ -83,12 +83,13 @@ class Reader {
     void read_entries(const Node& node) {
         ObjectReader f(diagnostics_, &node, "entries");
         if (!f.node()) return;
-        if (node.members.empty()) f.fail(node, "", "entries is empty; name at least one thing to guard");
+        if (node.members.empty()) f.fail(node, "", "entries is empty; add at least one entry");
         for (const Member& member : node.members) {
             if (!is_plain_name(member.key))
                 diagnostics_.error(
                     member.key_place, "entries." + member.key,
-                    fmt::format("{} names files: use letters, digits, '-', '_' and '.' only", in_quotes(member.key)));
+                    fmt::format("{} is the name of files, too: use letters, digits, '-', '_' and '.' only",
+                                in_quotes(member.key)));
             else
                 read_entry(member);
         }
@@ -102,19 +103,19 @@ class Reader {
         entry.name = member.key;
         std::vector<std::string> overrides;
         if (const Node* set = f.take("set")) read_overrides(*set, path + ".set", overrides);
-        f.text("file", entry.file, "Pictures of another tool, instead of a scene.");
-        f.text("expected", entry.expected, "Pictures that are expected, instead of accepted digests.");
+        f.text("file", entry.file, "Pictures of another program, in place of a scene.");
+        f.text("expected", entry.expected, "Expected pictures, in place of accepted digests.");
         const bool drawn_here = entry.file.empty();
         const Node* scene = drawn_here ? f.take(sim::required("scene", "\"fall.json\"")) : nullptr;
         const Node* output =
             drawn_here ? f.take(sim::required("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}")) : nullptr;
-        f.boolean("physics", entry.physics, "Whether the motion is compared, and no picture.");
+        f.boolean("physics", entry.physics, "Whether the motion is compared, too.");
         Tolerances own;
         if (const Node* tolerance = f.take("tolerance"))
             read_tolerances(diagnostics_, *tolerance, path + ".tolerance", own);
         if (const Node* accepted = f.take("accepted")) read_accepted(*accepted, path + ".accepted", entry.accepted);
         f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kNotNegative,
-                 "Until when the motion is reproducible.");
+                 "Time up to which the motion is reproducible.");
         f.finish();
         for (std::string* file : {&entry.file, &entry.expected})
             if (!file->empty()) *file = beside(*file);
@@ -124,16 +125,16 @@ class Reader {
             return;
         }
         if (!scene || !output) return;
-        // What is wrong with a scene costs its own entry alone.
+        // An error in a scene concerns its entry only.
         if (read_scene_of(*scene, overrides, path, entry) &&
             read_output_of(*output, path + ".output", scene_file(*scene), entry) &&
             (entry.expected.empty() || entry.has_pictures() ||
-             refuse(entry, *output, fmt::format("{}.output has no pictures to be held to \"expected\"", path))))
+             reject(entry, *output, fmt::format("{}.output has no pictures to compare with \"expected\"", path))))
             entry.tolerances = defaults_for(entry).overridden_by(defaults_).overridden_by(own);
         all_.entries.push_back(std::move(entry));
     }
 
-    bool refuse(Baseline& entry, const Node& node, const std::string& text) {
+    bool reject(Baseline& entry, const Node& node, const std::string& text) {
         entry.problem += describe({all_.source}, Message{node.place, text});
         return false;
     }
@@ -145,7 +146,7 @@ class Reader {
         if (!fine)
             return diagnostics_.error(
                 node.place, path,
-                fmt::format("{} must be an array of texts such as \"cam.speed=5\", not {}", path, as_written(node)));
+                fmt::format("{} must be an array of strings such as \"cam.speed=5\", not {}", path, as_written(node)));
         for (const Node& item : node.items) overrides.push_back(item.text);
     }
 
@@ -156,7 +157,7 @@ class Reader {
         for (std::size_t i = 0; i < node.items.size(); ++i) {
             ObjectReader f(diagnostics_, &node.items[i], fmt::format("{}.{}", path, i));
             Accepted one;
-            f.text("renderer", one.renderer, "What drew the accepted pictures.");
+            f.text("renderer", one.renderer, "The renderer of the accepted pictures.");
             const Node* digests = f.take(sim::required("sha256", "[\"0123…\"]"));
             f.finish();
             if (!digests) continue;
@@ -172,7 +173,7 @@ class Reader {
         }
     }
 
-    // The file that an entry's scene stands in.
+    // The file of an entry's scene.
     std::string scene_file(const Node& node) const {
         if (node.kind != Node::Kind::string) return all_.source.name;
         return beside(node.text);
@@ -181,7 +182,7 @@ class Reader {
         return fs::path(file).is_absolute() ? file : (folder() / file).string();
     }
 
-    // A file beside this one, or a scene that stands here.
+    // A file name, relative to this file, or the scene itself.
     bool read_scene_of(const Node& node, const std::vector<std::string>& overrides, const std::string& path,
                        Baseline& entry) {
         Reading reading;
@@ -189,18 +190,18 @@ class Reader {
             try {
                 reading = read_scene(load_named_source(scene_file(node)), overrides, files_);
             } catch (const UnreadableFile& error) {
-                return refuse(entry, node, fmt::format("{}.scene: {}", path, error.what()));
+                return reject(entry, node, fmt::format("{}.scene: {}", path, error.what()));
             }
         } else if (node.kind == Node::Kind::object) {
             reading = read_scene({all_.source.name, {}, true}, node, overrides, files_);
             reading.sources.front() = all_.source;  // the places are those of the whole file
         } else {
-            return refuse(
+            return reject(
                 entry, node,
                 fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, as_written(node)));
         }
         if (!reading.scene) {
-            refuse(entry, node, fmt::format("{}.scene: the scene cannot be read", path));
+            reject(entry, node, fmt::format("{}.scene: the scene cannot be read", path));
             entry.problem += reading.report();
             return false;
         }
@@ -208,16 +209,17 @@ class Reader {
         return true;
     }
 
-    // The output is read as one of the scene's own, which it replaces.
+    // The output replaces those of the scene.
     bool read_output_of(const Node& node, const std::string& path, const std::string& scene_name, Baseline& entry) {
         entry.scene.name = entry.name;
         if (const Member* type = node.find("type"); type && type->value.text == "sweep") {
             entry.is_sweep = true;
             entry.scene.set_outputs({});
             if (node.members.size() > 1)
-                return refuse(entry, node, fmt::format("{}: a sweep is described by the scene's \"sweep\"", path));
-            if (!entry.scene.sweep)
-                return refuse(entry, node, fmt::format("{}: the scene has no \"sweep\" to make", path));
+                return reject(
+                    entry, node,
+                    fmt::format("{}: the \"sweep\" of the scene describes the sweep; remove the other keys", path));
+            if (!entry.scene.sweep) return reject(entry, node, fmt::format("{}: the scene has no \"sweep\"", path));
             return true;
         }
         std::vector<Message> messages;
@@ -226,16 +228,16 @@ class Reader {
             if (message.fatal) entry.problem += describe({all_.source}, message);
         if (!fine) return false;
         if (std::holds_alternative<VideoOutput>(entry.output())) {
-            return refuse(
+            return reject(
                 entry, node,
-                fmt::format("{}: films are guarded before they are encoded; write \"type\": \"frames\"", path));
+                fmt::format("{}: films are compared before they are encoded; write \"type\": \"frames\"", path));
         }
         if (std::holds_alternative<PageOutput>(entry.output()) || std::holds_alternative<ModelOutput>(entry.output()))
-            return refuse(entry, node, fmt::format("{}: it has no pictures; write \"type\": \"frames\"", path));
+            return reject(entry, node, fmt::format("{}: this type has no pictures; write \"type\": \"frames\"", path));
         if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) {
             const double last = frames->span.to.value_or(entry.scene.end_time);
             if ((last - frames->span.from) * frames->span.fps.value() > kMostPictures) {
-                return refuse(
+                return reject(
                     entry, node,
                     fmt::format("{}: more than {} pictures; use \"from\" and \"to\", or fewer frames a second", path,
                                 kMostPictures));
@@ -247,9 +249,10 @@ class Reader {
     static Tolerances defaults_for(const Baseline& entry) {
         bool lit = false;
         if (const auto* picture = entry.picture()) lit = picture->view.style != render::Style::flat;
-        // Flat views are the same everywhere with the same libraries; OpenGL differs in the last levels by processor.
-        // Motion and impacts: between what another tolerance of the solver changes up to the horizon (7e-6, 5e-5) and
-        // what a thousandth of the contact's stiffness changes in one impact (1e-4, 5e-4).
+        // Flat views have the same pixels on all machines with the same libraries; those of OpenGL differ by a level or
+        // two between processors. The tolerances of motion and impacts lie between the effect of another tolerance of
+        // the solver up to the horizon (7e-6, 5e-5) and the effect of 0.1 % contact stiffness in one impact (1e-4,
+        // 5e-4).
         return {{lit ? 2 : 0, 0.0, {}, 2e-5, 1e-4}, {}};
     }
 
@@ -275,19 +278,19 @@ Baselines read_baselines(const std::string& path) { return Reader(path).read(); 
 
 std::vector<const Baseline*> chosen_entries(const Baselines& baselines, const std::string& path,
                                             const std::vector<std::string>& patterns) {
-    const auto is_meant = [](const Baseline& entry, const std::string& pattern) {
+    const auto is_selected = [](const Baseline& entry, const std::string& pattern) {
         return fnmatch(pattern.c_str(), entry.name.c_str(), 0) == 0;
     };
     std::vector<std::string> known;
     for (const Baseline& entry : baselines.entries) known.push_back(entry.name);
     for (const std::string& pattern : patterns)
-        if (std::ranges::none_of(baselines.entries, [&](const auto& entry) { return is_meant(entry, pattern); }))
+        if (std::ranges::none_of(baselines.entries, [&](const auto& entry) { return is_selected(entry, pattern); }))
             throw UsageError(
                 fmt::format("{} has no entry {}{}", path, in_quotes(pattern), suggestion_or_list(pattern, known)));
     std::vector<const Baseline*> chosen;
     for (const Baseline& entry : baselines.entries)
         if (patterns.empty() ||
-            std::ranges::any_of(patterns, [&](const auto& pattern) { return is_meant(entry, pattern); }))
+            std::ranges::any_of(patterns, [&](const auto& pattern) { return is_selected(entry, pattern); }))
             chosen.push_back(&entry);
     return chosen;
 }

@@ -1,4 +1,4 @@
-// A file of baselines: what is to be rendered and simulated again, and which pixels and motion are expected.
+// A file of baselines: scenes with one output each, and the accepted digests of their pictures.
 //
 //     { "references": "golden", "tolerance": {…},
 //       "entries": { "fall": { "scene": "fall.json", "set": ["cam.speed=5"], "output": {"type": "still", "at": 0.3},
@@ -6,9 +6,8 @@
 //                              "accepted": [{"renderer": "0123456789ab", "sha256": ["…"]}] } },
 //       "renderers": { "0123456789ab": {"cairo": "1.16.0", …} } }
 //
-// The format is that of scenes (comments, trailing commas, places in messages); beamcam-baselines.schema.json describes
-// it key by key. `accepted`, `reproducible_until` and `renderers` are written by the program, into the text as people
-// wrote it.
+// The syntax is that of scenes: comments and trailing commas are allowed. beamcam-baselines.schema.json describes the
+// keys. The program writes `accepted`, `reproducible_until` and `renderers` and leaves the rest of the text unchanged.
 #pragma once
 
 #include <filesystem>
@@ -24,28 +23,28 @@
 
 namespace beamcam::scenes {
 
-// Pixels that one kind of machine makes, and that are right.
+// Pictures that one renderer draws and that were accepted.
 struct Accepted {
     std::string renderer;             // a fingerprint's id
-    std::vector<std::string> sha256;  // one a picture
+    std::vector<std::string> sha256;  // of each picture
 };
 
 struct Baseline {
-    std::string name;  // also of its folder among the references
-    Scene scene;       // with the one output of the entry, none of a sweep; of no meaning where there is a file
+    std::string name;  // and name of its folder of references
+    Scene scene;       // with the output of the entry; a sweep has none; unused if `file` is given
     bool is_sweep = false;
-    // Pictures that another tool made, to be judged instead of a scene: a PNG file, a folder, a sequence or a film.
+    // Pictures of another program in place of a scene: a PNG file, a folder, a sequence or a film.
     std::string file;
-    std::string expected;  // the same: pictures that somebody accepted, instead of digests and references
+    std::string expected;  // expected pictures in place of digests and references: the same kinds of files
     Tolerances tolerances;
-    bool physics = true;  // false: only the picture is guarded
+    bool physics = true;  // false: only the picture is compared
     std::vector<Accepted> accepted;
     std::optional<double> reproducible_until;  // [s]
-    // Why the scene or its output cannot be read, with its place; then the entry has a name only. Empty: it can.
+    // The error if the scene or its output cannot be read; then only the name is valid. Empty: there is none.
     std::string problem;
 
     bool has_pictures() const;
-    const Picture* picture() const;  // its still or frames; null: it has none
+    const Picture* picture() const;  // its still picture or frames; null: it has none
     bool has_motion() const { return file.empty() && (physics || !has_pictures()); }
     const Output& output() const { return scene.outputs.front(); }
 };
@@ -62,8 +61,8 @@ struct Baselines {
 // Throws SceneError with every issue at once, UnreadableFile.
 Baselines read_baselines(const std::string& path);
 
-// The entries that are meant by names or patterns such as "fall-*"; all if there are none. Throws UsageError for a
-// pattern that means nothing.
+// The entries that names or patterns such as "fall-*" select; without patterns, all. Throws UsageError for a pattern
+// that selects none.
 std::vector<const Baseline*> chosen_entries(const Baselines& baselines, const std::string& path,
                                             const std::vector<std::string>& patterns);
 

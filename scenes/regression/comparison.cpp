@@ -12,11 +12,11 @@ namespace {
 
 std::string size_of(const output::Raster& r) { return fmt::format("{}x{}", r.width, r.height); }
 
-std::string box_in_words(const output::PixelBox& box) {
+std::string box_text(const output::PixelBox& box) {
     return fmt::format("{}x{}+{}+{}", box.width(), box.height(), box.left, box.top);
 }
 
-// The first of them: a table may have a hundred thousand.
+// The first names: a table may have a hundred thousand.
 std::string names_of(const std::vector<std::string>& all) {
     constexpr std::size_t kMost = 100;
     const std::size_t shown = std::min(all.size(), kMost);
@@ -59,25 +59,25 @@ PictureComparison compare(const output::Raster& a, const output::Raster& b, int 
     return c;
 }
 
-std::string in_words(const output::PictureDifference& d) {
+std::string to_text(const output::PictureDifference& d) {
     if (d.identical()) return "no pixel changed";
     std::string text = fmt::format("{} of {} pixels ({:.3g} %), largest channel difference {} of 255", d.changed,
                                    d.pixels, 100 * d.share(), d.largest);
     if (d.changed > 0)
-        text += fmt::format(", in {}, {:.3g} % of them antialiasing", box_in_words(d.box),
+        text += fmt::format(", within {}, {:.3g} % of them antialiasing", box_text(d.box),
                             100.0 * static_cast<double>(d.antialiased) / static_cast<double>(d.changed));
     return text + fmt::format(", SSIM {:.6f} (lowest window {:.4f})", d.ssim, d.lowest_ssim);
 }
 
-std::string in_words(const PictureComparison& c) {
+std::string to_text(const PictureComparison& c) {
     if (!c.same_size()) return fmt::format("size {} became {}", c.size_a, c.size_b);
-    return in_words(c.difference);
+    return to_text(c.difference);
 }
 
-std::string in_words(const output::TableDifference& d) {
+std::string to_text(const output::TableDifference& d) {
     std::string text;
     if (d.rows_a != d.rows_b || d.rows_compared != d.rows_a)
-        text += fmt::format("rows: {} and {}, {} of them at common instants\n", d.rows_a, d.rows_b, d.rows_compared);
+        text += fmt::format("rows: {} and {}, {} at common instants\n", d.rows_a, d.rows_b, d.rows_compared);
     if (!d.only_in_a.empty()) text += fmt::format("columns only in the first: {}\n", names_of(d.only_in_a));
     if (!d.only_in_b.empty()) text += fmt::format("columns only in the second: {}\n", names_of(d.only_in_b));
     std::size_t same = 0;
@@ -88,7 +88,7 @@ std::string in_words(const output::TableDifference& d) {
         }
         text += fmt::format("{}: largest difference {:.3g} at t = {:.6g}, {:.3g} of its range {:.3g}{}\n",
                             output::one_line(c.name), c.largest, c.t, c.share, c.range,
-                            c.undefined > 0 ? fmt::format(", {} cells empty in one only", c.undefined) : "");
+                            c.undefined > 0 ? fmt::format(", {} cells empty in one table only", c.undefined) : "");
     }
     if (same > 0)
         text += fmt::format("{} of {} columns identical in {} rows\n", same, d.columns.size(), d.rows_compared);
@@ -97,12 +97,12 @@ std::string in_words(const output::TableDifference& d) {
 
 std::string to_text(const Comparison& c) {
     std::string text = fmt::format("{}: {} and {}\n", name(c.verdict), c.a, c.b);
-    if (c.table) return text + in_words(*c.table);
+    if (c.table) return text + to_text(*c.table);
     if (c.pictures_a != c.pictures_b)
         text += fmt::format("number of pictures: {} and {}\n", c.pictures_a, c.pictures_b);
     const bool one = c.pictures_a == 1 && c.pictures_b == 1;
     for (const PictureComparison& p : c.pictures)
-        text += one ? in_words(p) + "\n" : fmt::format("{}: {}: {}\n", name(p.verdict), p.a, in_words(p));
+        text += one ? to_text(p) + "\n" : fmt::format("{}: {}: {}\n", name(p.verdict), p.a, to_text(p));
     if (!one)
         text += fmt::format("{} of {} pictures identical\n", std::min(c.pictures_a, c.pictures_b) - c.pictures.size(),
                             std::min(c.pictures_a, c.pictures_b));

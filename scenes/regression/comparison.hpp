@@ -1,4 +1,4 @@
-// What `beamcam diff` finds: two things of one kind, how they differ, and in which words that is told.
+// The comparison of two pictures, sequences, films or tables, and its description as text and JSON.
 #pragma once
 
 #include <optional>
@@ -13,9 +13,9 @@ namespace beamcam::scenes {
 enum class Verdict {
     identical,
     equivalent,    // not identical, but within the tolerance
-    new_renderer,  // drawn by libraries or fonts of which nothing is accepted yet; the pictures look alike
+    new_renderer,  // similar pictures of libraries or fonts of which no picture is accepted yet
     different,
-    missing  // one of the two is not there
+    missing  // one of the two does not exist
 };
 const char* name(Verdict verdict);
 // The worse of the two.
@@ -24,29 +24,27 @@ Verdict worse(Verdict a, Verdict b);
 struct PictureComparison {
     std::string a, b;  // names of the two pictures
     Verdict verdict = Verdict::identical;
-    std::string size_a, size_b;  // "1920x1080"; differ: a verdict of its own, nothing else is measured
+    std::string size_a, size_b;  // "1920x1080"; pictures of different sizes are not compared further
     output::PictureDifference difference;
     bool same_size() const { return size_a == size_b; }
 };
 
-// `tolerance` is a difference of a channel, 0…255, that counts as none.
+// `tolerance`: largest difference of a channel, 0…255, that counts as none.
 PictureComparison compare(const output::Raster& a, const output::Raster& b, int tolerance);
 
 struct Comparison {
     std::string a, b;  // as the user named them
     Verdict verdict = Verdict::identical;
-    // Of pictures: those that are not identical, and the numbers of all.
+    // Of pictures: those that are not identical, and the numbers of all pictures.
     std::vector<PictureComparison> pictures;
     std::size_t pictures_a = 0, pictures_b = 0;
     std::optional<output::TableDifference> table;
 };
 
 // "12 of 2073600 pixels (0.000579 %), largest channel difference 3 of 255, …"
-std::string in_words(const output::PictureDifference& difference);
-// Lines for people, without the names.
-std::string in_words(const PictureComparison& comparison);
-std::string in_words(const output::TableDifference& difference);
-
+std::string to_text(const output::PictureDifference& difference);
+std::string to_text(const PictureComparison& comparison);  // without the names
+std::string to_text(const output::TableDifference& difference);
 std::string to_text(const Comparison& comparison);
 std::string to_json(const Comparison& comparison);
 

@@ -33,7 +33,7 @@ void EntryGroup::run(const RegressionOptions& options, RegressionResult& all) {
     }
 }
 
-// One that looks less far may come to its end.
+// The integration may succeed for an entry that ends earlier.
 void EntryGroup::run_alone(const RegressionOptions& options, RegressionResult& all, const sim::SolverError& error) {
     if (jobs_.size() == 1) {
         jobs_.front().test->attempt([&] { throw error; });
@@ -52,37 +52,37 @@ void EntryGroup::prepare(Job& job) {
     resolve_event_times(job.plan, scene, [](const sim::Problem& some, const sim::Request& events) {
         return sim::simulate(some, events, [](double) { return !output::interrupted(); });
     });
-    // A picture that compares other motions than the scene's own has no simulation of it, nor has a figure of
-    // statics, behind which there is no motion at all.
+    // A picture that compares other motions than the scene's own needs no simulation of the scene. A figure of statics
+    // needs no motion at all.
     if (!job.plan.simulation) {
         job.plan.simulation.emplace();
         double& until = job.plan.simulation->request.end_time;
         for (const Pictures& p : job.plan.pictures) until = std::max(until, p.end_time);
         for (const Variant& v : job.plan.variants) until = std::max(until, v.simulation.request.end_time);
         if (job.plan.pictures.empty() && job.plan.variants.empty() && !job.plan.figures.empty())
-            job.test->ask_for_no_motion();
+            job.test->ignore_motion();
     }
     sim::Request& request = job.plan.simulation->request;
     job.until = request.end_time;
-    if (job.test->asks_for_horizon()) request.horizon = true;  // some figures ask for it anyway
+    if (job.test->needs_horizon()) request.horizon = true;  // some figures request it anyway
     job.motion = request.tables.size();
     const auto table = std::ranges::find_if(job.plan.data, [](const DataFile& d) { return d.table.has_value(); });
     if (table != job.plan.data.end())
         job.motion = *table->table;
-    else if (job.test->asks_for_motion())
+    else if (job.test->needs_motion())
         request.tables.push_back(motion_behind_picture(scene.problem, job.until));
-    if (asks_for_all_channels(job.test->entry()))
+    if (records_all_channels(job.test->entry()))
         std::erase_if(request.tables[job.motion].channels,
                       [](const sim::Channel& channel) { return channel.kind == sim::ChannelKind::energy_residual; });
-    if (job.test->asks_for_motion()) record_compared(job);
+    if (job.test->needs_motion()) record_compared(job);
 }
 
 void EntryGroup::record_compared(Job& job) {
     for (Pictures& p : job.plan.pictures)
         for (std::size_t i = 0; i < p.compared.size(); ++i) {
             ComparedMotion& other = p.compared[i];
-            other.request.tables.push_back(job.test->motion().request_of_compared(i, other.problem, p.end_time));
-            if (job.test->asks_for_horizon()) other.request.horizon = true;
+            other.request.tables.push_back(job.test->motion().compared_table(i, other.problem, p.end_time));
+            if (job.test->needs_horizon()) other.request.horizon = true;
         }
 }
 
@@ -90,23 +90,23 @@ void EntryGroup::judge(Job& job, std::vector<sim::Result> results, const Regress
     EntryTest& test = *job.test;
     const sim::Result& run = results.front();
     test.require_reproducible(run, job.until);
-    if (test.asks_for_motion())
+    if (test.needs_motion())
         test.motion().judge(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
     DrawCallbacks capture{
         std::move(results),
         [&](const Pictures&, long frame, const render::Image& image) { test.pictures().judge(frame, image); },
         [&](const render::Image& image) { test.pictures().judge(0, image); },
         {}};
-    if (test.asks_for_motion())
-        capture.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
+    if (test.needs_motion())
+        callbacks.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
             const Pictures& shown = job.plan.pictures[picture];
             test.require_reproducible(result, shown.end_time);
             test.motion().judge_compared(index, shown.compared[index].label, result.tables.back(), result.impacts,
                                          result.reproducible_until);
         };
     RunOptions run_options = options.run;
-    run_options.no_cache = true;  // what is tested is what this program does now
-    scenes::draw(job.plan, test.entry().scene, capture, run_options);
+    run_options.no_cache = true;  // the test runs the present program
+    scenes::draw(job.plan, test.entry().scene, callbacks, run_options);
     test.finish();
 }
 

@@ -1,5 +1,5 @@
-// Entries that share one motion. Each has a plan of its own, so that its pictures do not depend on what else is tested;
-// one integration answers the requests of all.
+// Entries with the same mechanics. Each has its own plan, so that its pictures do not depend on the other entries; one
+// integration serves the requests of all.
 #pragma once
 
 #include <vector>
@@ -13,15 +13,15 @@ namespace beamcam::scenes {
 class EntryGroup {
   public:
     void add(EntryTest& test) { jobs_.push_back({&test, {}, 0, 0}); }
-    // Counts into `all`.
+    // Adds the counts of simulations and pictures to `all`.
     void run(const RegressionOptions& options, RegressionResult& all);
 
   private:
     struct Job {
         EntryTest* test = nullptr;
         Plan plan;
-        std::size_t motion = 0;  // the table of the plan's request that is recorded
-        double until = 0;        // the last instant that the entry looks at [s]
+        std::size_t motion = 0;  // index of the recorded table in the plan's request
+        double until = 0;        // the last instant that the entry shows [s]
     };
 
     const sim::Problem& problem() const { return jobs_.front().test->entry().scene.problem; }

@@ -1,4 +1,5 @@
-// Judges the motion of one entry, those that its picture compares, or its sweep, by the records among its references.
+// Judges the motion of one entry, the motions that its picture compares, or its sweep, by comparison with the records
+// among its references.
 #pragma once
 
 #include <filesystem>
@@ -8,14 +9,14 @@
 #include <vector>
 
 #include "scenes/motions/progress.hpp"
-#include "scenes/regression/entry_references.hpp"
+#include "scenes/regression/entry_files.hpp"
 #include "scenes/regression/motion_record.hpp"
 #include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
 
-// A table of all channels; it would hold an error of the solver too, which no two solvers share.
-bool asks_for_all_channels(const Baseline& entry);
+// The entry is a table of all channels. Its energy residual, an error of the solver, is not compared.
+bool records_all_channels(const Baseline& entry);
 
 class EntryMotion {
   public:
@@ -24,26 +25,28 @@ class EntryMotion {
                 const EntryReport& report, EntryResult& result)
         : entry_(entry), tolerance_(tolerance), references_(references), report_(report), result_(result) {}
 
-    // `until`: the last instant that the entry looks at [s].
+    // `until`: the last instant that the entry shows [s].
     void judge(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
                std::optional<double> reproducible_until);
 
-    // What is recorded of a motion that the picture compares: as far as it was reproducible when it was accepted.
-    sim::TableRequest request_of_compared(std::size_t index, const sim::Problem& problem, double until) const;
+    // The table that is recorded of a motion that the picture compares; it ends where the accepted motion ceases to be
+    // reproducible.
+    sim::TableRequest compared_table(std::size_t index, const sim::Problem& problem, double until) const;
     void judge_compared(std::size_t index, const std::string& label, sim::Table table,
                         const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until);
 
-    // Makes its points. Throws sim::Interrupted, SceneError for one that cannot be made.
+    // Computes its points. Throws sim::Interrupted, SceneError if the sweep is impossible.
     void judge_sweep(int threads, Progress& progress);
 
   private:
     using Files = std::function<output::Target(const std::string& name)>;
 
-    Files fresh_files() const;
-    void report(const std::vector<std::string>& names, const std::function<void(const Files&)>& write);
-    void judge_record(const RecordNames& names, const std::string& label, const MotionRecord& actual, double horizon);
-    void take(const MotionVerdict& found, const std::string& label, const std::vector<std::string>& names);
-    void miss(const std::string& label);
+    bool is_reported() const { return report_.folder && *result_.motion > Verdict::equivalent; }
+    void store(const std::vector<std::string>& names, const std::function<void(const Files&)>& write);
+    void judge_record(const RecordNames& names, const std::string& label, const sim::Table& table,
+                      const std::vector<sim::Impact>& impacts, double until, double horizon);
+    void add(const MotionVerdict& verdict, const std::string& label, const std::vector<std::string>& names);
+    void add_missing(const std::string& label);
 
     const Baseline& entry_;
     const Tolerance& tolerance_;

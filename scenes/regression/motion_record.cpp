@@ -17,9 +17,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kSteps = 200;              // of a picture's motion: 13 kB a file
-constexpr double kTimeScale = 1e-3;      // [s]: a usual contact's duration; times are compared to a share of it
-constexpr double kSmallestShare = 0.01;  // of a quantity's largest value: below it relative differences mean nothing
+constexpr int kSteps = 200;              // of the record of a picture: a file of 13 kB
+constexpr double kTimeScale = 1e-3;      // [s], a typical duration of a contact: unit of the tolerance of times
+constexpr double kSmallestShare = 0.01;  // of a quantity's largest value: least reference of relative differences
 constexpr std::size_t kMostLines = 4;
 
 // ---- impacts as text and back ----------------------------------------------------------------------
@@ -28,7 +28,7 @@ std::string impacts_text(const std::vector<sim::Impact>& impacts, double until) 
     sim::Result some;
     for (sim::Impact impact : impacts) {
         if (impact.t_start > until) continue;
-        impact.at_touch.reset(), impact.at_release.reset();  // these states are in the motion
+        impact.at_touch.reset(), impact.at_release.reset();  // the table contains these states
         if (!impact.t_end || *impact.t_end > until) {        // the same, however long the run was
             impact.t_end = impact.v_n_after = impact.v_t_after = impact.duration = impact.restitution = std::nullopt;
             impact.force_peak = impact.penetration_peak = impact.impulse_n = impact.impulse_t = impact.energy_lost = 0;
@@ -79,34 +79,33 @@ class Comparer {
         compare_impacts();
         MotionVerdict result;
         if (identical_) return result;
-        std::stable_sort(findings_.begin(), findings_.end(),
+        std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
                          [](const Finding& a, const Finding& b) { return a.excess > b.excess; });
-        const bool differs = !findings_.empty() && findings_.front().excess > 1;
+        const bool differs = !diagnostics_.empty() && diagnostics_.front().excess > 1;
         result.verdict = differs ? Verdict::different : Verdict::equivalent;
-        for (const Finding& finding : findings_)
+        for (const Finding& finding : diagnostics_)
             if (result.lines.size() < kMostLines && (finding.excess > 1 || !differs))
                 result.lines.push_back(finding.line);
         if (result.lines.empty())
-            result.lines.push_back(fmt::format("only beyond the reproducible horizon of {:.4g} s", horizon_));
+            result.lines.push_back(fmt::format("only after the reproducible horizon of {:.4g} s", horizon_));
         return result;
     }
 
   private:
-    void find(double excess, std::string line) { findings_.push_back({excess, std::move(line)}); }
+    void add(double excess, std::string line) { diagnostics_.push_back({excess, std::move(line)}); }
 
     void compare_tables() {
         const output::TableDifference whole = output::difference(expected_.table, actual_.table);
         if (whole.identical()) return;
         identical_ = false;
         if (!whole.same_shape())
-            find(INFINITY, fmt::format("the recorded table became another: {} rows and {} columns, expected {} and {}",
-                                       actual_.table.rows(), actual_.table.names.size(), expected_.table.rows(),
-                                       expected_.table.names.size()));
+            add(INFINITY,
+                fmt::format("the recorded table has {} rows and {} columns, expected {} and {}", actual_.table.rows(),
+                            actual_.table.names.size(), expected_.table.rows(), expected_.table.names.size()));
         for (const output::ColumnDifference& c : output::difference(expected_.table, actual_.table, horizon_).columns) {
-            if (c.undefined > 0) find(INFINITY, fmt::format("{}: {} values appeared or vanished", c.name, c.undefined));
+            if (c.undefined > 0) add(INFINITY, fmt::format("{}: {} values appeared or vanished", c.name, c.undefined));
             if (c.largest == 0) continue;
-            find(
-                c.share / std::max(*tolerance_.motion, 1e-300),
+            add(c.share / std::max(*tolerance_.motion, 1e-300),
                 fmt::format("{} differs by {:.2g} at {:.4g} s ({:.2g} of its range)", c.name, c.largest, c.t, c.share));
         }
     }
@@ -120,12 +119,12 @@ class Comparer {
         const std::size_t before = reproducible(a), after = reproducible(b);
         for (std::size_t i = 0; i < std::min(before, after); ++i) compare_impact(i, before, a[i], b[i]);
         if (before == after) return;
-        // At the very horizon an impact may come a little before it in one run and a little after in the other.
+        // An impact at the horizon may be just before it in one run and just after it in the other.
         const ImpactFields& odd = before > after ? a[after] : b[before];
         const double t = field(odd, "t_start").value_or(0);
         if (std::abs(t - horizon_) <= kTimeScale) return;
-        find(INFINITY, fmt::format("{} impacts became {}: the one at {:.6g} s {}", before, after, t,
-                                   before > after ? "is lost" : "is new"));
+        add(INFINITY, fmt::format("{} impacts became {}: the one at {:.6g} s {}", before, after, t,
+                                  before > after ? "is lost" : "is new"));
     }
 
     std::size_t reproducible(const std::vector<ImpactFields>& impacts) const {
@@ -144,7 +143,7 @@ class Comparer {
             if (late && field(a, "t_end").value_or(0) > horizon_) continue;
             if (!expected || !actual) {
                 excess = INFINITY;
-                worst = fmt::format("{} {}", key, expected ? "is not there any more" : "was not there");
+                worst = fmt::format("{} {}", key, expected ? "disappeared" : "appeared");
                 continue;
             }
             const double scale =
@@ -158,15 +157,15 @@ class Comparer {
             if (!is_time(key) && scale > 0) worst += fmt::format(" ({:+.2g} %)", 100 * change / scale);
         }
         if (excess > 0)
-            find(excess, fmt::format("impact {} of {} at {:.6g} s: {}", index + 1, count,
-                                     field(a, "t_start").value_or(0), worst));
+            add(excess, fmt::format("impact {} of {} at {:.6g} s: {}", index + 1, count,
+                                    field(a, "t_start").value_or(0), worst));
     }
 
     const MotionRecord &expected_, &actual_;
     const Tolerance& tolerance_;
     double horizon_;
     bool identical_ = true;
-    std::vector<Finding> findings_;
+    std::vector<Finding> diagnostics_;
     std::map<std::string, double> largest_;  // magnitude of each quantity over the expected impacts
 };
 
@@ -194,7 +193,7 @@ RecordNames::RecordNames(std::size_t motion)
 
 void write_record(const std::function<output::Target(const std::string& name)>& target, const RecordNames& names,
                   const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
-    output::write_csv(target(names.table), table);
+    output::write_table(target(names.table), table);
     output::write_file(target(names.impacts), impacts_text(impacts, until));
 }
 
@@ -205,8 +204,8 @@ std::optional<MotionRecord> read_record(const fs::path& folder, const RecordName
     auto impacts = parse_impacts(output::read_file(folder / names.impacts));
     if (!impacts)
         throw output::IoError(
-            fmt::format("cannot read {}: it is no list of impacts, or it is damaged; restore it, or make "
-                        "it again with --update",
+            fmt::format("cannot read {}: it is not a list of impacts, or it is damaged; restore it, or replace it with "
+                        "--update",
                         (folder / names.impacts).string()));
     record.impacts = std::move(*impacts);
     return record;

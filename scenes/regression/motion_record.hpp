@@ -1,5 +1,5 @@
-// The motion behind a baseline: a small table up to the last instant that the entry looks at, and the impacts by then.
-// Kept beside the reference pictures, compared impact by impact.
+// The record of an entry's motion: a small table up to the last instant that the entry shows, and the impacts until
+// then. It is stored beside the reference pictures and compared impact by impact.
 #pragma once
 
 #include <filesystem>
@@ -24,29 +24,30 @@ struct MotionRecord {
     std::vector<ImpactFields> impacts;
 };
 
-// The table that is recorded behind a picture: angle and deflection, in 200 steps up to the last instant it looks at.
+// The table that is recorded of the motion in a picture: angle and deflection, in 200 steps up to the last instant.
 sim::TableRequest motion_behind_picture(const sim::Problem& problem, double until);
 
-// What of the run belongs to the entry. An impact that lasts beyond `until` counts with what is known at its touch.
+// The part of the run up to `until`. An impact that lasts longer is recorded with its values at the touch.
 MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
 
-// Names of the two files of a motion: 0 is the scene's own, the others are those that its picture compares, from 1.
+// Names of the two files of a motion: 0 is the motion of the scene; the motions that its picture compares follow.
 struct RecordNames {
     explicit RecordNames(std::size_t motion);
     std::string table, impacts;  // motion.csv, impacts.json; motion-1.csv, impacts-1.json
 };
-// `target`: where a file of this name goes.
+// `target`: the place of a file of this name.
 void write_record(const std::function<output::Target(const std::string& name)>& target, const RecordNames& names,
                   const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
-// Nothing when the folder has none. Throws IoError when what it has is damaged.
+// Nothing if the folder has no record. Throws IoError if the record is damaged.
 std::optional<MotionRecord> read_record(const std::filesystem::path& folder, const RecordNames& names);
 
 struct MotionVerdict {
     Verdict verdict = Verdict::identical;
-    std::vector<std::string> lines;  // what moved, the worst first; empty when identical
+    std::vector<std::string> lines;  // the differences, the largest first; empty if identical
 };
 
-// Up to `horizon` differences within the tolerance are equivalent; beyond it nothing is comparable, and all are.
+// Up to `horizon`, differences within the tolerance are equivalent; after it the motions are not comparable, and any
+// difference is equivalent.
 MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance,
                       double horizon);
 

@@ -19,9 +19,8 @@ constexpr const char *kMarker = ".beamcam-reference", *kMarkerFormat = "beamcam 
 constexpr const char *kStaging = ".beamcam-update", *kUpdateFormat = "beamcam update 1";
 constexpr const char *kTasks = "tasks", *kText = "baselines.json", *kNew = "new";
 
-[[noreturn]] void refuse(const fs::path& file, const char* why) {
-    throw output::WouldOverwrite(
-        fmt::format("{} {}; move it, or replace what stands there with --force", file.string(), why));
+[[noreturn]] void fail(const fs::path& file, const char* why) {
+    throw output::WouldOverwrite(fmt::format("{} {}; move it, or replace it with --force", file.string(), why));
 }
 
 // Empty when there is no file.
@@ -35,7 +34,7 @@ void remove_file(const fs::path& file) {
     if (error) throw output::write_error(file, error.value());
 }
 
-// The lines behind a first one that names the format. Their last word may hold spaces.
+// The lines after the first one, which names the format. Their last word may contain spaces.
 std::vector<std::istringstream> lines_of(const fs::path& file, const char* format) {
     std::istringstream text(output::read_file(file));
     std::string line;
@@ -76,7 +75,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
     return names;
 }
 
-// ---- what an update has to do ----------------------------------------------------------------------
+// ---- tasks of an update ----------------------------------------------------------------------
 
 using Task = ReferenceUpdate::Task;
 
@@ -109,10 +108,10 @@ Tasks read_tasks(const fs::path& list) {
     return tasks;
 }
 
-// Carries out what a staging folder lists; whatever is done already is left out.
-class Carrier {
+// Carries out the tasks that a staging folder lists; skips those that are done already.
+class TaskRunner {
   public:
-    Carrier(const fs::path& references, output::Journal& journal)
+    TaskRunner(const fs::path& references, output::Journal& journal)
         : references_(references),
           staging_(references / kStaging),
           journal_(journal),
@@ -129,12 +128,12 @@ class Carrier {
   private:
     [[noreturn]] void give_up(const fs::path& file) const {
         throw output::WouldOverwrite(
-            fmt::format("{} was changed while an update of the references was interrupted; restore it, or remove {} to "
-                        "give the update up",
+            fmt::format("{} was changed after an update of the references was interrupted; restore it, or remove {} to "
+                        "abandon the update",
                         file.string(), staging_.string()));
     }
 
-    // They come first: as long as their new text is in the staging folder, no reference is changed.
+    // Comes first: as long as the new text is in the staging folder, no reference is changed.
     void write_baselines() {
         const fs::path text = staging_ / kText;
         if (!output::path_exists(text)) return;
@@ -156,7 +155,7 @@ class Carrier {
         const std::string now = digest_of(file);
         if (now == task.after) return;
         if (now != task.before) {
-            if (task.after.empty()) return;  // it is the user's now
+            if (task.after.empty()) return;  // now it is the user's file
             give_up(file);
         }
         if (task.after.empty()) return remove_file(file);
@@ -172,10 +171,10 @@ class Carrier {
     const fs::path baselines_;
 };
 
-// Ours by the journal in it, or empty, as between two system calls of a run that was killed.
+// beamcam's staging folder contains a journal, or is empty if the run was killed between two system calls.
 bool is_own_staging(const fs::path& staging) { return !output::journals_in(staging).empty() || fs::is_empty(staging); }
 
-// The journals go last: they mark the folder as beamcam's own until nothing else is in it.
+// Removes the journals last: they mark the folder as beamcam's own until it is empty.
 void remove_staging(const fs::path& staging, std::error_code& error) {
     const std::vector<fs::path> journals = output::journals_in(staging);
     std::vector<fs::path> others;
@@ -210,17 +209,17 @@ std::string ReferenceUpdate::recover(const fs::path& references) {
     if (!output::path_exists(staging)) return {};
     if (!is_own_staging(staging))
         throw output::WouldOverwrite(
-            fmt::format("{} is not beamcam's own; move it, updates need that name", staging.string()));
+            fmt::format("{} was not made by beamcam; move it, updates need this name", staging.string()));
     const std::vector<fs::path> journals = output::journals_in(staging);
-    if (!std::all_of(journals.begin(), journals.end(), output::is_abandoned)) return {};  // it is under way
+    if (!std::all_of(journals.begin(), journals.end(), output::is_abandoned)) return {};  // in progress
     const bool listed = output::path_exists(staging / kTasks);
     if (listed) {
         output::Journal own(staging);
-        Carrier carrier(references, own);
+        TaskRunner runner(references, own);
         for (const fs::path& journal : journals)
-            output::remove_temporaries(carrier.baselines().parent_path(),
+            output::remove_temporaries(runner.baselines().parent_path(),
                                        output::parse_journal(output::read_file(journal)));
-        carrier.carry_out();
+        runner.carry_out();
     }
     remove_staging(staging);
     return listed ? "completed an update of the references that was interrupted"
@@ -231,59 +230,70 @@ ReferenceUpdate::ReferenceUpdate(fs::path baselines, fs::path references, bool f
     : baselines_(std::move(baselines)),
       references_(std::move(references)),
       staging_(references_ / kStaging),
-      force_(force) {
-    output::ensure_directory(references_);
-    const output::DirectoryLock lock(references_);
-    if (output::path_exists(staging_) && !fs::is_empty(staging_))
-        throw output::IoError(fmt::format("another update of {} is under way", references_.string()));
-    output::ensure_directory(staging_);
-    journal_ = std::make_unique<output::Journal>(staging_);
-}
+      force_(force) {}
 
 ReferenceUpdate::~ReferenceUpdate() {
-    // What is listed has to be completed, by the next run if this one could not.
+    if (!journal_) return;
+    // Tasks that are listed must be completed: by the next run if this one could not.
     std::error_code ignored;
     if (!fs::exists(staging_ / kTasks, ignored)) remove_staging(staging_, ignored);
 }
 
+void ReferenceUpdate::start() {
+    if (journal_) return;
+    output::ensure_directory(references_);
+    const output::DirectoryLock lock(references_);
+    if (output::path_exists(staging_) && !fs::is_empty(staging_))
+        throw output::IoError(fmt::format("another update of {} is in progress", references_.string()));
+    output::ensure_directory(staging_);
+    journal_ = std::make_unique<output::Journal>(staging_);
+}
+
 fs::path ReferenceUpdate::staged(const std::string& entry) const { return staging_ / kNew / entry; }
 
-fs::path ReferenceUpdate::begin(const std::string& entry) { return begin(entry, false); }
-fs::path ReferenceUpdate::extend(const std::string& entry) { return begin(entry, true); }
+fs::path ReferenceUpdate::replace(const std::string& entry) { return open(entry, false); }
+fs::path ReferenceUpdate::extend(const std::string& entry) { return open(entry, true); }
 
-fs::path ReferenceUpdate::begin(const std::string& entry, bool stay) {
+fs::path ReferenceUpdate::open(const std::string& entry, bool keeps_others) {
+    const std::lock_guard lock(mutex_);
+    start();
     const fs::path folder = folder_of(entry);
     std::error_code error;
-    if (fs::is_symlink(folder, error)) refuse(folder, "is a symbolic link");
+    if (fs::is_symlink(folder, error)) fail(folder, "is a symbolic link");
     if (output::path_exists(folder)) {
-        if (!fs::is_directory(folder)) refuse(folder, "is no folder");
+        if (!fs::is_directory(folder)) fail(folder, "is not a directory");
         const auto marked = marked_files(folder);
         if (!marked && !force_ && !fs::is_empty(folder))
-            refuse(folder, "is not a folder of references that beamcam made");
+            fail(folder, "is not a folder of references that beamcam made");
         for (const auto& [name, file] : marked.value_or(ReferenceFiles{}))
             if (const std::string now = digest_of(folder / name); !force_ && !now.empty() && now != file.sha256)
-                refuse(folder / name, "was changed after beamcam made it");
+                fail(folder / name, "was changed after beamcam made it");
     }
     output::ensure_directory(staged(entry));
-    entries_[entry] = stay;
+    entries_[entry] = keeps_others;
     return staged(entry);
 }
 
-void ReferenceUpdate::drop(const std::string& entry) { entries_.erase(entry); }
+void ReferenceUpdate::drop(const std::string& entry) {
+    const std::lock_guard lock(mutex_);
+    entries_.erase(entry);
+}
 
 void ReferenceUpdate::commit(const std::string& expected, const std::string& text,
                              const std::map<std::string, std::map<std::string, std::string>>& pixels) {
+    const std::lock_guard lock(mutex_);
     Tasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
-    for (const auto& [entry, stay] : entries_) add_tasks(entry, stay, pixels.at(entry), tasks.files);
-    if (output::read_file(baselines_) != expected) refuse(baselines_, "was changed during the update");
+    for (const auto& [entry, keeps_others] : entries_) add_tasks(entry, keeps_others, pixels.at(entry), tasks.files);
+    if (output::read_file(baselines_) != expected) fail(baselines_, "was changed during the update");
+    if (!journal_) return output::write_file(baselines_, text);  // no reference changes
     output::write_file(staging_ / kText, text);
     output::write_file(staging_ / kTasks, text_of(tasks));
-    Carrier(references_, *journal_).carry_out();
+    TaskRunner(references_, *journal_).carry_out();
     remove_staging(staging_);
 }
 
-void ReferenceUpdate::add_tasks(const std::string& entry, bool stay, const std::map<std::string, std::string>& pixels,
-                                std::vector<Task>& tasks) const {
+void ReferenceUpdate::add_tasks(const std::string& entry, bool keeps_others,
+                                const std::map<std::string, std::string>& pixels, std::vector<Task>& tasks) const {
     const fs::path folder = folder_of(entry), fresh_folder = staged(entry);
     const ReferenceFiles old = marked_files(folder).value_or(ReferenceFiles{});
     ReferenceFiles fresh;
@@ -292,12 +302,12 @@ void ReferenceUpdate::add_tasks(const std::string& entry, bool stay, const std::
         fresh[name] = {output::sha256_of_file(fresh_folder / name),
                        picture == pixels.end() ? std::string() : picture->second};
         const std::string now = digest_of(folder / name);
-        if (!now.empty() && !force_ && !old.contains(name)) refuse(folder / name, "was not made by beamcam");
+        if (!now.empty() && !force_ && !old.contains(name)) fail(folder / name, "was not made by beamcam");
         tasks.push_back({entry, name, now, fresh[name].sha256});
     }
     for (const auto& [name, file] : old) {
         if (fresh.contains(name)) continue;
-        if (stay)
+        if (keeps_others)
             fresh[name] = file;
         else
             tasks.push_back({entry, name, file.sha256, ""});

@@ -15,111 +15,90 @@
 namespace beamcam::scenes {
 namespace {
 
-enum class Drawn { nothing, flat, lit, figure, elsewhere };
+// What draws the pictures of an entry.
+enum class Renderer { none, flat, lit, figure, other_program };
 
-Drawn drawn(const Baseline& entry) {
-    if (!entry.file.empty()) return Drawn::elsewhere;
-    if (!entry.has_pictures()) return Drawn::nothing;
+Renderer renderer_of(const Baseline& entry) {
+    if (!entry.file.empty()) return Renderer::other_program;
+    if (!entry.has_pictures()) return Renderer::none;
     const Picture* picture = entry.picture();
-    return !picture ? Drawn::figure : picture->view.style == render::Style::flat ? Drawn::flat : Drawn::lit;
+    return !picture ? Renderer::figure : picture->view.style == render::Style::flat ? Renderer::flat : Renderer::lit;
 }
 
-Fingerprint fingerprint_of(Drawn how) {
-    switch (how) {
-        case Drawn::nothing:
+Fingerprint fingerprint_of(Renderer renderer) {
+    switch (renderer) {
+        case Renderer::none:
             return {};
-        case Drawn::flat:
+        case Renderer::flat:
             return flat_fingerprint();
-        case Drawn::lit:
+        case Renderer::lit:
             return lit_fingerprint();
-        case Drawn::figure:
+        case Renderer::figure:
             return figure_fingerprint();
-        case Drawn::elsewhere:
+        case Renderer::other_program:
             return {{{"pictures", "of another tool"}}};
     }
-    throw std::logic_error("a way of drawing that has no fingerprint");
+    throw std::logic_error("a renderer without fingerprint");
 }
 
 class Regression {
   public:
     Regression(const std::string& path, const RegressionOptions& options)
-        : path_(path), options_(options), baselines_(read_recovered(path)), report_files_(options.run.force) {}
+        : path_(path),
+          options_(options),
+          baselines_(read_recovered(path)),
+          update_(path, baselines_.references, options.run.force),
+          report_files_(options.run.force) {}
 
-    RegressionResult go() {
+    RegressionResult run() {
         const auto started = Clock::now();
         result_.baselines = path_;
-        if (path_ == "-" && (!options_.update.empty() || adds()))
+        if (path_ == "-" && (!options_.update.empty() || options_.adds()))
             throw UsageError("baselines from standard input cannot be changed; name the file");
-        choose();
+        choose_entries();
         run_groups();
         run_others();
-        write_changes();
+        change_baselines();
         report_files_.save();
         result_.seconds = seconds_since(started);
         return std::move(result_);
     }
 
   private:
-    bool adds() const { return options_.add_digest || options_.rule.new_renderer == NewRenderer::accept; }
-
-    // An update that replaces begins at once, one that adds when there is something to add.
-    void open_update() {
-        if (!options_.update.empty()) {
-            update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.run.force);
-            access_.replace = [this](const std::string& entry) { return update_->begin(entry); };
-            access_.keep = [this](const std::string& entry) {
-                const std::lock_guard lock(mutex_);
-                update_->extend(entry);
-            };
-        } else if (adds()) {
-            access_.extend = [this](const std::string& entry) {
-                const std::lock_guard lock(mutex_);
-                if (!update_)
-                    update_ = std::make_unique<ReferenceUpdate>(path_, baselines_.references, options_.run.force);
-                return update_->extend(entry);
-            };
-        }
-        access_.drop = [this](const std::string& entry) {
-            const std::lock_guard lock(mutex_);
-            if (update_) update_->drop(entry);
-        };
-    }
-
-    void choose() {
+    void choose_entries() {
         const std::vector<const Baseline*> chosen =
             chosen_entries(baselines_, path_, options_.update.empty() ? options_.only : options_.update);
         result_.entries.resize(chosen.size());
-        open_update();
         for (std::size_t i = 0; i < chosen.size(); ++i) {
             EntryResult& result = result_.entries[i];
             result.name = chosen[i]->name;
             if (!chosen[i]->problem.empty()) {
-                refuse(result, chosen[i]->problem, kBadScene);
+                reject(result, chosen[i]->problem, kBadScene);
                 continue;
             }
-            const Drawn how = drawn(*chosen[i]);
+            const Renderer renderer = renderer_of(*chosen[i]);
             try {
-                if (!renderers_.contains(how)) renderers_[how] = fingerprint_of(how);
-                tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, renderers_[how], access_,
-                                                             report_files_, result));
+                if (!fingerprints_.contains(renderer)) fingerprints_[renderer] = fingerprint_of(renderer);
+                tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, fingerprints_[renderer],
+                                                             update_, report_files_, result));
             } catch (const render::MissingPart& error) {  // such as OpenGL for a lit view
-                refuse(result, fmt::format("{}\n", error.what()), kMissingPart);
+                reject(result, fmt::format("{}\n", error.what()), kMissingPart);
             } catch (const output::IoError& error) {  // a damaged marker
                 if (!options_.update.empty()) throw;
-                refuse(result, fmt::format("{}\n", error.what()), kInputOutput);
+                reject(result, fmt::format("{}\n", error.what()), kInputOutput);
             }
         }
     }
 
-    // There is no test for an entry that cannot be read.
-    static void refuse(EntryResult& result, const std::string& problem, int exit_code) {
+    // The result of an entry that cannot be tested.
+    static void reject(EntryResult& result, const std::string& problem, int exit_code) {
         output::print_message("{}", problem);
         result.picture = Verdict::missing;
         result.picture_lines = {problem.substr(0, problem.find('\n'))};
         result.exit_code = exit_code;
     }
 
-    // Side by side: as many threads as there are groups for, and those that are left draw.
+    // Groups run in parallel; each draws with an equal share of the threads.
     void run_groups() {
         std::vector<EntryGroup> all = groups();
         const auto count = static_cast<long>(all.size());
@@ -146,7 +125,7 @@ class Regression {
         std::vector<EntryGroup> all;
         for (const auto& test : tests_) {
             if (!shares_motion(test->entry())) continue;
-            Scene physics = test->entry().scene;  // all that the motion depends on
+            Scene physics = test->entry().scene;  // without the keys on which the motion does not depend
             physics.outputs.clear();
             physics.title.clear();
             physics.sweep.reset();
@@ -159,7 +138,7 @@ class Regression {
     }
     static bool shares_motion(const Baseline& entry) { return entry.file.empty() && !entry.is_sweep; }
 
-    // Pictures of other tools, and sweeps, whose points are made side by side.
+    // Pictures of other programs, and sweeps, whose points run in parallel.
     void run_others() {
         Progress progress(resolve(options_.run.progress));
         for (const auto& test : tests_) {
@@ -175,14 +154,14 @@ class Regression {
         }
     }
 
-    void write_changes() {
+    void change_baselines() {
         std::vector<BaselineEdit> edits;
         std::map<std::string, std::map<std::string, std::string>> pictures;
         for (const auto& test : tests_) {
             EntryResult& result = test->result();
             if (result.picture &&
                 (test->is_updated() || (result.picture > Verdict::identical && result.exit_code == 0))) {
-                const Fingerprint& renderer = renderers_.at(drawn(test->entry()));
+                const Fingerprint& renderer = fingerprints_.at(renderer_of(test->entry()));
                 result.renderer = renderer.id();
                 result_.renderers[result.renderer] = renderer.parts;
             }
@@ -193,22 +172,17 @@ class Regression {
             pictures[result.name] = test->new_pictures();
         }
         if (edits.empty()) return;
-        const std::string text = edited(baselines_, edits, result_.renderers);
-        if (update_)
-            update_->commit(baselines_.source.text, text, pictures);
-        else
-            output::write_file(path_, text);
+        update_.commit(baselines_.source.text, edited(baselines_, edits, result_.renderers), pictures);
         result_.changed = true;
     }
 
     std::string path_;
     const RegressionOptions& options_;
     Baselines baselines_;
-    std::mutex mutex_;  // of the counts in result_, and of update_
-    std::unique_ptr<ReferenceUpdate> update_;
-    UpdateAccess access_;
+    std::mutex mutex_;  // guards the counts in result_
+    ReferenceUpdate update_;
     output::Manifest report_files_;
-    std::map<Drawn, Fingerprint> renderers_;
+    std::map<Renderer, Fingerprint> fingerprints_;
     RegressionResult result_;
     std::vector<std::unique_ptr<EntryTest>> tests_;
 };
@@ -216,7 +190,7 @@ class Regression {
 }  // namespace
 
 RegressionResult test_regression(const std::string& path, const RegressionOptions& options) {
-    return Regression(path, options).go();
+    return Regression(path, options).run();
 }
 
 }  // namespace beamcam::scenes

@@ -1,7 +1,7 @@
-// Renders and simulates what a file of baselines asks for, and judges it: the picture and the motion separately.
+// Renders and simulates the entries of a file of baselines, and judges picture and motion of each separately.
 //
-// Entries that share a scene are integrated once, no further than they look, and nothing that they do not need is
-// drawn. Nothing is read from caches: what is tested is this program.
+// Entries with the same mechanics are integrated once, up to the last instant that any of them shows. Caches are not
+// used: the test runs the present program.
 #pragma once
 
 #include <filesystem>
@@ -17,15 +17,18 @@ namespace beamcam::scenes {
 
 struct RegressionOptions {
     std::vector<std::string> only;    // names or patterns such as "fall-*"; empty: all
-    std::vector<std::string> update;  // the same; only these are run and replaced
-    bool add_digest = false;          // accept the digests of what is equivalent, or of a new renderer
+    std::vector<std::string> update;  // the same; only these are run, and their references are replaced
+    bool add_digest = false;          // accept equivalent pictures and pictures of a new renderer
     PassRule rule;
-    Tolerance tolerance;                          // over that of every entry
-    std::optional<std::filesystem::path> report;  // folder for actual and difference pictures
+    Tolerance tolerance;                          // replaces those of the entries
+    std::optional<std::filesystem::path> report;  // folder for actual, expected and difference pictures
     RunOptions run;
+
+    // Pictures may be added to the accepted ones.
+    bool adds() const { return add_digest || rule.new_renderer == NewRenderer::accept; }
 };
 
-// Throws UsageError for unknown names, and what runs and files throw. A solver that fails is a verdict.
+// Throws UsageError for unknown names, and the errors of runs and files. If the solver fails, the entry fails.
 RegressionResult test_regression(const std::string& path, const RegressionOptions& options);
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// JSON of what the commands around regression tests find.
+// Comparisons and results of regression tests as JSON, and reports read back.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -6,7 +6,6 @@
 
 #include "output/files/atomic_file.hpp"
 #include "scenes/regression/comparison.hpp"
-#include "scenes/regression/provenance.hpp"
 #include "scenes/regression/report.hpp"
 
 namespace beamcam::scenes {
@@ -15,7 +14,7 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
-// File names need not be UTF-8; what is not becomes U+FFFD.
+// File names may contain bytes that are not UTF-8; they become U+FFFD.
 std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
 Json box(const output::PixelBox& b) {
@@ -53,10 +52,10 @@ bool verdict_is(const nlohmann::json& part, std::initializer_list<Verdict> verdi
     return std::ranges::any_of(verdicts, [&](Verdict v) { return part.at("verdict") == name(v); });
 }
 
-// What is to be the name of a file stays in its folder.
+// A name that stays in its folder.
 void require_file_name(const std::string& name) {
     if (name.starts_with('.') || name.find('/') != std::string::npos)
-        throw std::invalid_argument(fmt::format("{} is no name of a file in it", name));
+        throw std::invalid_argument(fmt::format("{} is not the name of a file", name));
 }
 
 ReportedEntry reported_entry(const nlohmann::json& entry) {
@@ -66,7 +65,7 @@ ReportedEntry reported_entry(const nlohmann::json& entry) {
     for (const char* part : {"picture", "motion"})
         if (entry.contains(part) && verdict_is(entry.at(part), {Verdict::different, Verdict::missing})) {
             out.differs = true;
-            for (const nlohmann::json& line : entry.at(part).at("words")) out.words = line.get<std::string>();
+            for (const nlohmann::json& line : entry.at(part).at("words")) out.reason = line.get<std::string>();
         }
     if (entry.contains("motion")) out.motion_files = entry.at("motion").at("files");
     for (const auto& [file, digest] : out.motion_files) require_file_name(file);
@@ -79,7 +78,7 @@ ReportedEntry reported_entry(const nlohmann::json& entry) {
     return out;
 }
 
-// CI services put what they kept into a folder of its own.
+// CI services may put the report into another folder.
 fs::path folder_of_report(const fs::path& given) {
     if (output::path_exists(given / kReportFile)) return given;
     std::vector<fs::path> found;
@@ -88,7 +87,7 @@ fs::path folder_of_report(const fs::path& given) {
             if (output::path_exists(inner.path() / kReportFile)) found.push_back(inner.path());
     if (found.size() == 1) return found.front();
     throw output::IoError(
-        fmt::format("{} holds no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",
+        fmt::format("{} contains no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",
                     given.string(), kReportFile));
 }
 
@@ -159,45 +158,6 @@ Report read_report(const std::filesystem::path& given) {
         throw output::IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
     }
     return report;
-}
-
-std::string to_json(const Provenance& p) {
-    Json out = {{"file", p.file}, {"kind", p.kind}};
-    for (const auto& [key, value] : p.facts) out[key] = value;
-    out["made_by_beamcam"] = p.made_by_beamcam();
-    if (!p.version.empty()) out["version"] = p.version;
-    if (!p.accuracy.empty()) out["accuracy"] = p.accuracy;
-    if (!p.title.empty()) out["title"] = p.title;
-    if (!p.scene.empty()) {
-        const Json scene = Json::parse(p.scene, nullptr, false);
-        out["scene"] = scene.is_discarded() ? Json(p.scene) : scene;
-    }
-    return text_of(out);
-}
-
-std::string runnable_scene(const std::string& scene) {
-    Json out = Json::parse(scene, nullptr, false);
-    if (!out.is_object()) return {};
-    if (out.contains("outputs") && out["outputs"].is_array())
-        for (Json& output : out["outputs"]) {
-            if (!output.is_object() || !output.contains("file") || !output["file"].is_string()) continue;
-            const std::string file = output["file"].get<std::string>();
-            if (file == "-")
-                output.erase("file");
-            else
-                output["file"] = file.substr(file.rfind('/') + 1);  // npos + 1 is 0
-        }
-    return text_of(out);
-}
-
-std::string to_json(const std::vector<Check>& checks) {
-    Json out = Json::object();
-    for (const Check& check : checks) {
-        Json one = {{"ok", check.ok}, {"found", check.found}};
-        if (!check.ok) one["remedy"] = check.remedy;
-        out[check.group][check.what] = std::move(one);
-    }
-    return text_of(out);
 }
 
 }  // namespace beamcam::scenes

@@ -1,11 +1,10 @@
-// The page about a regression test: a table of all entries, and the pictures of those that changed.
+// The HTML page of a regression test: a table of all entries, and the pictures of those that changed.
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "output/files/atomic_file.hpp"
 #include "scenes/regression/entry_pictures.hpp"
-#include "scenes/regression/markup.hpp"
 #include "scenes/regression/report.hpp"
 
 namespace beamcam::scenes {
@@ -13,8 +12,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Which view of a picture is seen, and which entries are listed, is chosen by radio buttons: rules of this sheet look
-// at which one is checked. Without the sheet all is shown, one below the other.
+// Radio buttons choose the visible view of a picture and the listed entries, by rules of this style sheet. Without it
+// the browser shows everything, one item below the other.
 constexpr std::string_view kStyle = R"(:root {
   color-scheme: light dark;
   --ink: #1b1f24; --soft: #5b6570; --line: #d8dce2; --paper: #fff; --good: #0a7d55; --near: #8a5a00; --bad: #b3400a;
@@ -52,15 +51,15 @@ figcaption { color: var(--soft); font-size: .88rem; padding: .2rem 0; }
 )";
 
 struct Pane {
-    const char *what, *caption;
+    const char *kind, *caption;
 };
-constexpr Pane kActual = {"actual", "what was drawn now"};
+constexpr Pane kActual = {"actual", "the picture of this test"};
 constexpr Pane kExpected = {"expected", "the reference picture"};
-constexpr Pane kBlink = {"blink", "expected and actual in turn"};
-constexpr Pane kDifference = {"difference", "vermilion changed, yellow antialiasing, blue frame around all of it"};
+constexpr Pane kBlink = {"blink", "expected and actual picture in turn"};
+constexpr Pane kDifference = {"difference", "changed pixels vermilion, antialiasing yellow, a blue frame around them"};
 
-std::string image(const std::string& entry, long frame, const char* what) {
-    return fmt::format("<img alt=\"{}\" src=\"{}\">", what, report_picture(entry, frame, what).string());
+std::string image(const std::string& entry, long frame, const char* kind) {
+    return fmt::format("<img alt=\"{}\" src=\"{}\">", kind, report_picture(entry, frame, kind).string());
 }
 
 std::string frame_html(const EntryResult& entry, long number, const FrameResult& frame) {
@@ -73,12 +72,12 @@ std::string frame_html(const EntryResult& entry, long number, const FrameResult&
         choices += fmt::format(
             "<input type=\"radio\" class=\"pick-{0}\" name=\"{1}-{2}\" id=\"{1}-{2}-{0}\"{3}>"
             "<label for=\"{1}-{2}-{0}\">{0}</label>\n",
-            view.what, entry.name, number, view.what == kActual.what ? " checked" : "");
-        const std::string pictures = view.what == kBlink.what ? "<div>" + image(entry.name, number, "expected") +
+            view.kind, entry.name, number, view.kind == kActual.kind ? " checked" : "");
+        const std::string pictures = view.kind == kBlink.kind ? "<div>" + image(entry.name, number, "expected") +
                                                                     image(entry.name, number, "actual") + "</div>"
-                                                              : image(entry.name, number, view.what);
-        figures += fmt::format("<figure class=\"{}\">{}<figcaption>{}: {}</figcaption></figure>\n", view.what, pictures,
-                               view.what, view.caption);
+                                                              : image(entry.name, number, view.kind);
+        figures += fmt::format("<figure class=\"{}\">{}<figcaption>{}: {}</figcaption></figure>\n", view.kind, pictures,
+                               view.kind, view.caption);
     }
     const std::string title = entry.frames.size() > 1 ? fmt::format("<p>picture {}</p>\n", number) : "";
     return fmt::format("{}<div class=\"views\">\n{}{}</div>\n", title, choices, figures);
@@ -99,8 +98,8 @@ std::vector<std::pair<long, const FrameResult*>> worst_frames(const EntryResult&
 std::string section_html(const EntryResult& entry, const char* classes) {
     std::string out = fmt::format("<section id=\"{0}\" class=\"{1}\"><h2>{0} <span class=\"{2}\">{2}</span></h2>\n",
                                   escaped_for_xml(entry.name), classes, name(entry.verdict()));
-    for (const std::string& line : {in_words("picture", entry.picture, entry.picture_lines),
-                                    in_words("motion", entry.motion, entry.motion_lines)})
+    for (const std::string& line : {describe("picture", entry.picture, entry.picture_lines),
+                                    describe("motion", entry.motion, entry.motion_lines)})
         if (!line.empty()) out += fmt::format("<p>{}</p>\n", escaped_for_xml(line));
     if (!entry.new_digest.empty())
         out += fmt::format("<p class=\"soft\">expected <code>{}</code><br>actual <code>{}</code></p>\n",

@@ -1,4 +1,5 @@
-// What a regression test found, in lines for people.
+// The result of a regression test as text, and for continuous integration: JUnit, annotations and summaries of GitHub
+// Actions.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +12,7 @@ namespace {
 
 std::string short_digest(const std::string& digest) { return digest.empty() ? "none" : digest.substr(0, 16) + "…"; }
 
-std::string where_to_look(const FrameResult& frame) {
+std::string frame_files(const FrameResult& frame) {
     std::string text =
         fmt::format("    expected    {}\n", frame.expected.empty() ? "no reference picture" : frame.expected.string());
     text += fmt::format("    actual      {}sha256 {}\n", frame.actual.empty() ? "" : frame.actual.string() + "  ",
@@ -22,17 +23,69 @@ std::string where_to_look(const FrameResult& frame) {
     return text + fmt::format("    difference  {}\n", difference);
 }
 
-}  // namespace
-
-std::string in_words(const char* what, const std::optional<Verdict>& verdict, const std::vector<std::string>& lines) {
+// The test case of a picture or of a motion. `seconds`: the time of the entry, which its first case gets.
+std::string junit_case(const std::string& suite, const EntryResult& entry, const char* part,
+                       const std::optional<Verdict>& verdict, const std::vector<std::string>& lines, double seconds,
+                       const PassRule& rule) {
     if (!verdict) return {};
-    return fmt::format("{} {}{}{}", what, name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; "));
+    std::string out = fmt::format("  <testcase classname=\"{}.{}\" name=\"{}\" time=\"{:.3f}\"", escaped_for_xml(suite),
+                                  escaped_for_xml(entry.name), part, seconds);
+    if (rule.passes(*verdict)) return out + "/>\n";
+    const std::string message =
+        escaped_for_xml(fmt::format("{}{}{}", name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; ")));
+    return out + fmt::format(">\n    <failure type=\"{0}\" message=\"{1}\">{1}</failure>\n  </testcase>\n",
+                             name(*verdict), message);
 }
 
-std::string in_words(const EntryResult& entry, const char* between) {
-    const std::string picture = in_words("picture", entry.picture, entry.picture_lines);
-    const std::string motion = in_words("motion", entry.motion, entry.motion_lines);
-    return picture + (picture.empty() || motion.empty() ? "" : between) + motion;
+// For workflow commands of GitHub Actions, which are one line. `ends`: characters that end a property.
+std::string escaped_for_annotation(std::string_view text, std::string_view ends = {}) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '%' || c == '\n' || ends.find(c) != std::string_view::npos)
+            out += fmt::format("%{:02X}", static_cast<unsigned>(c));
+        else if (static_cast<unsigned char>(c) >= 0x20)
+            out.push_back(c);
+    }
+    return out;
+}
+
+std::string escaped_for_table(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '|' || c == '\\' || c == '`' || c == '*' || c == '_' || c == '<') out.push_back('\\');
+        out.push_back(c == '\n' ? ' ' : c);
+    }
+    return out;
+}
+
+}  // namespace
+
+std::string escaped_for_xml(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else if (c == '>')
+            out += "&gt;";
+        else if (c == '"')
+            out += "&quot;";
+        else if (static_cast<unsigned char>(c) >= 0x20 || c == '\n')
+            out.push_back(c);
+    }
+    return out;
+}
+
+std::string describe(const char* part, const std::optional<Verdict>& verdict, const std::vector<std::string>& lines) {
+    if (!verdict) return {};
+    return fmt::format("{} {}{}{}", part, name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; "));
+}
+
+std::string describe(const EntryResult& entry, const char* separator) {
+    const std::string picture = describe("picture", entry.picture, entry.picture_lines);
+    const std::string motion = describe("motion", entry.motion, entry.motion_lines);
+    return picture + (picture.empty() || motion.empty() ? "" : separator) + motion;
 }
 
 std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only) {
@@ -41,17 +94,61 @@ std::string to_text(const RegressionResult& result, const PassRule& rule, bool f
     std::string text;
     for (const EntryResult& entry : result.entries) {
         if (failures_only && !entry.updated && rule.passes(entry)) continue;
-        text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, in_words(entry, " | "));
+        text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, describe(entry, " | "));
         const auto* worst = entry.worst();
-        if (worst && entry.picture != Verdict::equivalent) text += where_to_look(worst->second);
+        if (worst && entry.picture != Verdict::equivalent) text += frame_files(worst->second);
         if (entry.updated)
             text += entry.new_digest.empty()
                         ? "    updated\n"
                         : fmt::format("    updated     sha256 {} → {}\n", short_digest(entry.old_digest),
                                       short_digest(entry.new_digest));
-        if (entry.digest_added) text += fmt::format("    accepted    sha256 {} too\n", short_digest(entry.new_digest));
+        if (entry.digest_added) text += fmt::format("    added       sha256 {}\n", short_digest(entry.new_digest));
     }
     return text;
+}
+
+std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule) {
+    std::string cases;
+    std::size_t tests = 0, failures = 0;
+    for (const EntryResult& entry : result.entries) {
+        for (const auto& verdict : {entry.picture, entry.motion}) {
+            tests += verdict ? 1 : 0;
+            failures += verdict && !rule.passes(*verdict) ? 1 : 0;
+        }
+        cases += junit_case(suite, entry, "picture", entry.picture, entry.picture_lines, entry.seconds, rule);
+        cases += junit_case(suite, entry, "motion", entry.motion, entry.motion_lines, entry.picture ? 0 : entry.seconds,
+                            rule);
+    }
+    return fmt::format(
+        "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+        "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
+        "time=\"{:.3f}\">\n{}</testsuite>\n",
+        escaped_for_xml(suite), tests, failures, result.seconds, cases);
+}
+
+std::string to_annotations(const RegressionResult& result, const PassRule& rule) {
+    std::string text;
+    for (const EntryResult& entry : result.entries)
+        if (!rule.passes(entry))
+            text += fmt::format("::error file={},title={}: {}::{}\n", escaped_for_annotation(result.baselines, ",:"),
+                                entry.name, name(entry.verdict()), escaped_for_annotation(describe(entry, "\n")));
+    return text;
+}
+
+std::string to_markdown(const RegressionResult& result, const std::string& title, const PassRule& rule) {
+    std::string text = fmt::format("### {}\n\n", escaped_for_table(title)), rows;
+    std::size_t identical = 0;
+    for (const EntryResult& entry : result.entries) {
+        if (entry.verdict() == Verdict::identical) {
+            ++identical;
+            continue;
+        }
+        rows +=
+            fmt::format("| {} | {} | {} | {} |\n", rule.passes(entry) ? "passes" : "**fails**",
+                        escaped_for_table(entry.name), name(entry.verdict()), escaped_for_table(describe(entry, "; ")));
+    }
+    text += fmt::format("{} of {} entries identical, {:.1f} s\n\n", identical, result.entries.size(), result.seconds);
+    return rows.empty() ? text : text + "| | entry | verdict | what changed |\n|---|---|---|---|\n" + rows + "\n";
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// What a regression test finds: of each picture, of each entry, of all; and what passes.
+// The results of a regression test: of each picture, of each entry, and of all; and the rule by which they pass.
 #pragma once
 
 #include <filesystem>
@@ -14,53 +14,53 @@ namespace beamcam::scenes {
 
 struct FrameResult {
     Verdict verdict = Verdict::identical;
-    std::string sha256;  // of what was drawn
+    std::string sha256;  // of the drawn pixels
     PictureComparison comparison;
     bool compared = false;                               // with a reference picture
     bool reference_accepted = true;                      // the reference picture belongs to an accepted digest
-    std::filesystem::path expected, actual, difference;  // files, where there are any
-    // How far it is from what is expected: what reports begin with.
+    std::filesystem::path expected, actual, difference;  // files, if they exist
+    // Size of the difference; reports begin with the largest.
     double weight() const;
 };
 
 struct EntryResult {
     std::string name;
-    std::optional<Verdict> picture, motion;                // absent: the entry does not ask for it
+    std::optional<Verdict> picture, motion;                // absent: not compared
     std::map<long, FrameResult> frames;                    // by number, from 0
-    std::vector<std::string> picture_lines, motion_lines;  // what there is to say
-    std::map<std::string, std::string> motion_files;       // in the report, where the motion differs: SHA-256 by name
-    std::optional<double> reproducible_until;              // [s], where it was asked for
-    std::string not_reproducible;                          // in words, where the pictures show such a motion
-    std::string old_digest, new_digest;                    // of the first picture that is another, on --update
+    std::vector<std::string> picture_lines, motion_lines;  // messages
+    std::map<std::string, std::string> motion_files;       // of a motion that differs, in the report: SHA-256 by name
+    std::optional<double> reproducible_until;              // [s], if it was computed
+    std::string not_reproducible;                          // message, if the pictures show such a motion
+    std::string old_digest, new_digest;                    // of the first picture that changed
     bool updated = false, digest_added = false;
-    std::string renderer;  // the fingerprint of what drew the pictures, where they are not identical
-    double seconds = 0;    // of drawing and judging it
-    int exit_code = 0;     // what the program is to end with when there was nothing to judge; 0: judged
+    std::string renderer;  // id of the renderer, if the pictures are not identical
+    double seconds = 0;    // drawing and comparison
+    int exit_code = 0;     // of the program if the entry could not be compared; 0: it was compared
 
     Verdict verdict() const;
-    // The frame that changed most, when one changed.
+    // The frame that changed most; null: none changed.
     const std::pair<const long, FrameResult>* worst() const;
     std::size_t frames_with(Verdict verdict) const;
 };
 
-// What pictures of a new renderer come to: a failure, a pass that is told, or digests that are accepted from now on.
+// Pictures of a new renderer fail, pass with a warning, or pass and are accepted.
 enum class NewRenderer { fail, warn, accept };
 
 // Which verdicts pass.
 struct PassRule {
-    bool strict = false;  // only what is identical
+    bool strict = false;  // only identical pictures and motions pass
     NewRenderer new_renderer = NewRenderer::fail;
     bool passes(Verdict verdict) const;
-    bool passes(const EntryResult& entry) const;  // its picture and its motion, each by itself
+    bool passes(const EntryResult& entry) const;  // its picture and its motion pass
 };
 
 struct RegressionResult {
-    std::string baselines;                           // the file, as it was named
-    std::map<std::string, RendererParts> renderers;  // those of the entries
+    std::string baselines;                           // file name as given
+    std::map<std::string, RendererParts> renderers;  // of the entries
     std::vector<EntryResult> entries;
     std::size_t simulations = 0, pictures = 0;
     double seconds = 0;
-    bool changed = false;  // the baselines were rewritten
+    bool changed = false;  // the baselines file was changed
 };
 
 }  // namespace beamcam::scenes

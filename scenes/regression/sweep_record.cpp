@@ -17,19 +17,19 @@ namespace {
 using sim::AttractorClass;
 
 constexpr std::size_t kBlocks = 10;
-constexpr std::size_t kFewestBlocks = 5;  // that have samples, or nothing is known
-// Of two means over ten blocks. Student's t exceeds 8 in one pair of five million; but of 200 000 pairs of quantities
-// of chaotic motions that differ in their start alone one came to 8.4, where quiet phases alternate with others.
+constexpr std::size_t kFewestBlocks = 5;  // with samples; fewer give no estimate of the error
+// Significant difference of two means over ten blocks. Student's t exceeds 8 in one of five million pairs; but of 200
+// 000 pairs of quantities of chaotic motions with different initial states, one reached 8.4 (intermittent motion).
 constexpr double kSureErrors = 10;
-constexpr double kSureErrorsOfAll = 8;     // of sums over points
-constexpr std::size_t kMostOfOrbit = 500;  // samples of a periodic motion that are compared: all of its orbit
-constexpr std::size_t kMostTold = 4;
+constexpr double kSureErrorsOfAll = 8;     // the same of sums over all points
+constexpr std::size_t kMostOfOrbit = 500;  // compared samples of a periodic motion: its whole orbit
+constexpr std::size_t kMostLines = 4;
 
 using Column = std::span<const double>;
 
 bool same(double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); }
 
-// A point's samples; one that has none has a row all the same.
+// The rows of a point's samples; a point without samples has one row, too.
 struct PointRows {
     std::size_t begin = 0, end = 0;
     std::size_t size() const { return end - begin; }
@@ -37,7 +37,7 @@ struct PointRows {
 
 class SweepTable {
   public:
-    // Throws IoError for one that no sweep wrote.
+    // Throws IoError if the table is not that of a sweep.
     explicit SweepTable(const output::NamedTable& table) : table_(table), t_(column("t")), kinds_(column("class")) {
         const std::vector<double>& sample = column("sample");
         for (std::size_t row = 0; row < sample.size(); ++row) {
@@ -53,7 +53,7 @@ class SweepTable {
     }
 
     const std::vector<PointRows>& points() const { return points_; }
-    // Columns of the samples but those that grow with time.
+    // Columns of the samples, without those that grow with time.
     const std::vector<std::string>& values() const { return values_; }
     Column all(std::size_t value) const { return columns_[value]; }
     Column samples(const PointRows& point, std::size_t value) const {
@@ -92,7 +92,7 @@ class SweepTable {
 bool has_period(AttractorClass kind) {
     return kind == AttractorClass::rest || kind == AttractorClass::following || kind == AttractorClass::periodic;
 }
-// On the border of two of these classes a point falls to one side or the other.
+// Points on the border between two of these classes may get either.
 bool has_statistics(AttractorClass kind) { return !has_period(kind) && kind != AttractorClass::over_the_top; }
 
 // ---- statistics -------------------------------------------------------------------------------------
@@ -110,7 +110,7 @@ MeanEstimate estimate(const std::vector<double>& blocks) {
     return {sum / n, std::sqrt(squares / (n * (n - 1)))};
 }
 
-// Of the samples of one point, block by block of the time: their number, and the mean of a function of each.
+// The samples of one point in equal blocks of the time: their number, and the mean of a function of each.
 class Blocks {
   public:
     Blocks(Column t, double from, double to) {
@@ -147,35 +147,35 @@ class SweepComparer {
 
     MotionVerdict compare() {
         if (const std::string why = another_sweep(); !why.empty())
-            return {Verdict::different, {"the sweep became another: " + why}};
+            return {Verdict::different, {"it is another sweep: " + why}};
         bool identical = true;
-        std::size_t unjudged = 0;
+        std::size_t not_compared = 0;
         std::vector<std::string> of_class, of_values;
         for (std::size_t k = 0; k < a_.points().size(); ++k) {
             const PointRows& a = a_.points()[k];
-            unjudged += is_judged(a) ? 0 : 1;
-            identical = identical && (!is_judged(a) || a_.same_rows(a, b_, b_.points()[k]));
-            if (const PointChange change = difference(k); !change.words.empty())
-                (change.of_class ? of_class : of_values).push_back(fmt::format("{}: {}", a_.place(a), change.words));
+            not_compared += is_compared(a) ? 0 : 1;
+            identical = identical && (!is_compared(a) || a_.same_rows(a, b_, b_.points()[k]));
+            if (const PointChange change = difference(k); !change.text.empty())
+                (change.of_class ? of_class : of_values).push_back(fmt::format("{}: {}", a_.place(a), change.text));
         }
         if (identical) return {};
         if (of_values.empty()) of_values = differences_over_points();
-        MotionVerdict all{Verdict::equivalent, {"each point in its numbers or its statistics"}};
-        if (of_class.size() <= (unjudged + 1) / 2 && !of_class.empty())
-            all.lines.push_back(fmt::format("{} on borders between classes changed theirs", of_class.size()));
+        MotionVerdict all{Verdict::equivalent, {"all points agree in their numbers or their statistics"}};
+        if (of_class.size() <= (not_compared + 1) / 2 && !of_class.empty())
+            all.lines.push_back(fmt::format("{} on borders between classes changed their class", of_class.size()));
         else
             of_values.insert(of_values.end(), of_class.begin(), of_class.end());
         if (of_values.empty()) return all;
-        const std::size_t told = std::min(of_values.size(), kMostTold);
-        all = {Verdict::different, {of_values.begin(), of_values.begin() + static_cast<std::ptrdiff_t>(told)}};
-        if (of_values.size() > told) all.lines.push_back(fmt::format("and {} more points", of_values.size() - told));
+        const std::size_t shown = std::min(of_values.size(), kMostLines);
+        all = {Verdict::different, {of_values.begin(), of_values.begin() + static_cast<std::ptrdiff_t>(shown)}};
+        if (of_values.size() > shown) all.lines.push_back(fmt::format("and {} more points", of_values.size() - shown));
         return all;
     }
 
     std::vector<std::size_t> differing() {
         std::vector<std::size_t> all;
         for (std::size_t k = 0; k < a_.points().size(); ++k)
-            if (!difference(k).words.empty()) all.push_back(k);
+            if (!difference(k).text.empty()) all.push_back(k);
         return all;
     }
 
@@ -198,16 +198,16 @@ class SweepComparer {
         return {};
     }
 
-    bool is_judged(const PointRows& a) const { return a_.kind(a) != AttractorClass::unsettled; }
+    bool is_compared(const PointRows& a) const { return a_.kind(a) != AttractorClass::unsettled; }
 
-    // Why the point is another one; no words: it is not.
+    // How the point differs; empty text: it does not.
     struct PointChange {
-        std::string words;
+        std::string text;
         bool of_class = false;
     };
     PointChange difference(std::size_t k) {
         const PointRows &a = a_.points()[k], &b = b_.points()[k];
-        if (!is_judged(a) || a_.same_rows(a, b_, b)) return {};
+        if (!is_compared(a) || a_.same_rows(a, b_, b)) return {};
         const AttractorClass was = a_.kind(a), is = b_.kind(b);
         if (has_statistics(was) && has_statistics(is)) return {difference_of_statistics(a, b)};
         if (was != is) return {fmt::format("{} became {}", name(was), name(is)), true};
@@ -230,7 +230,7 @@ class SweepComparer {
         return fmt::format("{} moved by {:.2g} of its range", a_.values()[column], worst);
     }
 
-    // Of the last samples of one table, the one that is farthest from all those of the other, and in which column.
+    // The largest distance of one of the last samples of a table from the nearest sample of the other, and its column.
     std::pair<double, std::size_t> farthest(const SweepTable& from, const PointRows& own, const SweepTable& to,
                                             const PointRows& its) const {
         const std::size_t n = own.size(), m = its.size();
@@ -249,7 +249,7 @@ class SweepComparer {
         for (std::size_t c = 0; c < a_.values().size(); ++c) {
             const double x = from.samples(own, c)[i], y = to.samples(its, c)[k];
             double step = same(x, y) ? 0 : std::isnan(x) || std::isnan(y) ? INFINITY : std::fabs(x - y);
-            if (a_.values()[c] == "cam_phase" && step > 0.5) step = 1 - step;  // turns, without the whole ones
+            if (a_.values()[c] == "cam_phase" && step > 0.5) step = 1 - step;  // fractions of a turn
             most = std::max(most, {step / ranges_[c], c});
         }
         return most;
@@ -267,7 +267,7 @@ class SweepComparer {
         const MeanEstimate before{a_.at(a, "exponent"), a_.at(a, "exponent_error")},
             after{b_.at(b, "exponent"), b_.at(b, "exponent_error")};
         if (std::isnan(before.value) != std::isnan(after.value)) return "the exponent appeared or vanished";
-        // Lasting contact, which forgets every difference, may have occurred once.
+        // The exponent is infinite where lasting contact removed every difference.
         if (std::isfinite(before.value) && std::isfinite(after.value))
             if (std::string why = compared("exponent", before, after, 0); !why.empty()) return why;
         for (std::size_t c = 0; c < a_.values().size(); ++c) {
@@ -297,21 +297,21 @@ class SweepComparer {
                            std::fabs(step) / error);
     }
 
-    // Small changes of one direction at many points.
+    // Small changes in the same direction at many points.
     std::vector<std::string> differences_over_points() const {
-        std::vector<std::string> words;
+        std::vector<std::string> lines;
         for (const auto& [what, all] : over_points_)
             if (const double error = std::sqrt(all.variance); std::fabs(all.sum) > kSureErrorsOfAll * error + all.floor)
-                words.push_back(
+                lines.push_back(
                     fmt::format("over all points without period the {} changed by {:.3g} of its standard errors", what,
                                 all.sum / error));
-        return words;
+        return lines;
     }
 
     const SweepTable a_, b_;
     const double tolerance_;
     std::vector<double> ranges_;
-    // Of each quantity, summed over the points: its change, the variance of that, and what the tolerance lets pass.
+    // Sums over the points for each quantity: its change, the variance of the change, and the tolerance.
     struct Change {
         double sum = 0, variance = 0, floor = 0;
     };

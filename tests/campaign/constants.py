@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Copies the tables of numerical constants with their constants as variables, and lists them, for campaign_constants.
+"""Copies the tables of numerical constants, changes the constants to variables and lists them, for campaign_constants.
 
     constants.py SIM OUT    SIM/<folder>/constants.hpp -> OUT/sim/<folder>/constants.hpp, OUT/constants.inc
 """
@@ -7,7 +7,7 @@ import pathlib
 import re
 import sys
 
-# What the layout of the memory depends on.
+# Constants that determine the layout of memory.
 FIXED = {"kTangentMemories", "kMaxPieces"}
 
 source, out = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])

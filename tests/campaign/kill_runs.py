@@ -1,15 +1,14 @@
 #!/usr/bin/env python3
-"""Ends runs of every kind of output at random instants, and checks what they leave.
+"""Ends runs of all kinds of outputs at random instants, and checks the remaining files.
 
 kill_runs.py PROGRAM [--kills N] [--signals N] [--seed N]
 
-Of N kills (SIGKILL) and N polite signals (SIGINT, SIGTERM, SIGHUP, one or two in a row) each kind gets its share. After
-each of them:
+Sends N SIGKILL and N other signals (SIGINT, SIGTERM, SIGHUP, one or two in a row), distributed over the kinds. After each:
   * every file under its final name has the bytes of an undisturbed run;
-  * a polite signal leaves nothing else, and the exit code 130 (or the run was finished already);
-  * a file that the user puts under a missing name is refused by the next run (exit code 6) and kept;
+  * after a signal other than SIGKILL no other file remains, and the exit code is 130 (or the run had finished);
+  * the next run does not replace a file that the user created under a missing name (exit code 6);
   * the next run without --force ends with 0 and leaves exactly the files of an undisturbed run;
-  * of an update of baselines, all is old or all is new once the next test has run.
+  * after the next test, either all or none of the changes of a baselines update exist.
 """
 import argparse
 import collections

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Runs every kind of output with less and less memory (ulimit -v): each run must succeed, or end with a message and a documented
-exit code; no signal, no hang, no half-written file, no other cause in the message.
+"""Runs all kinds of outputs with less and less memory (ulimit -v). Each run must succeed or end with a message about memory and
+a documented exit code, without a signal, an endless loop or an incomplete file.
 
 memory.py PROGRAM [--steps MB,MB,…]
 """
@@ -65,7 +65,7 @@ def main():
                 if not loader and (done.returncode not in DOCUMENTED or left or (done.returncode and "memory" not in done.stderr)):
                     problems.append(f"{name} with {megabytes} MB: exit {done.returncode}, left {left}: {done.stderr[-300:]}")
         print(f"{name:16} {' '.join(code.rjust(3) for code in row)}", flush=True)
-    print("\n".join(problems) or "every end was told")
+    print("\n".join(problems) or "every run succeeded or ended with a message")
     sys.exit(1 if problems else 0)
 
 

@@ -1,14 +1,14 @@
 #!/usr/bin/env python3
-"""Feeds the program damaged files of every kind it reads, through every command that reads them.
+"""Passes damaged files of all kinds to all commands that read them.
 
 mutations.py PROGRAM [--count N] [--seed N] [--jobs N] [--keep FOLDER]
 
-Samples of every kind are made with the program itself: scenes, baselines, CSV and NPZ tables, PNG, PDF and SVG pictures, films
-in every container, the manifest of an output folder, cached motions. Each run gets one of them with a few mutations: bytes
-flipped, parts cut, doubled, exchanged or overwritten with numbers, words and escape sequences; checksums are repaired in half of
-the runs, so that what they guard is reached. Every run must end within a minute, with a documented exit code other than 1
-(bug), without a signal, and with neither control characters nor marks of direction nor broken UTF-8 on standard output or
-standard error. N is 500 by default; inputs that fail are kept in FOLDER.
+The program itself writes the samples: scenes, baselines, CSV and NPZ tables, PNG, PDF and SVG pictures, films in all
+containers, the manifest of an output folder, cached motions. Each run gets a sample with a few mutations: flipped bytes;
+parts cut, doubled, exchanged, or overwritten with numbers, words and escape sequences. In half of the runs the checksums are
+repaired, so that the code behind them is reached. Every run must end within a minute, with a documented exit code other
+than 1 (bug), without a signal, and without control characters, directional marks and invalid UTF-8 on standard output and
+standard error. N is 500 by default; inputs that fail are stored in FOLDER.
 """
 import argparse
 import collections

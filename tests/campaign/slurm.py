@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Runs the script of `beamcam sweep --emit slurm` on a Slurm of one node that this program starts and ends.
+"""Runs the script of `beamcam sweep --emit slurm` on a Slurm cluster of one node, which this program starts and stops.
 
 slurm.py PROGRAM
 
-The daemons munged, slurmctld and slurmd work in a temporary folder, as this user, on ports that are free. Checked are
-the bytes of the collected parts against those of the whole sweep: after a run, and after a run one of whose tasks was
-killed. Ends with 77 where there is no Slurm or where it does not start, as in a container without the rights it needs.
+The daemons munged, slurmctld and slurmd run in a temporary folder, as this user, on free ports. The collected parts must have
+the bytes of the whole sweep, also after one of the tasks was killed. Exit code 77 (skipped) without Slurm, or if it does not
+start, as in a container without the necessary rights.
 """
 import contextlib
 import os
@@ -198,7 +198,7 @@ def main():
     os.environ["PATH"] += ":/usr/sbin:/sbin"
     missing = [name for name in needed if not shutil.which(name)]
     if missing:
-        print("skipped: there is no", ", ".join(missing))
+        print("skipped: missing", ", ".join(missing))
         return SKIPPED
     folder = pathlib.Path(tempfile.mkdtemp(prefix="beamcam-slurm-"))
     folder.chmod(0o755)  # munged wants it so
@@ -207,7 +207,7 @@ def main():
             sweep = Sweep(program, folder / "work", environment)
             sweep.is_made()
             sweep.goes_on_after_a_kill()
-        print("as the whole: made by an array, and after one of its tasks was killed")
+        print("equal to the whole sweep: parts of an array job, and after one of its tasks was killed")
         return 0
     except Unavailable as reason:
         print(f"skipped: Slurm does not work here: {reason}\n{logs(folder)}")

@@ -15,6 +15,8 @@
 #include <string>
 #include <vector>
 
+#include "output/image/raster.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
 
 namespace beamcam::output {
@@ -66,6 +68,24 @@ inline render::Image pattern(int width, int height, bool opaque) {
     }
     return image;
 }
+
+inline render::DirtyTiles all_tiles(const render::Image& image) {
+    render::DirtyTiles all(image.width, image.height);
+    all.add_all();
+    return all;
+}
+
+// The decoded pixels of a file with this image, and their digest.
+inline Raster raster_of(const render::Image& image) {
+    Raster raster;
+    to_raster(image, raster);
+    return raster;
+}
+inline std::string rgba_bytes(const render::Image& image) {
+    const Raster raster = raster_of(image);
+    return {raster.rgba.begin(), raster.rgba.end()};
+}
+inline std::string digest(const render::Image& image) { return digest(raster_of(image)); }
 
 // What a shell command prints; fails the test when it exits with an error.
 inline std::string output_of(const std::string& command) {

@@ -13,14 +13,14 @@
 namespace beamcam::output {
 namespace {
 
-constexpr int kLevel = 1;                       // more takes longer for a few per cent
+constexpr int kLevel = 1;                       // higher levels take longer for a few per cent
 constexpr std::size_t kCacheBytes = 4'000'000;  // of a variable that is written in blocks
 constexpr std::size_t kCacheSlots = 521;        // as HDF5 has by default
 
 static_assert(sizeof(hid_t) <= sizeof(std::int64_t) && sizeof(hsize_t) == sizeof(std::uint64_t));
 std::vector<hsize_t> sizes(const Extent& extent) { return {extent.begin(), extent.end()}; }
 
-// The filter shuffle of HDF5: first bytes of all numbers, then second ones.
+// The shuffle filter of HDF5: the first bytes of all numbers, then the second bytes, and so on.
 void shuffle(std::span<const double> numbers, unsigned char* out) {
     constexpr std::size_t kBytes = sizeof(double);
     const std::size_t count = numbers.size();

@@ -1,6 +1,6 @@
-// Variables of a NetCDF-4 file that libnetcdf has defined and closed, filled through HDF5: whole chunks are compressed
-// by libdeflate, which takes a third of the time of HDF5's own filter for the same kind of stream.
-// https://docs.hdfgroup.org/hdf5/v1_14/group___h5_d.html (H5Dwrite_chunk)
+// Fills the variables of a NetCDF-4 file, which libnetcdf has defined and closed, through HDF5. libdeflate compresses
+// whole chunks in a third of the time of HDF5's filter. https://docs.hdfgroup.org/hdf5/v1_14/group___h5_d.html
+// (H5Dwrite_chunk)
 #pragma once
 
 #include <cstdint>
@@ -25,7 +25,7 @@ class ChunkFile {
     ChunkFile(const ChunkFile&) = delete;
     ChunkFile& operator=(const ChunkFile&) = delete;
 
-    std::size_t variable(const std::string& name);  // its number in the functions below
+    std::size_t variable(const std::string& name);  // returns its number for the functions below
     // A whole chunk of a variable of doubles with the filters shuffle and deflate; `at`: its first number.
     void write_chunk(std::size_t variable, const Extent& at, std::span<const double> numbers);
     // Any block, through the cache of the variable.

@@ -14,19 +14,19 @@
 namespace beamcam::output {
 namespace {
 
-constexpr std::uint64_t kChunk = 1 << 17;  // numbers of one chunk, about: 1 MB
-constexpr std::uint64_t kUneven = 4;       // points of so many times the samples of the mean one are long
-constexpr std::uint64_t kUnevenShare = 8;  // of a chunk, where some are long
-constexpr int kDeflate = 1;                // more takes three times as long for a few per cent
+constexpr std::uint64_t kChunk = 1 << 17;  // approximate size of a chunk in numbers: 1 MB
+constexpr std::uint64_t kUneven = 4;       // a point is long if it has this multiple of the mean number of samples
+constexpr std::uint64_t kUnevenShare = 8;  // divisor of the chunk size if there are long points
+constexpr int kDeflate = 1;                // higher levels take three times as long for a few per cent
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr int kMissing = -1;  // class and count of a point that is not in this file
+constexpr int kMissing = -1;  // class and sample count of a point that this file does not contain
 
 class File {
   public:
     // Modes of nc_create and nc_open.
     static std::shared_ptr<File> create(const std::filesystem::path& file, const std::filesystem::path& named) {
         auto made = std::make_shared<File>(named);
-        made->need(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &made->id), "cannot be made");
+        made->need(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &made->id), "cannot be created");
         return made;
     }
     static std::shared_ptr<File> open(const std::filesystem::path& file) {
@@ -46,7 +46,7 @@ class File {
         id = -1;
         need(closed, "cannot be written");
     }
-    void need(int status, const char* what = "is no sweep of beamcam") const {
+    void need(int status, const char* what = "is not a sweep of beamcam") const {
         if (status != NC_NOERR) throw IoError(fmt::format("{}: {} ({})", named.string(), what, nc_strerror(status)));
     }
     int variable(const std::string& name) const {
@@ -69,7 +69,7 @@ class File {
     int id = -1;
 };
 
-// Names and numbers of the variables that a point has once, in the order of StoredPoint.
+// Variables with one value for each point, in the order of StoredPoint.
 constexpr const char* kPointNumbers[] = {"impacts_per_period", "exponent", "exponent_error"};
 constexpr const char* kPointMeanings[] = {"Impacts in a period; in a turn of the cam where there is none",
                                           "Largest Lyapunov exponent", "Its standard error"};
@@ -95,9 +95,9 @@ class Writer {
         const std::uint64_t first = data.axes[0].values.size(), points = data.points();
         const std::uint64_t most = std::max<std::uint64_t>(1, data.most_rows());
         extent_ = {points / data.seeds / first, first, data.seeds, most};
-        // A chunk holds whole points, and of those whole rows of the grid, where they are small. Where few points have
-        // many more samples than the others, chunks are smaller and hold parts of the long points but more than the
-        // short ones have: what is empty costs little then.
+        // A chunk contains whole points, and whole rows of the grid if they are small. If a few points have many more
+        // samples than the others, chunks are smaller: they contain parts of the long points, but all of the short
+        // ones, so that little space is empty.
         std::uint64_t room = kChunk;
         chunk_ = extent_;
         const std::uint64_t usual = std::max<std::uint64_t>(1, kUneven * data.rows_in_all() / points);
@@ -137,7 +137,7 @@ class Writer {
         if (!meaning.empty()) file_->set(id, "long_name", meaning);
         return id;
     }
-    // Without the dimension of the second axis where there is none.
+    // Without the dimension of the second axis if there is only one axis.
     template <class Numbers>
     Numbers dimensions_of(Numbers numbers) const {
         if (data_.axes.size() == 1) numbers.erase(numbers.begin());
@@ -214,7 +214,7 @@ class Writer {
         for (const SweepColumn& column : data_.columns) columns_.push_back(chunks.variable(column.name));
     }
 
-    // The points of one chunk, those that are not in this file empty.
+    // The points of one chunk; points that this file does not contain are empty.
     void block(ChunkFile& chunks, const Extent& at) const {
         Extent size(3);
         for (std::size_t d = 0; d < 3; ++d) size[d] = std::min(chunk_[d], extent_[d] - at[d]);
@@ -304,7 +304,7 @@ void write_columns(const File& file, const ColumnTable& table) {
         need(nc_put_var_double(file.id, ids[c], table.columns[c].values.data()));
 }
 
-// Reads points of a file as they are asked for.
+// Reads points of a file on demand.
 class Reader {
   public:
     explicit Reader(const std::filesystem::path& file) : file_(File::open(file)) {}

@@ -1,4 +1,4 @@
-// One film out of several, packets as they are.
+// Joins films without encoding them again.
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -19,19 +19,20 @@ namespace {
 struct Segment {
     InputFile file;
     const AVStream* stream = nullptr;
-    std::optional<FrameRange> range;  // where the segment tells it
+    std::optional<FrameRange> range;  // if the segment states it
 
     explicit Segment(const std::filesystem::path& name) : file(name), range(frame_range(file)) {
         const AVFormatContext& format = file.format();
         if (format.nb_streams != 1 || format.streams[0]->codecpar->codec_type != AVMEDIA_TYPE_VIDEO)
             throw Mismatch(this->name() +
-                           " is not one of beamcam's films: it should hold one stream of pictures and nothing else");
+                           " is not a film of beamcam: it must contain one video stream and nothing else");
         stream = format.streams[0];
         if (file.tag("beamcam-rate-mode") == "variable")
-            throw Mismatch(this->name() +
-                           " has a variable frame rate; parts of a film (--shard) keep every frame and can be joined");
+            throw Mismatch(
+                this->name() +
+                " has a variable frame rate; parts made with --shard have a constant rate and can be joined");
         if (stream->avg_frame_rate.num <= 0 || stream->avg_frame_rate.den <= 0)
-            throw Mismatch(this->name() + " does not say its frame rate; beamcam's films do");
+            throw Mismatch(this->name() + " does not state its frame rate; films of beamcam do");
     }
     std::string name() const { return file.file().string(); }
     std::string tag(const char* key) const { return file.tag(key); }
@@ -39,7 +40,7 @@ struct Segment {
 
 std::string size_of(const AVCodecParameters& p) { return std::to_string(p.width) + "x" + std::to_string(p.height); }
 
-// A scene without the names of its outputs, which say nothing about pictures.
+// A scene without the file names of its outputs, which do not affect the pictures.
 std::string without_files(const std::string& scene) {
     const std::string key = "\"file\": \"";
     std::string kept;
@@ -53,7 +54,7 @@ std::string without_files(const std::string& scene) {
     return kept.append(scene, from);
 }
 
-// Why `b` cannot follow `a`; empty when it can.
+// Why `b` cannot follow `a`; empty: it can.
 std::string mismatch(const Segment& a, const Segment& b) {
     const AVCodecParameters &p = *a.stream->codecpar, &q = *b.stream->codecpar;
     if (p.codec_id != q.codec_id)
@@ -74,11 +75,11 @@ void check_order(const std::vector<Segment>& segments) {
     for (std::size_t i = 1; i < segments.size(); ++i) {
         const Segment &a = segments[i - 1], &b = segments[i];
         if (const std::string what = mismatch(a, b); !what.empty())
-            throw Mismatch(a.name() + " and " + b.name() + " have different " + what + " and make no one film");
+            throw Mismatch(a.name() + " and " + b.name() + " have different " + what + " and cannot be joined");
         if (a.range && b.range &&
             (a.range->end != b.range->first || a.range->begin_of_all != b.range->begin_of_all ||
              a.range->end_of_all != b.range->end_of_all))
-            throw Mismatch(a.name() + " holds the frames " + a.tag("beamcam-frames") + ", " + b.name() + " " +
+            throw Mismatch(a.name() + " contains the frames " + a.tag("beamcam-frames") + ", " + b.name() + " " +
                            b.tag("beamcam-frames") + ": name the segments in order, without gaps");
     }
 }
@@ -98,11 +99,11 @@ class Joiner {
         stream.avg_frame_rate = first.stream->avg_frame_rate;
         stream.sample_aspect_ratio = first.stream->sample_aspect_ratio;
         copy_tags(first, last);
-        // As in every MP4 of the program: index first, keys of our own. Other containers know no such flags.
+        // As in all MP4 files of beamcam: index first, own keys. Other containers ignore these flags.
         file_.write_header({{"movflags", "+faststart+use_metadata_tags"}});
     }
 
-    // The packets of one segment behind those before. Its own first picture is its instant 0.
+    // Appends the packets of one segment. Its first picture has the time 0.
     void add(const Segment& segment) {
         const AVRational frame = av_inv_q(segment.stream->avg_frame_rate), base = segment.stream->time_base;
         const std::int64_t shift = av_rescale_q(frames_, frame, base), before = frames_;
@@ -114,8 +115,8 @@ class Joiner {
             if ((packet_->flags & AV_PKT_FLAG_CORRUPT) != 0) segment.file.refuse(kDamaged);
             const bool has_order = packet_->dts != AV_NOPTS_VALUE;
             if (!is_instant(packet_->pts) || (has_order && !is_instant(packet_->dts)))
-                segment.file.refuse("a picture in it has no time stamp, or an impossible one");
-            // The first packet is a key picture and the first that is shown.
+                segment.file.refuse("it contains a picture without a valid time stamp");
+            // The first packet is a key frame and is displayed first.
             if (earliest == AV_NOPTS_VALUE) earliest = packet_->pts;
             packet_->pts += shift - earliest;
             if (has_order) packet_->dts += shift - earliest;
@@ -128,7 +129,7 @@ class Joiner {
         const long declared = declared_frames(segment.file, *segment.stream),
                    read = static_cast<long>(frames_ - before);
         if (read == 0 || (declared > 0 && read != declared))
-            segment.file.refuse("it holds " + std::to_string(read) + " of its " + std::to_string(declared) +
+            segment.file.refuse("it contains " + std::to_string(read) + " of its " + std::to_string(declared) +
                                 " frames; make or copy it again");
     }
 
@@ -142,7 +143,7 @@ class Joiner {
         void operator()(AVPacket* packet) const { av_packet_free(&packet); }
     };
 
-    // The sum of three of them is far from overflow. AV_NOPTS_VALUE, the smallest number, is none.
+    // So small that the sum of three does not overflow. Excludes AV_NOPTS_VALUE, the smallest number.
     static bool is_instant(std::int64_t stamp) {
         constexpr std::int64_t kFar = std::int64_t(1) << 60;
         return stamp > -kFar && stamp < kFar;

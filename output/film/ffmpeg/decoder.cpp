@@ -1,4 +1,4 @@
-// Films to pictures: libavformat, libavcodec and libswscale.
+// Decodes films by libavformat, libavcodec and libswscale.
 #include <algorithm>
 #include <cmath>
 #include <memory>
@@ -17,14 +17,14 @@ extern "C" {
 namespace beamcam::output::ffmpeg {
 namespace {
 
-// What digests are defined by; see video_reader.hpp.
+// Digests depend on these flags; see video_reader.hpp.
 constexpr int kScaling = SWS_BICUBIC | SWS_ACCURATE_RND | SWS_FULL_CHR_H_INT | SWS_BITEXACT;
 
 class FfmpegDecoder : public Decoder {
   public:
     explicit FfmpegDecoder(const std::filesystem::path& file) : file_(file) {
         const int best = av_find_best_stream(&file_.format(), AVMEDIA_TYPE_VIDEO, -1, -1, nullptr, 0);
-        if (best < 0) file_.refuse("there are no pictures in it");
+        if (best < 0) file_.refuse("it contains no pictures");
         stream_ = file_.format().streams[best];
         open_codec();
         read_info();
@@ -59,7 +59,6 @@ class FfmpegDecoder : public Decoder {
 
     void open_codec() {
         const AVCodecParameters* parameters = stream_->codecpar;
-        // FFmpeg's own VP8 and VP9 decoders do not know transparency, which libvpx does.
         const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
         if (decoder == nullptr)
             throw MissingCodec(
@@ -71,8 +70,8 @@ class FfmpegDecoder : public Decoder {
         if (!codec_ || !packet_ || !frame_) throw std::bad_alloc();
         int code = avcodec_parameters_to_context(codec_.get(), parameters);
         if (code < 0) file_.refuse(kDamaged, code);
-        codec_->thread_count = 0;  // as many as there are cores
-        // A damaged picture is an error, not a guess.
+        codec_->thread_count = 0;  // one for each core
+        // A damaged picture is an error.
         codec_->err_recognition = AV_EF_CRCCHECK | AV_EF_BITSTREAM | AV_EF_BUFFER | AV_EF_EXPLODE;
         codec_->error_concealment = 0;
         codec_->flags |= AV_CODEC_FLAG_BITEXACT;
@@ -81,7 +80,7 @@ class FfmpegDecoder : public Decoder {
         if (codec_->width <= 0 || codec_->height <= 0)
             file_.refuse(parameters->codec_id == AV_CODEC_ID_WEBP
                              ? "FFmpeg does not decode animated WebP; an .apng of the same film can be read"
-                             : "it has pictures of no size");
+                             : "its pictures have no size");
     }
 
     void read_info() {
@@ -99,7 +98,7 @@ class FfmpegDecoder : public Decoder {
         }
     }
 
-    // Gives the decoder the next packet of the film, or word that there is none.
+    // Passes the next packet of the film, or its end, to the decoder.
     void feed() {
         for (;;) {
             int code = av_read_frame(&file_.format(), packet_.get());
@@ -124,7 +123,7 @@ class FfmpegDecoder : public Decoder {
         }
     }
 
-    // The converter that FFmpeg's own filter "scale" sets up for this frame.
+    // The converter as FFmpeg's filter "scale" configures it for this frame.
     void prepare_scaler() {
         const auto from = static_cast<AVPixelFormat>(frame_->format);
         if (scaler_ != nullptr && from == scaler_from_) return;
@@ -141,18 +140,18 @@ class FfmpegDecoder : public Decoder {
         const bool full = frame_->color_range == AVCOL_RANGE_JPEG;
         sws_setColorspaceDetails(scaler_, matrix, full, matrix, 0, 0, 1 << 16, 1 << 16);
         const int code = sws_init_context(scaler_, nullptr, nullptr);
-        if (code < 0) file_.refuse("its kind of pixels cannot be converted", code);
+        if (code < 0) file_.refuse("its pixel format cannot be converted", code);
     }
 
     void convert(std::uint8_t* rgba) {
         const AVFrame& f = *frame_;
-        if (f.width != info_.width || f.height != info_.height) file_.refuse("its pictures change their size");
+        if (f.width != info_.width || f.height != info_.height) file_.refuse("its pictures have different sizes");
         if ((f.flags & AV_FRAME_FLAG_CORRUPT) != 0 || f.decode_error_flags != 0) file_.refuse(kDamaged);
         prepare_scaler();
         std::uint8_t* const to[4] = {rgba, nullptr, nullptr, nullptr};
         const int stride[4] = {4 * f.width, 0, 0, 0};
         if (sws_scale(scaler_, f.data, f.linesize, 0, f.height, to, stride) != f.height)
-            file_.refuse("its kind of pixels cannot be converted");
+            file_.refuse("its pixel format cannot be converted");
     }
 
     InputFile file_;
@@ -162,7 +161,7 @@ class FfmpegDecoder : public Decoder {
     std::unique_ptr<AVFrame, Free> frame_;
     SwsContext* scaler_ = nullptr;
     AVPixelFormat scaler_from_ = AV_PIX_FMT_NONE;
-    bool drained_ = false;  // the decoder was told that nothing more comes
+    bool drained_ = false;  // the decoder has received the end of the film
     VideoInfo info_;
 };
 

@@ -1,4 +1,4 @@
-// Pictures to films: encoders through libavcodec, containers through libavformat.
+// Encodes films: encoders of libavcodec, containers of libavformat.
 #include <cstring>
 #include <memory>
 #include <new>
@@ -35,8 +35,8 @@ struct OwnedFrame : FramePlanes {
     }
 };
 
-// Which pictures libx265 takes depends on how it was built.
-bool takes(const AVCodec& codec, AVPixelFormat wanted) {
+// The pixel formats that libx265 supports depend on its build.
+bool supports(const AVCodec& codec, AVPixelFormat pixels) {
 #if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 13, 100)
     const void* found = nullptr;
     if (avcodec_get_supported_config(nullptr, &codec, AV_CODEC_CONFIG_PIX_FORMAT, 0, &found, nullptr) < 0) return true;
@@ -44,15 +44,15 @@ bool takes(const AVCodec& codec, AVPixelFormat wanted) {
 #else
     const AVPixelFormat* format = codec.pix_fmts;
 #endif
-    if (format == nullptr) return true;  // FFmpeg does not know
-    while (*format != AV_PIX_FMT_NONE && *format != wanted) ++format;
-    return *format == wanted;
+    if (format == nullptr) return true;  // unknown
+    while (*format != AV_PIX_FMT_NONE && *format != pixels) ++format;
+    return *format == pixels;
 }
 
 const AVCodec& first_encoder(const EncoderSettings& s) {
     for (const std::string& name : s.encoders)
         if (const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str());
-            codec != nullptr && takes(*codec, av_get_pix_fmt(s.pixel_format.c_str())))
+            codec != nullptr && supports(*codec, av_get_pix_fmt(s.pixel_format.c_str())))
             return *codec;
     throw MissingCodec(s.missing);
 }
@@ -82,7 +82,7 @@ class FfmpegEncoder : public Encoder {
         frame->av->format = codec_->pix_fmt;
         frame->av->width = codec_->width;
         frame->av->height = codec_->height;
-        // ProRes tells what its frames tell, not what the encoder was told.
+        // ProRes uses the tags of its frames, not those of the encoder.
         frame->av->color_primaries = codec_->color_primaries;
         frame->av->color_trc = codec_->color_trc;
         frame->av->colorspace = codec_->colorspace;
@@ -100,7 +100,7 @@ class FfmpegEncoder : public Encoder {
         int code = avcodec_send_frame(codec_.get(), frame.av);
         if (code < 0) fail("encoding", code);
         drain();
-        // x264 has copied the picture by now; an encoder that still reads it gets the old buffer to itself.
+        // x264 has copied the picture; an encoder that still reads it keeps the old buffer.
         code = av_frame_make_writable(frame.av);
         if (code < 0) fail("encoding", code);
         frame.show_planes();
@@ -130,7 +130,8 @@ class FfmpegEncoder : public Encoder {
         codec_->framerate = {settings_.rate, settings_.rate_base};
         codec_->sample_aspect_ratio = {1, 1};
         codec_->pix_fmt = av_get_pix_fmt(settings_.pixel_format.c_str());
-        if (encoder_.id == AV_CODEC_ID_HEVC) codec_->codec_tag = MKTAG('h', 'v', 'c', '1');  // Apple's players ask it
+        if (encoder_.id == AV_CODEC_ID_HEVC)
+            codec_->codec_tag = MKTAG('h', 'v', 'c', '1');  // required by Apple's players
         if (!is_yuv(codec_->pix_fmt)) return;
         codec_->color_primaries = AVCOL_PRI_BT709;
         codec_->color_trc = AVCOL_TRC_BT709;
@@ -147,7 +148,7 @@ class FfmpegEncoder : public Encoder {
         int code = avcodec_open2(codec_.get(), &encoder_, &options);
         if (code >= 0 && av_dict_count(options) > 0) code = AVERROR_OPTION_NOT_FOUND;
         av_dict_free(&options);
-        if (code == AVERROR(ENOTSUP)) throw MissingCodec(settings_.missing);  // the libx265 that is there: no alpha
+        if (code == AVERROR(ENOTSUP)) throw MissingCodec(settings_.missing);  // a libx265 without alpha
         if (code < 0) fail("opening the encoder", code);
     }
 
@@ -163,22 +164,22 @@ class FfmpegEncoder : public Encoder {
         file_.write_header(settings_.container_options);
     }
 
-    // Moves what the encoder has ready into the file.
+    // Writes the finished packets of the encoder to the file.
     void drain() {
         for (;;) {
             const int code = avcodec_receive_packet(codec_.get(), packet_.get());
             if (code == AVERROR(EAGAIN) || code == AVERROR_EOF) return;
             if (code < 0) fail("encoding", code);
             packet_->stream_index = file_.stream().index;
-            // libx264 leaves it out, and the last frame would last no time. An animated WebP comes in one packet.
+            // libx264 omits it, and the last frame would have no duration. An animated WebP is one packet.
             if (packet_->duration == 0) packet_->duration = 1;
             av_packet_rescale_ts(packet_.get(), codec_->time_base, file_.stream().time_base);
             file_.write(*packet_);
         }
     }
 
-    // SVT-AV1 waits forever when it is closed before it has seen a picture and their end: it gets what it lacks, and
-    // what it makes of that is dropped.
+    // SVT-AV1 waits forever if it is closed before it has received a picture and the end of the film: sends them and
+    // drops the packets.
     void run_dry() noexcept {
         if (!codec_ || !avcodec_is_open(codec_.get()) || ended_ || std::strcmp(encoder_.name, "libsvtav1") != 0) return;
         if (next_frame_ == 0) {
@@ -202,7 +203,7 @@ class FfmpegEncoder : public Encoder {
     std::unique_ptr<AVCodecContext, FreeCodec> codec_;
     std::vector<std::unique_ptr<OwnedFrame>> frames_;
     std::int64_t next_frame_ = 0;
-    bool ended_ = false;  // the encoder has given out everything
+    bool ended_ = false;  // all packets are written
 };
 
 }  // namespace

@@ -1,4 +1,5 @@
-// The module's entry, and what its files share (library.hpp). libavformat and libavcodec 59 to 61 (FFmpeg 5 to 7).
+// The entry of the module, and functions that its files share (library.hpp). libavformat and libavcodec 59 to 61
+// (FFmpeg 5 to 7).
 #include "output/film/ffmpeg/library.hpp"
 
 extern "C" {
@@ -22,23 +23,23 @@ extern "C" {
 namespace beamcam::output::ffmpeg {
 namespace {
 
-// Containers of moving pictures, and pictures that are no PNG.
+// Containers of films, and pictures other than PNG.
 constexpr const char* kContainers =
     "mov,mp4,m4a,3gp,3g2,mj2,matroska,webm,gif,apng,avi,mpegts,nut,flv,ogg,ivf,h264,hevc,"
     "yuv4mpegpipe,png_pipe,webp_pipe,jpeg_pipe,bmp_pipe,tiff_pipe,image2";
 
 std::string url_of(const std::filesystem::path& file) {
-    return "file:" + file.string();  // keeps FFmpeg from reading a protocol into names such as "a:b.mp4"
+    return "file:" + file.string();  // so that FFmpeg finds no protocol in names such as "a:b.mp4"
 }
 
-// A Matroska number of variable length at the front of `in`: of 1 to 8 bytes, the first of which says how many.
+// Reads a Matroska number of variable length: 1 to 8 bytes; the first byte states the length.
 std::optional<std::uint64_t> read_number(std::istream& in, bool keep_marker) {
     const int first = in.get();
     if (first <= 0) return std::nullopt;
     int more = 0;
     while ((first & (0x80 >> more)) == 0) ++more;
     std::uint64_t value = static_cast<unsigned>(keep_marker ? first : first & (0x7f >> more));
-    bool unknown = (first & (0x7f >> more)) == 0x7f >> more;  // all ones: the size was never filled in
+    bool unknown = (first & (0x7f >> more)) == 0x7f >> more;  // all ones: unknown size
     for (int i = 0; i < more; ++i) {
         const int byte = in.get();
         if (byte < 0) return std::nullopt;
@@ -48,7 +49,7 @@ std::optional<std::uint64_t> read_number(std::istream& in, bool keep_marker) {
     return unknown && !keep_marker ? std::numeric_limits<std::uint64_t>::max() : value;
 }
 
-// Does a Matroska or WebM file (RFC 8794, RFC 9559) end before its segment does? FFmpeg takes that for its end.
+// Whether a Matroska or WebM file (RFC 8794, RFC 9559) ends before its segment; FFmpeg does not report this.
 bool is_cut_matroska(const std::filesystem::path& file) {
     std::ifstream in(file, std::ios::binary);
     constexpr std::uint64_t kHeader = 0x1A45DFA3, kSegment = 0x18538067;
@@ -61,13 +62,13 @@ bool is_cut_matroska(const std::filesystem::path& file) {
     if (!size || *size == std::numeric_limits<std::uint64_t>::max()) return false;
     const auto begin = static_cast<std::uint64_t>(in.tellg());
     std::error_code error;
-    const auto there = std::filesystem::file_size(file, error);
-    return !error && there - begin < *size;
+    const auto actual = std::filesystem::file_size(file, error);
+    return !error && actual - begin < *size;
 }
 
 class Library : public VideoLibrary {
   public:
-    Library() { av_log_set_level(AV_LOG_QUIET); }  // reasons reach the user as exceptions
+    Library() { av_log_set_level(AV_LOG_QUIET); }  // errors are exceptions
     std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings) const override {
         return ffmpeg::open_encoder(settings);
     }
@@ -79,12 +80,12 @@ class Library : public VideoLibrary {
         return ffmpeg::concatenate(segments, file, named, container);
     }
     std::string versions() const override {
-        const auto words = [](const char* name, unsigned version) {
-            return std::string(name) + " " + std::to_string(version >> 16 & 0xff) + "." +
-                   std::to_string(version >> 8 & 0xff) + "." + std::to_string(version & 0xff);
+        const auto version = [](const char* name, unsigned number) {
+            return std::string(name) + " " + std::to_string(number >> 16 & 0xff) + "." +
+                   std::to_string(number >> 8 & 0xff) + "." + std::to_string(number & 0xff);
         };
-        return words("libavcodec", avcodec_version()) + ", " + words("libavformat", avformat_version()) + ", " +
-               words("libswscale", swscale_version());
+        return version("libavcodec", avcodec_version()) + ", " + version("libavformat", avformat_version()) + ", " +
+               version("libswscale", swscale_version());
     }
     bool has_encoder(const std::string& name) const override {
         return avcodec_find_encoder_by_name(name.c_str()) != nullptr;
@@ -124,11 +125,11 @@ InputFile::InputFile(const std::filesystem::path& file) : file_(file) {
     format_->format_whitelist = av_strdup(kContainers);
     format_->protocol_whitelist = av_strdup("file");
     AVDictionary* options = nullptr;
-    av_dict_set(&options, "pattern_type", "none", 0);  // of pictures: "%d" and "*" are characters
+    av_dict_set(&options, "pattern_type", "none", 0);  // of pictures: "%d" and "*" are literal characters
     int code = avformat_open_input(&format_, url_of(file).c_str(), nullptr, &options);  // frees it when it fails
     av_dict_free(&options);
     if (code == AVERROR_INVALIDDATA || code == AVERROR(EINVAL))
-        refuse("it is no film or picture that FFmpeg can read, or it is damaged at its beginning", code);
+        refuse("it is not a film or picture that FFmpeg can read, or its beginning is damaged", code);
     if (code < 0) refuse(reason(code));
     const auto close = [&](const char* why, int status) {
         avformat_close_input(&format_);

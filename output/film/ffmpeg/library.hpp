@@ -1,4 +1,4 @@
-// What the files of this module share: FFmpeg's errors as exceptions, and the one way in which films are opened.
+// Functions that the files of this module share: FFmpeg's errors as exceptions, input and output files.
 #pragma once
 
 #include <filesystem>
@@ -14,14 +14,14 @@ struct AVStream;
 
 namespace beamcam::output::ffmpeg {
 
-// FFmpeg's words for a negative status.
+// FFmpeg's message for a negative status.
 std::string reason(int code);
 
-// Throws std::bad_alloc for want of memory, else CodecFailure "doing: reason".
+// Throws std::bad_alloc if memory is short, else CodecFailure "doing: reason".
 [[noreturn]] void fail(const char* doing, int code);
 
-// A film or picture file, opened for reading. Only containers of pictures are recognized, and nothing but this file is
-// read: play lists, scripts and names with patterns would open other files or addresses.
+// A film or picture, opened for reading. Only containers of pictures are recognized, and only this file is read: play
+// lists, scripts and names with patterns could open other files or addresses.
 class InputFile {
   public:
     // Throws IoError.
@@ -41,14 +41,14 @@ class InputFile {
     AVFormatContext* format_ = nullptr;
 };
 
-// Frames that a part of a film holds: first ≤ n < end, of those of the whole film. From the tag "beamcam-frames".
+// Frames that a part of a film contains: first ≤ n < end, of those of the whole film. From the tag "beamcam-frames".
 struct FrameRange {
     long first = 0, end = 0, begin_of_all = 0, end_of_all = 0;
     long count() const { return end - first; }
 };
 std::optional<FrameRange> frame_range(const InputFile& file);
 
-// How many frames the file says that this stream holds; 0: it does not say.
+// The number of frames that the file states for this stream; 0: not stated.
 long declared_frames(const InputFile& file, const AVStream& stream);
 
 constexpr const char* kDamaged = "the film is damaged or cut off; make or copy it again";
@@ -59,10 +59,10 @@ std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file);
 std::int64_t concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file,
                          const std::filesystem::path& named, const std::string& container);
 
-// A film that is being written: container, one stream, a packet.
+// A film that is being written: a container with one stream.
 class OutputFile {
   public:
-    // `named`: what messages call it.
+    // `named`: its name in messages.
     OutputFile(const std::filesystem::path& file, std::filesystem::path named, const std::string& container);
     ~OutputFile();
     OutputFile(const OutputFile&) = delete;

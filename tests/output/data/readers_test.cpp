@@ -11,7 +11,6 @@
 #include "output/film/picture_source.hpp"
 #include "output/film/video.hpp"
 #include "output/film/video_reader.hpp"
-#include "output/image/digest.hpp"
 #include "output/image/png.hpp"
 #include "output/image/png_reader.hpp"
 #include "output/image/raster.hpp"
@@ -304,11 +303,11 @@ TEST(TableReader, SaysWhereACsvIsWrong) {
     const auto error = [](const std::string& text) { return io_error_of([&] { parse_csv(text, "a.csv"); }); };
     EXPECT_EQ(error("t,x\n1,2\n3,abc\n"), "a.csv:3:3: \"abc\" is not a number");
     EXPECT_NE(error("t,x\n1,2\n3\n").find("a.csv:3:1: 1 cells"), std::string::npos);
-    EXPECT_NE(error("t,x\n1,2\n3, -inf\n").find("a.csv:3:3: \"-inf\" is no finite number"), std::string::npos);
+    EXPECT_NE(error("t,x\n1,2\n3, -inf\n").find("a.csv:3:3: \"-inf\" is not a finite number"), std::string::npos);
     EXPECT_NE(error("").find("empty"), std::string::npos);
     EXPECT_NE(error("t,t\n").find("twice"), std::string::npos);
     EXPECT_NE(error("1,2\n").find("name"), std::string::npos);
-    EXPECT_NE(error("t;x\n0,5;2\n").find("a.csv:1:2: columns are parted by semicolons"), std::string::npos);
+    EXPECT_NE(error("t;x\n0,5;2\n").find("a.csv:1:2: columns are separated by semicolons"), std::string::npos);
     EXPECT_NE(error("t\tx\n1\t2\n").find("by tabs"), std::string::npos);
 }
 

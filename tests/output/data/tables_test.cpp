@@ -46,7 +46,7 @@ TEST(Csv, AFileHoldsWhatTheStreamGets) {
     Scratch scratch;
     std::ostringstream out;
     write_csv(out, table_with_gaps());
-    write_csv(scratch / "a.csv", table_with_gaps());
+    write_table(scratch / "a.csv", table_with_gaps());
     EXPECT_EQ(read_file(scratch / "a.csv"), out.str());
 }
 
@@ -58,7 +58,7 @@ TEST(Csv, AClosedOutputIsAnErrorInWords) {
 
 TEST(Npz, NumpyReadsTheSameNumbers) {
     Scratch scratch;
-    write_npz(scratch / "a.npz", table_with_gaps());
+    write_table(scratch / "a.npz", table_with_gaps());
     const std::string printed = output_of(
         "/usr/bin/python3 -c 'import numpy, sys\n"
         "z = numpy.load(sys.argv[1])\n"
@@ -72,7 +72,7 @@ TEST(Npz, NumpyReadsTheSameNumbers) {
 
 TEST(Npz, IsASoundZipArchiveWithAlignedData) {
     Scratch scratch;
-    write_npz(scratch / "a.npz", table_with_gaps());
+    write_table(scratch / "a.npz", table_with_gaps());
     EXPECT_EQ(output_of("/usr/bin/python3 -c 'import zipfile, sys; print(zipfile.ZipFile(sys.argv[1]).testzip())' " +
                         (scratch / "a.npz").string()),
               "None\n");
@@ -80,7 +80,7 @@ TEST(Npz, IsASoundZipArchiveWithAlignedData) {
 
 TEST(Npz, HoldsTablesWithoutRows) {
     Scratch scratch;
-    write_npz(scratch / "a.npz", {{{ChannelKind::t, 0}}, {{}}});
+    write_table(scratch / "a.npz", sim::Table{{{ChannelKind::t, 0}}, {{}}});
     EXPECT_EQ(output_of("/usr/bin/python3 -c 'import numpy, sys; print(numpy.load(sys.argv[1])[\"t\"].size)' " +
                         (scratch / "a.npz").string()),
               "0\n");
@@ -91,7 +91,7 @@ TEST(Npz, RefusesMoreThanTheArchiveCanHold) {
     sim::Table table;
     table.channels.assign(70000, {ChannelKind::t, 0});
     table.values.assign(70000, {});
-    EXPECT_THROW(write_npz(scratch / "a.npz", table), UnsupportedOption);
+    EXPECT_THROW(write_table(scratch / "a.npz", table), UnsupportedOption);
     EXPECT_TRUE(scratch.names().empty());
 }
 

@@ -153,7 +153,7 @@ TEST(Palette, KeepsFlatColoursExactly) {
     const std::set<std::uint32_t> all(colors.begin(), colors.end());
     for (std::uint32_t c : {0xfffcfcfau, 0xffd55e00u, 0xff0072b2u}) EXPECT_TRUE(all.contains(c)) << std::hex << c;
     std::vector<std::uint8_t> indices(64 * 64);
-    PaletteTable(colors).convert(image, indices.data(), 64);
+    PaletteTable(colors).convert(image, indices.data(), 64, all_tiles(image));
     for (std::size_t i : {0u, 500u, 2000u}) EXPECT_EQ(colors[indices[i]], image.pixels[i]);
 }
 
@@ -169,7 +169,7 @@ TEST(Palette, HasAtMost256ColoursAndIsNearEveryPixelOfARamp) {
     EXPECT_LE(colors.size(), 256u);
     EXPECT_GT(colors.size(), 200u);
     std::vector<std::uint8_t> indices(256 * 256);
-    PaletteTable(colors).convert(image, indices.data(), 256);
+    PaletteTable(colors).convert(image, indices.data(), 256, all_tiles(image));
     // 256 colours on a plane of 256² leave squares of 16: half of that, and a cell's rounding.
     for (std::size_t i = 0; i < indices.size(); ++i)
         for (int shift : {8, 16})
@@ -181,13 +181,13 @@ TEST(Yuva, TenBitsAreFourTimesTheLevelsOfEight) {
     render::Image image(2, 2);
     image.pixels = {0xffffffff, 0xff000000, 0xff808080, 0x80404040};
     std::vector<std::uint16_t> planes[4];
-    YuvaPlanes to;
+    FramePlanes to;
     for (std::size_t i = 0; i < 4; ++i) {
         planes[i].resize(4);
         to.plane[i] = reinterpret_cast<std::uint8_t*>(planes[i].data());
         to.stride[i] = 4;
     }
-    convert_to_yuva444p10(image, to);
+    convert_to_yuva444p10(image, to, all_tiles(image));
     EXPECT_EQ(planes[0][0], 940);
     EXPECT_EQ(planes[0][1], 64);
     for (std::size_t i = 0; i < 4; ++i) {

@@ -16,7 +16,8 @@ Yuv converted(const render::Image& image) {
     Yuv yuv{std::vector<std::uint8_t>(width * height), std::vector<std::uint8_t>(width * height / 4),
             std::vector<std::uint8_t>(width * height / 4)};
     convert_to_yuv420(image,
-                      {{yuv.y.data(), yuv.cb.data(), yuv.cr.data()}, {image.width, image.width / 2, image.width / 2}});
+                      {{yuv.y.data(), yuv.cb.data(), yuv.cr.data()}, {image.width, image.width / 2, image.width / 2}},
+                      all_tiles(image));
     return yuv;
 }
 
@@ -95,7 +96,8 @@ TEST(Yuv, EveryPixelLandsInItsPlaceAtAnyEvenWidth) {
 
 TEST(Yuv, RowsOfTheTargetMayBePadded) {
     std::vector<std::uint8_t> y(2 * 40, 7), c(20, 7), d(20, 7);
-    convert_to_yuv420(flat_image(4, 2, 0xffffffff), {{y.data(), c.data(), d.data()}, {40, 20, 20}});
+    const render::Image image = flat_image(4, 2, 0xffffffff);
+    convert_to_yuv420(image, {{y.data(), c.data(), d.data()}, {40, 20, 20}}, all_tiles(image));
     EXPECT_EQ(y[3], 235);
     EXPECT_EQ(y[4], 7);
     EXPECT_EQ(y[40], 235);
@@ -104,9 +106,8 @@ TEST(Yuv, RowsOfTheTargetMayBePadded) {
 }
 
 TEST(Yuv, RefusesOddSizes) {
-    const YuvPlanes nowhere;
-    EXPECT_THROW(convert_to_yuv420(flat_image(3, 2, 0), nowhere), std::logic_error);
-    EXPECT_THROW(convert_to_yuv420(flat_image(2, 3, 0), nowhere), std::logic_error);
+    for (const render::Image& image : {flat_image(3, 2, 0), flat_image(2, 3, 0)})
+        EXPECT_THROW(convert_to_yuv420(image, FramePlanes(), all_tiles(image)), std::logic_error);
 }
 
 }  // namespace

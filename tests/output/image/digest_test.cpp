@@ -1,4 +1,4 @@
-#include "output/image/digest.hpp"
+// Digests of pixels and files.
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/sha256.hpp"

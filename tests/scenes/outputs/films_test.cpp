@@ -354,17 +354,21 @@ TEST(Films, WithoutALegendTheExaggerationIsToldOnTheCommandLine) {
     EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err, Not(HasSubstr("without stating it")));
 }
 
-TEST(Render, RefusesOptionsThatWouldDoNothingInOneWording) {
+TEST(Render, RejectsOptionsThatWouldDoNothing) {
     const Folder folder;
     folder.write("s.json", "{}");
     for (const auto& [arguments, words] : std::initializer_list<std::pair<const char*, const char*>>{
-             {"--at 0.3 -o a.png --fps 10", "--fps belongs to films; --at makes one picture"},
-             {"--at 0.3 -o a.png --duration '4 s'", "--duration belongs to films; --at makes one picture"},
-             {"--at 0.3 -o a.png --frames 1:2", "--frames belongs to films; --at makes one picture"},
-             {"--at 0.3 -o a.pdf --poster 0.1", "--poster belongs to films; --at makes one picture"},
-             {"--at 0.3 -o a.pdf --size 64x64", "--size belongs to films and pictures of pixels; -o a.pdf is drawn"},
-             {"-o a-##.png --poster 0.1", "--poster belongs to films; -o a-##.png makes pictures already"},
-             {"-o a.html --shard 1/2", "--shard belongs to films and pictures; -o a.html plays the motion itself"}}) {
+             {"--at 0.3 -o a.png --fps 10",
+              "--fps belongs to outputs of type video, frames, page, model, sweep-film; this one is of type still"},
+             {"--at 0.3 -o a.png --duration '4 s'",
+              "--duration belongs to outputs of type video, frames, sweep-film; this one is of type still"},
+             {"--at 0.3 -o a.png --frames 1:2", "--frames belongs to films and sequences; -o a.png is none"},
+             {"--at 0.3 -o a.pdf --poster 0.1",
+              "--poster belongs to outputs of type video; this one is of type figure"},
+             {"--at 0.3 -o a.pdf --size 64x64",
+              "--size belongs to outputs of type video, frames, still, sweep-film; this one is of type figure"},
+             {"-o a-##.png --poster 0.1", "--poster belongs to outputs of type video; this one is of type frames"},
+             {"-o a.html --shard 1/2", "--shard belongs to films and sequences; -o a.html is none"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM render s.json ") + arguments);
         EXPECT_EQ(done.code, 2) << arguments;
         EXPECT_THAT(done.err, HasSubstr(words)) << arguments;

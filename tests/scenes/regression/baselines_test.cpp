@@ -111,7 +111,7 @@ TEST(Baselines, PicturesAreExpectedOfPicturesOnly) {
   "a": {"scene": {}, "expected": "a.png", "output": {"type": "trajectory", "rate": 10}}}})");
     const Finished finished = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(finished.code, 3);
-    EXPECT_THAT(finished.err, HasSubstr("b.json:2:53: entries.a.output has no pictures to be held to \"expected\""));
+    EXPECT_THAT(finished.err, HasSubstr("b.json:2:53: entries.a.output has no pictures to compare with \"expected\""));
 }
 
 TEST(Baselines, ReferencesMayStandBesideTheFile) {
@@ -136,7 +136,7 @@ TEST(Baselines, NamesOfFilesMayHoldAnything) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test " + names + " --update all --report 'ü/r' --junit 'ü/j.xml'").code, 7);
     EXPECT_EQ(shell(folder, "$BEAMCAM test " + names + " --strict").code, 0);
     folder.write("c.json", R"({"entries": {"ä": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM test c.json").err, HasSubstr("\"ä\" names files"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM test c.json").err, HasSubstr("\"ä\" is the name of files"));
 }
 
 }  // namespace

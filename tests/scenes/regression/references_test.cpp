@@ -67,7 +67,7 @@ Contents contents(const fs::path& folder) {
 void update(const Scratch& scratch, const std::string& what, bool force = false) {
     ReferenceUpdate update(scratch / "b.json", scratch / "refs", force);
     for (const std::string entry : {"a", "c"}) {
-        const fs::path folder = update.begin(entry);
+        const fs::path folder = update.replace(entry);
         write_file(folder / "0000.png", what + entry);
         if (entry == "a" || what == "old") write_file(folder / "0001.png", what);
     }
@@ -126,7 +126,7 @@ TEST(References, AChangedFileAFileInTheWayAndALinkAreRefused) {
              fs::rename(refs / "a", refs / "moved");
              fs::create_directory_symlink("moved", refs / "a");
          }},
-        {"is no folder",
+        {"is not a directory",
          [](const fs::path& refs) {
              fs::remove_all(refs / "a");
              write_file(refs / "a", "a file");
@@ -148,7 +148,7 @@ TEST(References, BaselinesThatWereEditedMeanwhileAreKept) {
     Scratch scratch;
     write_file(scratch / "b.json", "first");
     ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
-    write_file(update.begin("a") / "0000.png", "x");
+    write_file(update.replace("a") / "0000.png", "x");
     write_file(scratch / "b.json", "edited");
     EXPECT_THROW(update.commit("first", "second", {{"a", {}}}), output::WouldOverwrite);
     EXPECT_EQ(slurp(scratch / "b.json"), "edited");
@@ -157,9 +157,10 @@ TEST(References, BaselinesThatWereEditedMeanwhileAreKept) {
 TEST(References, OneUpdateAtATime) {
     Scratch scratch;
     write_file(scratch / "b.json", "first");
-    const ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
-    EXPECT_THAT(message_of([&] { ReferenceUpdate(scratch / "b.json", scratch / "refs", false); }),
-                ::testing::HasSubstr("under way"));
+    ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
+    update.extend("a");
+    EXPECT_THAT(message_of([&] { ReferenceUpdate(scratch / "b.json", scratch / "refs", false).extend("a"); }),
+                ::testing::HasSubstr("in progress"));
     EXPECT_EQ(ReferenceUpdate::recover(scratch / "refs"), "");
     EXPECT_TRUE(fs::exists(scratch / "refs/.beamcam-update"));
 }

@@ -127,7 +127,7 @@ TEST(SweepRecord, OtherValuesAndDamageAreTold) {
     Table a, b;
     a.point(1, kPeriodic, 1, kNone, kNone, {{0, 1}});
     b.point(2, kPeriodic, 1, kNone, kNone, {{0, 1}});
-    EXPECT_THAT(judge(a, b).lines, ElementsAre("the sweep became another: a = 2, seed 0 is where a = 1, seed 0 was"));
+    EXPECT_THAT(judge(a, b).lines, ElementsAre("it is another sweep: a = 2, seed 0 is where a = 1, seed 0 was"));
     EXPECT_THAT(judge(a, Table()).lines, ElementsAre(HasSubstr("0 points of 1 columns, expected 1 of 1")));
     for (const double kind : {-1.0, 8.0, kNone}) {
         b.columns[2][0] = kind;
@@ -182,7 +182,7 @@ TEST(SweepEntries, ChangedMechanicsFail) {
     const Finished orbit = folder.test_with("\"restitution\": 0.5", "\"restitution\": 0.501", "--only orbits");
     EXPECT_EQ(orbit.code, 7);
     const Finished other = folder.test_with("\"count\": 12", "\"count\": 11", "--only orbits");
-    EXPECT_THAT(other.out, HasSubstr("the sweep became another"));
+    EXPECT_THAT(other.out, HasSubstr("it is another sweep"));
 }
 
 // A flexible beam, and a rigid one in compliant contact.
@@ -232,7 +232,7 @@ TEST(SweepEntries, NeedASweepThatCanBeMade) {
     EXPECT_EQ(finished.code, 3) << finished.out;
     EXPECT_THAT(finished.err, AllOf(HasSubstr("entries.none.output: the scene has no \"sweep\""),
                                     HasSubstr("entries.more.output: a sweep is described by")));
-    EXPECT_THAT(finished.out, HasSubstr("1 of 1 points are not judged"));
+    EXPECT_THAT(finished.out, HasSubstr("1 of 1 points are not compared"));
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fine --strict").code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "b/short"));
 }

@@ -1,4 +1,4 @@
-// Periodic orbits and their branches in words, as `orbits` prints them.
+// Periodic orbits and their branches as text, as `orbits` prints them.
 #pragma once
 
 #include <string>
@@ -7,6 +7,6 @@
 
 namespace beamcam::scenes {
 
-std::string orbits_in_words(const output::BranchTable& table);
+std::string to_text(const output::BranchTable& table);
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-#include "scenes/commands/orbit_words.hpp"
+#include "scenes/commands/orbit_text.hpp"
 
 #include <fmt/format.h>
 
@@ -17,7 +17,7 @@ std::string complex_text(std::complex<double> m) {
 std::string orbit_text(const sim::PeriodicOrbit& orbit) {
     std::string text = fmt::format("period {} of the cam, {}: {}{}\n", counted(orbit.turns, "turn"),
                                    counted(orbit.impacts.size(), "impact"), orbit.stable() ? "stable" : "unstable",
-                                   orbit.chatters()          ? ", rests on the cam for a while"
+                                   orbit.chatters()          ? ", rests on the cam for a part of the period"
                                    : orbit.always_touching() ? ", always touching"
                                                              : "");
     text += fmt::format("  period {:.12g} s, section at cam angle {:.9g} rad, residual {:.1e}\n", orbit.period,
@@ -25,12 +25,12 @@ std::string orbit_text(const sim::PeriodicOrbit& orbit) {
     text += "  multipliers";
     for (const auto& m : orbit.multipliers) text += " " + complex_text(m);
     text += "\n";
-    constexpr std::size_t kMostImpactsTold = 12;
-    for (std::size_t i = 0; i < std::min(kMostImpactsTold, orbit.impacts.size()); ++i)
+    constexpr std::size_t kMostImpacts = 12;
+    for (std::size_t i = 0; i < std::min(kMostImpacts, orbit.impacts.size()); ++i)
         text += fmt::format("  impact at cam angle {:.9g} rad, approach {:.9g} m/s\n", orbit.impacts[i].cam_angle,
                             orbit.impacts[i].approach);
-    if (orbit.impacts.size() > kMostImpactsTold)
-        text += fmt::format("  and {} more\n", orbit.impacts.size() - kMostImpactsTold);
+    if (orbit.impacts.size() > kMostImpacts)
+        text += fmt::format("  and {} more\n", orbit.impacts.size() - kMostImpacts);
     return text;
 }
 
@@ -55,7 +55,7 @@ std::string branches_text(const output::BranchTable& table) {
 
 }  // namespace
 
-std::string orbits_in_words(const output::BranchTable& table) {
+std::string to_text(const output::BranchTable& table) {
     std::string text;
     for (const sim::PeriodicOrbit& orbit : table.orbits) text += orbit_text(orbit);
     return text + branches_text(table);

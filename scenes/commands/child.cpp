@@ -1,4 +1,4 @@
-#include "scenes/regression/child.hpp"
+#include "scenes/commands/child.hpp"
 
 #include <fmt/format.h>
 #include <sys/wait.h>

@@ -1,6 +1,4 @@
 // `beamcam info` and `beamcam doctor`.
-#include "scenes/regression/provenance.hpp"
-
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

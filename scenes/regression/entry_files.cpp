@@ -1,4 +1,4 @@
-#include "scenes/regression/entry_references.hpp"
+#include "scenes/regression/entry_files.hpp"
 
 #include <fmt/format.h>
 
@@ -14,8 +14,29 @@ std::string picture_name(long frame, const std::string& renderer) {
     return fmt::format("{:04}-{}.png", frame, renderer);
 }
 
-fs::path report_picture(const std::string& entry, long frame, const char* what) {
-    return fs::path(entry) / fmt::format("{:04}-{}.png", frame, what);
+fs::path report_picture(const std::string& entry, long frame, const char* kind) {
+    return fs::path(entry) / fmt::format("{:04}-{}.png", frame, kind);
+}
+
+EntryReferences::EntryReferences(const fs::path& all, std::string entry, ReferenceUpdate& update, Change change)
+    : folder(all / entry),
+      entry_(std::move(entry)),
+      update_(update),
+      change_(change),
+      marked_(marked_files(folder).value_or(ReferenceFiles{})) {
+    if (change_ == Change::replace) replacement_ = update_.replace(entry_);
+}
+
+fs::path EntryReferences::new_folder() const { return is_replaced() ? replacement_ : update_.extend(entry_); }
+
+void EntryReferences::drop() {
+    if (change_ != Change::none) update_.drop(entry_);
+    change_ = Change::none;
+}
+
+const ReferenceFile* EntryReferences::marked(const std::string& name) const {
+    const auto file = marked_.find(name);
+    return file == marked_.end() ? nullptr : &file->second;
 }
 
 bool EntryReferences::is_as_marked(const std::string& name) const {
@@ -27,7 +48,7 @@ void EntryReferences::read(const std::function<void()>& work) const {
     try {
         work();
     } catch (const output::IoError&) {
-        if (!fresh) throw;
+        if (!is_replaced()) throw;
     }
 }
 

@@ -1,0 +1,118 @@
+#include "scenes/commands/key_options.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/files/numbers.hpp"
+#include "output/files/standard_output.hpp"
+#include "scenes/format/description.hpp"
+#include "scenes/format/overrides.hpp"
+#include "scenes/format/reader.hpp"
+#include "scenes/format/suggest.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+constexpr const char* kPrefix = "output.";  // of keys in the reader's messages
+
+// A number, JSON, or else a word, as --set reads values.
+Node value_of(const std::string& text, std::vector<Message>& messages) {
+    if (Node node = value_node(text); node.kind == Node::Kind::number) return node;
+    Node holder = object_node();
+    apply_override(holder, "value=" + text, 0, messages);
+    const Member* value = holder.find("value");
+    return value ? value->value : Node{};
+}
+
+// "still, video": the types of outputs that have this key.
+std::string types_with(const std::string& key) {
+    std::vector<std::string> types;
+    for (const KeyRow& row : key_rows()) {
+        if (row.path != "outputs[]." + key) continue;
+        for (std::size_t at = 0; (at = row.when.find("type=", at)) != std::string::npos;) {
+            at += 5;
+            types.push_back(row.when.substr(at, row.when.find(' ', at) - at));
+        }
+    }
+    return fmt::format("{}", fmt::join(types, ", "));
+}
+
+}  // namespace
+
+Node value_node(const std::string& text) {
+    const auto number = output::number_in<double>(text);
+    Node node = number && std::isfinite(*number) ? number_node(*number) : text_node(text);
+    node.text = text;  // as it was written, for messages
+    return node;
+}
+
+Parameter& KeyOptions::add_parameter(Command& command, const Option& option, Target target, const char* placeholder,
+                                     const char* note) {
+    Parameter& parameter = command.option(option.name, target, placeholder, note);
+    parameter.output_type = type_;
+    parameter.key = option.key;
+    return parameter;
+}
+
+void KeyOptions::add(Command& command, const char* name, const char* key, const char* placeholder, const char* note) {
+    Option& option = options_.emplace_back(Option{name, key, {}, {}});
+    add_parameter(command, option, &option.value, placeholder, note);
+}
+
+void KeyOptions::add_list(Command& command, const char* name, const char* key, const char* placeholder,
+                          const char* note) {
+    Option& option = options_.emplace_back(Option{name, key, {}, {}});
+    add_parameter(command, option, &option.values, placeholder, note).separated_by(',');
+}
+
+const std::string* KeyOptions::value(std::string_view name) const {
+    const auto option = std::ranges::find(options_, name, &Option::name);
+    return option != options_.end() && option->value ? &*option->value : nullptr;
+}
+
+const std::vector<std::string>& KeyOptions::values(std::string_view name) const {
+    return std::ranges::find(options_, name, &Option::name)->values;
+}
+
+bool KeyOptions::any() const { return std::ranges::any_of(options_, &Option::given); }
+
+void KeyOptions::forget(std::string_view name) {
+    for (Option& option : options_)
+        if (option.name == name) option.value.reset();
+}
+
+Output read_output(Node output, std::initializer_list<const KeyOptions*> options, Scene scene,
+                   const std::string& scene_file, const Common& common) {
+    std::vector<Message> messages;
+    std::vector<const KeyOptions::Option*> given;
+    for (const KeyOptions* group : options)
+        for (const KeyOptions::Option& option : group->options_)
+            if (option.given()) given.push_back(&option);
+    for (const KeyOptions::Option* option : given) {
+        Node list = array_node();
+        for (const std::string& text : option->values) list.items.push_back(value_of(text, messages));
+        set_value(output, option->key, option->value ? value_of(*option->value, messages) : std::move(list), messages);
+    }
+    SceneFiles files;
+    std::vector<Message> of_reader;
+    read_only_output(output, scene_file, kPrefix, files, scene, of_reader);
+    messages.insert(messages.end(), of_reader.begin(), of_reader.end());
+    for (Message& message : messages) {
+        for (const KeyOptions::Option* option : given) {
+            const std::string first = option->key.substr(0, option->key.find('.')),
+                              unknown = fmt::format("unknown key {} in ", in_quotes(first));
+            if (message.fatal && message.text.starts_with(unknown))
+                throw UsageError(fmt::format("{} belongs to outputs of type {}; this one is of type {}", option->name,
+                                             types_with(option->key), output.find("type")->value.text));
+            replace_all(message.text, kPrefix + option->key, option->name);
+        }
+        if (message.fatal) throw UsageError(message.text);
+        if (!common.quiet) output::print_message("{}: warning: {}\n", scene_file, message.text);
+    }
+    return std::move(scene.outputs.front());
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,57 @@
+// Options that set keys of an output. The reader of scenes reads their values, so that an option accepts what its key
+// accepts in a scene; their help texts are the meanings of the keys.
+#pragma once
+
+#include <deque>
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "scenes/commands/commands.hpp"
+#include "scenes/format/tree.hpp"
+
+namespace beamcam::scenes {
+
+class KeyOptions {
+  public:
+    // `type`: an output that has all keys of these options, "video".
+    explicit KeyOptions(const char* type) : type_(type) {}
+
+    // The option `name` sets `key`, "view.style". `note`: text before the key's meaning in the help.
+    void add(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
+    // The same of a key whose value is a list: values separated by commas.
+    void add_list(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
+
+    // The value that was given to an option; null: it was not given.
+    const std::string* value(std::string_view name) const;
+    const std::vector<std::string>& values(std::string_view name) const;  // of a list
+    bool any() const;                                                     // some option was given
+    void forget(std::string_view name);
+
+  private:
+    struct Option {
+        std::string name, key;
+        std::optional<std::string> value;
+        std::vector<std::string> values;  // of a list
+        bool given() const { return value || !values.empty(); }
+    };
+    friend Output read_output(Node, std::initializer_list<const KeyOptions*>, Scene, const std::string&, const Common&);
+
+    Parameter& add_parameter(Command& command, const Option& option, Target target, const char* placeholder,
+                             const char* note);
+
+    const char* type_;
+    std::deque<Option> options_;  // the parser stores values here: the addresses stay
+};
+
+// A number if the text is one, else the text itself.
+Node value_node(const std::string& text);
+
+// The output that `output` describes as a scene would, with the values of the options. `scene_file` is the scene's name
+// in messages; warnings go to standard error. Throws UsageError.
+Output read_output(Node output, std::initializer_list<const KeyOptions*> options, Scene scene,
+                   const std::string& scene_file, const Common& common);
+
+}  // namespace beamcam::scenes

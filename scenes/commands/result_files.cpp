@@ -1,0 +1,86 @@
+#include "scenes/commands/result_files.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "output/data/tables.hpp"
+#include "output/files/atomic_file.hpp"
+#include "scenes/figures/figure_files.hpp"
+#include "scenes/format/units.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+// The bytes of a .json, .png, .svg or .pdf file. A figure carries the scene without outputs: none of them makes it
+// again.
+std::string content_of(const Result& result, const ResultFiles& files, Scene scene, const std::string& file) {
+    if (file == "-" || file.ends_with(".json")) return result.json();
+    const render::figure::Figure figure = result.figure();
+    FigureOutput how;
+    how.file = file;
+    how.figure = figure.name;
+    how.column = files.column;
+    how.lang = files.lang();
+    scene.outputs.clear();
+    return figure_files(figure, how, to_json(scene)).front().second;
+}
+
+}  // namespace
+
+void add_result_options(Command& app, ResultFiles& files, Common& common, const char* what) {
+    app.option("-o,--output", &files.names, "FILE", what);
+    add_column(app, files.column);
+    add_lang(app, files.lang_name);
+    add_progress(app, common);
+    add_json(app, common);
+    add_force(app, common);
+}
+
+void require_writable(const char* option, const std::vector<std::string>& files,
+                      std::initializer_list<const char*> endings, output::Manifest& manifest) {
+    for (const std::string& file : files) {
+        require_ending(option, file, endings);
+        if (file == "-") continue;
+        manifest.require_replaceable(file);
+        output::AtomicFile(manifest.target(file));  // created and removed: fails here where it cannot be written
+    }
+}
+
+void write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
+                  output::Manifest& manifest) {
+    const bool prints_data = std::ranges::find(files.names, "-") != files.names.end();
+    if (common.json && !prints_data)
+        print_json(result.json());
+    else if (!prints_data)
+        print_text(result.text());
+    for (const std::string& file : files.names) {
+        if (file == "-") {
+            print_data(result.json());
+            continue;
+        }
+        if (is_table(file))
+            output::write_table(manifest.target(file), result.table());
+        else
+            output::write_file(manifest.target(file), content_of(result, files, scene, file));
+        inform(common, "wrote " + file);
+    }
+    manifest.save();
+}
+
+double transient_argument(const std::string& text, const sim::Problem& problem) {
+    const QuantityText read = parse_quantity(text);
+    const bool plain = read.quantity && same(read.quantity->dimension, dimension::kNone),
+               turns = plain || (read.quantity && same(read.quantity->dimension, dimension::kAngle));
+    if (!turns || (plain && read.quantity->value == 0)) return seconds_argument("--transient", text);
+    if (!problem.cam || problem.cam->speed == 0)
+        throw UsageError(fmt::format("--transient {}: the cam does not turn; write a time such as \"30 s\"", text));
+    const double angle = plain ? 2 * std::numbers::pi * read.quantity->value : read.quantity->value;
+    if (!(angle >= 0)) throw UsageError(fmt::format("--transient {} must not be negative", text));
+    return angle / std::abs(problem.cam->speed);
+}
+
+bool is_table(const std::string& file) {
+    return file.ends_with(".csv") || file.ends_with(".npz") || file.ends_with(".nc");
+}
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,47 @@
+// The result of a computation on standard output and in files, as `accuracy`, `lyapunov` and `orbits` give it: the
+// options -o, --column, --lang, --progress, --json and --force.
+#pragma once
+
+#include <functional>
+#include <initializer_list>
+#include <string>
+#include <vector>
+
+#include "output/data/column_table.hpp"
+#include "output/data/manifest.hpp"
+#include "render/plot/figure.hpp"
+#include "scenes/commands/commands.hpp"
+
+namespace beamcam::scenes {
+
+struct ResultFiles {
+    std::vector<std::string> names;
+    std::string column = "elsevier", lang_name = "en";
+
+    Lang lang() const { return lang_named(&lang_name); }
+};
+
+struct Result {
+    std::function<std::string()> json, text;
+    std::function<render::figure::Figure()> figure;   // for .png, .svg and .pdf
+    std::function<output::ColumnTable()> table = {};  // for .csv, .npz and .nc
+};
+
+// `what`: help of -o.
+void add_result_options(Command& app, ResultFiles& files, Common& common, const char* what);
+
+// To be called before any work. Throws UsageError for other endings, WouldOverwrite, IoError where a file cannot be
+// written.
+void require_writable(const char* option, const std::vector<std::string>& files,
+                      std::initializer_list<const char*> endings, output::Manifest& manifest);
+
+// Prints the result as JSON or as text, and writes the files. If "-" is one of them, prints JSON alone.
+void write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
+                  output::Manifest& manifest);
+
+// --transient of `lyapunov` and `orbits` [s]: turns of the cam if it is a plain number or an angle, or a time.
+double transient_argument(const std::string& text, const sim::Problem& problem);
+
+bool is_table(const std::string& file);  // by its ending
+
+}  // namespace beamcam::scenes
