@@ -212,7 +212,8 @@ double ExponentialSegment::missed_power(std::size_t g, const Lanes* legendre) co
     double power = 0;
     for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
         const int lane = static_cast<int>(i % kNodes);
-        if (last[lane] > 0) power += form_->mass * speed[lane] * last[lane] * std::min(1.0, last[lane] / before[lane]);
+        if (last[lane] > 0)
+            power += form_->mass * speed[lane] * last[lane] * (touching ? 1 : std::min(1.0, last[lane] / before[lane]));
     }
     return power;
 }
@@ -225,7 +226,7 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     ModalBounds& b = modal_bounds_;
     b.modes.resize(n_);
     const LegendreDecay torque = legendre_decay(p_dot);
-    double missed = largest(theta_dot) * torque.last * torque.ratio;
+    double missed = largest(theta_dot) * torque.last * (touching ? 1 : torque.ratio);
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes legendre[kNodes];
         lane_kernels().combine(Collocation::get().legendre.data(), lanes_f_.data() + g * kNodes, legendre);

@@ -143,6 +143,8 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
     if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
     if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
     if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
+    const bool is_balance = channel.kind == ChannelKind::energy_residual;
+    if (is_balance && sampled.balance) return *sampled.balance;
     Samples values;
     Lanes nodes;
     const bool linear = channel.kind == ChannelKind::q || is_of_hub(channel.kind);
@@ -164,6 +166,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
             }
         }
     }
+    if (is_balance) sampled.balance = values;
     return values;
 }
 

@@ -17,10 +17,11 @@ class StepChannels {
   public:
     static constexpr std::size_t kSamples = kNodes + 2;  // both ends and the Gauss nodes
     using Samples = std::array<double, kSamples>;
-    // States and contacts at the samples of one step, each computed when it is first needed.
+    // States, contacts and channels at the samples of one step, each computed when it is first needed.
     struct SampledStates {
         std::array<std::vector<double>, kSamples> states;
         std::array<std::optional<ContactState>, kSamples> contacts;
+        std::optional<Samples> balance;  // of the channel energy_residual
     };
 
     explicit StepChannels(const System& system);
