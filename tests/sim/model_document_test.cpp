@@ -1,4 +1,4 @@
-// MODEL.md is the authority: what the code cites must stand there, and nothing twice.
+// MODEL.md defines every equation that the code cites, once, and no others.
 #include <gtest/gtest.h>
 
 #include <filesystem>
@@ -25,15 +25,15 @@ std::map<std::string, int> occurrences(const std::string& text, const std::regex
 
 std::map<std::string, int> cited() {
     std::string code;
-    for (const char* folder : {"sim", "scenes"})  // figures show what the paper computes
+    for (const char* folder : {"sim", "scenes"})
         for (const auto& entry : std::filesystem::recursive_directory_iterator(kFolder.parent_path() / folder))
             if (entry.path().extension() == ".cpp" || entry.path().extension() == ".hpp")
                 code += contents(entry.path());
-    return occurrences(code, std::regex(R"(\((S[0-9]+a?)\))"));
+    return occurrences(code, std::regex(R"(\((S[0-9]+[a-z]?)\))"));
 }
 
 std::map<std::string, int> defined() {
-    return occurrences(contents(kFolder / "MODEL.md"), std::regex(R"(\*\*\((S[0-9]+a?)\)\*\*)"));
+    return occurrences(contents(kFolder / "MODEL.md"), std::regex(R"(\*\*\((S[0-9]+[a-z]?)\)\*\*)"));
 }
 
 TEST(ModelDocument, DefinesEveryEquationThatTheCodeCites) {
