@@ -173,7 +173,7 @@ Finding on_fall_times(const sim::Result& flex) {
             "Both take 0.37 s; 0.262 s is 1/√2 of it: a factor 2 between torque and inertia",
             fmt::format("flexible {:.9f} s, rigid {:.15f} s, with the factor 2 {:.12f} s", zero(flex),
                         sim::rod_fall_time(1, 9.81, M_PI / 4, 1), sim::rod_fall_time(1, 9.81, M_PI / 4, 2)),
-            "`FallingRod.ReachesTheHorizontalWhenItShould`, `Paper.AFactorTwoGivesThePapersTime`"};
+            "`Published.NumbersAreReproducedEveryOne`, `Paper.AFactorTwoGivesThePapersTime`"};
 }
 
 Finding on_overhanging_span() {
@@ -196,7 +196,7 @@ Finding on_signs_of_gravity() {
     return {"Eq. (4): the signs of gravity", "They contradict the potential (2): as printed, the rod would rise",
             fmt::format("θ̈(0) = {} rad/s² (true), +{} rad/s² (as printed)", plain(-1.5 * 9.81 * std::cos(M_PI / 4), 6),
                         plain(1.5 * 9.81 * std::cos(M_PI / 4), 6)),
-            "`FallingRod.ReachesTheHorizontalWhenItShould`"};
+            "`Published.NumbersAreReproducedEveryOne`"};
 }
 
 Finding on_stiffening(const sim::Result& paper, const sim::Result& flex) {
@@ -239,7 +239,7 @@ Finding on_first_touch(const sim::Result& touch) {
 
 Finding on_gravity() {
     return {"The system moves in the horizontal plane", "Gravity is in its potential (2); without it nothing falls",
-            "g is not printed; 9.81 m/s² reproduces 0.37 s", "`FallingRod.ReachesTheHorizontalWhenItShould`"};
+            "g is not printed; 9.81 m/s² reproduces 0.37 s", "`Published.NumbersAreReproducedEveryOne`"};
 }
 
 std::string numbers_of_repeated_impacts(const FindingStudies& all, const Results& results) {

@@ -70,17 +70,28 @@ void add_stripes(const GridOutcomes& outcomes, std::size_t rows, std::size_t col
     if (!failed.x.empty()) panel.series.push_back(std::move(failed));
 }
 
-std::vector<std::string> escaped(const std::vector<std::string>& names) {
+// As markup, with superscripts that need no glyphs of their own.
+std::string markup_of(const std::string& plain) {
+    constexpr const char* kSuperscripts[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
+    std::string text = render::escaped(plain);
+    for (int digit = 0; digit < 10; ++digit) {
+        const std::string from = kSuperscripts[digit], to = fmt::format("^{{{}}}", digit);
+        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
+            text.replace(at, from.size(), to);
+    }
+    return text;
+}
+std::vector<std::string> markup_of(const std::vector<std::string>& names) {
     std::vector<std::string> out;
-    for (const std::string& name : names) out.push_back(render::escaped(name));
+    for (const std::string& name : names) out.push_back(markup_of(name));
     return out;
 }
 
 Panel grid_panel(const sim::CaseGrid& grid, const GridOutcomes& outcomes) {
     Panel panel;
-    panel.title = render::escaped(grid.title);
-    panel.x = {.label = render::escaped(grid.column_title), .names = escaped(grid.columns)};
-    panel.y = {.label = render::escaped(grid.row_title), .names = escaped(grid.rows)};
+    panel.title = markup_of(grid.title);
+    panel.x = {.label = markup_of(grid.column_title), .names = markup_of(grid.columns)};
+    panel.y = {.label = markup_of(grid.row_title), .names = markup_of(grid.rows)};
     std::ranges::reverse(panel.y.names);  // the first row is the highest
     panel.legend = Legend::none;
     add_stripes(outcomes, grid.rows.size(), grid.columns.size(), panel);

@@ -242,7 +242,7 @@ TEST(Studies, StopAfterEventsUnlessAnotherFigureNeedsThem) {
 
 TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
     sim::Campaign campaign;
-    campaign.grids = {{"grid", "rows", "columns", {"r1", "r2"}, {"c1", "c2", "c3"}}};
+    campaign.grids = {{"grid", "rows", "columns", {"r1", "r2"}, {"c1", "c2", "10⁴ m²"}}};
     std::vector<sim::StressResult> results(3);
     for (std::size_t i = 0; i < 3; ++i) {
         campaign.cases.emplace_back();
@@ -254,6 +254,7 @@ TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
     ASSERT_EQ(panel.series.size(), 1u);
     EXPECT_EQ(panel.series[0].x.size(), 3u);  // the stripes of the two that failed
     EXPECT_EQ(panel.y.names, (std::vector<std::string>{"r2", "r1"}));
+    EXPECT_EQ(panel.x.names.back(), "10^{4} m^{2}");
     const auto shown = std::ranges::count_if(panel.cells[0].colors, [](const render::Color& c) { return c.a > 0; });
     EXPECT_EQ(shown, 4);  // a lone variant fills both stripes of its cell
 }
