@@ -51,7 +51,7 @@ void visit(SceneVisitor& v, Scene& scene) {
         [&scene](sim::Visitor& inside) {
             auto& s = static_cast<SceneVisitor&>(inside);
             s.choice(sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
-                     "By default the unit of initial.angle.");
+                     "Unit of angles; by default that of initial.angle.");
             s.choice(sim::derived("speed"), scene.units.rpm, {{false, "rad/s"}, {true, "rpm"}},
                      "Unit of angular speeds; by default that of cam.speed.");
         },

@@ -58,7 +58,7 @@ static void visit(Visitor& v, Hub& hub) {
     v.number("radius", hub.radius, dim::kLength, kAny,
              "Distance from the fixed axis O to the root of the beam; negative: the root lies beyond the axis.");
     v.number("inertia", hub.inertia, dim::kInertia, kNotNegative, "Moment of inertia about O.");
-    v.object("drive", hub.drive, "What drives the hub.");
+    v.object("drive", hub.drive, "Drive of the hub.");
 }
 
 // ---- beam ------------------------------------------------------------------------------------
@@ -177,7 +177,7 @@ static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
 }
 
 static void visit(Visitor& v, Solver& solver) {
-    v.choice("method", solver.method, "Integrator.");
+    v.choice("method", solver.method, "Integration method; auto selects one that suits the problem.");
     v.number("rtol", solver.rtol, dim::kNone, between(1e-13, 1e-2), "Relative tolerance.");
     // A tolerance below 1e-40 would have the effect of 0.
     v.number("atol", solver.atol, dim::kNone, between(1e-40, 1e10), "Absolute tolerance.");
