@@ -186,7 +186,8 @@ class Drawing : private Sketch {
         const Vec2 beside = near * Vec2{-0.75, c.y > 0 ? 0.8 : -0.8};  // clear of the axis X
         // Within the disc, or on the magnified one alone.
         if (norm(c + letter_height() * beside - b) + 0.3 * letter_height() < cam.radius) label(c, "$C$", beside);
-        const double low = std::min(b.y, c.y) - cam.radius - 0.13 * unit_;
+        const double low =  // below disc and hub
+            std::min(std::min(b.y, c.y) - cam.radius - 0.13 * unit_, -p_.hub.radius - 0.1 * unit_);
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
         line(c, {c.x, low - 0.02 * unit_}, kGrey, 0, {3, 3});
         dimension({0, low}, {c.x, low});
