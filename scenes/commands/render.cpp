@@ -99,7 +99,7 @@ Output with_options(const RenderArguments& args, const Output& base, const Scene
     for (const auto& [option, given] : {std::pair{"--frames", &args.frames}, std::pair{"--shard", &args.shard}})
         if (*given && !has_frames(base))
             throw UsageError(fmt::format("{} belongs to films and sequences; -o {} is none", option, args.file));
-    Node node = written(base);
+    Node node = to_tree(base);
     remove(node, "file");
     add(node, "file", text_node(std::filesystem::path(args.file).filename().string()));
     if (args.film.value("--speed")) remove(node, "duration");

@@ -92,7 +92,7 @@ void EntryGroup::judge(Job& job, std::vector<sim::Result> results, const Regress
     test.require_reproducible(run, job.until);
     if (test.needs_motion())
         test.motion().judge(run.tables[job.motion], run.impacts, job.until, run.reproducible_until);
-    DrawCallbacks capture{
+    DrawCallbacks callbacks{
         std::move(results),
         [&](const Pictures&, long frame, const render::Image& image) { test.pictures().judge(frame, image); },
         [&](const render::Image& image) { test.pictures().judge(0, image); },
