@@ -42,8 +42,8 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
     const Box box = s.at.label_box(label, s.view, base);
     if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
-    if (!s.view)
-        style.halo = s.at.palette.paper.faded(opacity);  // in the solid view a halo over soft shadows would glow
+    // In the solid view a halo over soft shadows would glow; a near camera needs it, where labels are over bodies.
+    if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
     const Vec2 to = owner;
     const Vec2 edge{std::clamp(to.x, box.x, box.right()), std::clamp(to.y, box.y, box.bottom())};
     if (const double way = norm(to - edge); way > far * s.at.unit) {
