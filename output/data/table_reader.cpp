@@ -179,7 +179,7 @@ class NpzParser {
     // Reads one record of the directory; returns the place of the next.
     std::size_t read_entry(std::size_t at) {
         if (part(at, 4) != "PK\x01\x02") damaged();
-        const std::size_t method = value(at + 10, 2), crc = value(at + 16, 4), compressed = value(at + 20, 4),
+        const std::size_t method = value(at + 10, 2), crc = value(at + 16, 4), packed = value(at + 20, 4),
                           size = value(at + 24, 4), name_size = value(at + 28, 2), offset = value(at + 42, 4);
         std::string name(part(at + 46, name_size));
         if (name.ends_with(".npy")) name.resize(name.size() - 4);

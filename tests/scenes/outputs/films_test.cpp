@@ -197,8 +197,8 @@ TEST(Films, ScenesOfTheCommandLineAreCompared) {
                                     "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat --size 640x360 && "
                                     "$BEAMCAM render a.json b.json -o c.png --at 0.4 --style flat -n");
     EXPECT_EQ(finished.code, 0) << finished.err;
-    EXPECT_THAT(finished.out, HasSubstr("as \"slow\" of c.png"));
-    EXPECT_THAT(finished.out, HasSubstr("as \"fast\" of c.png"));
+    EXPECT_THAT(finished.out, HasSubstr("motion \"slow\" of c.png"));
+    EXPECT_THAT(finished.out, HasSubstr("motion \"fast\" of c.png"));
 }
 
 // A grid of one mechanism would show the first motion alone.
@@ -267,7 +267,7 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
     ASSERT_TRUE(reading.scene);
     Plan p = plan(*reading.scene);
     EXPECT_EQ(p.events_until, 1.5);
-    EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds them"));
+    EXPECT_THAT(to_text(p, *reading.scene), HasSubstr("a first run until 1.5 s finds the events"));
     resolve_event_times(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
         sim::Result result;
         result.impacts.resize(1);
@@ -320,7 +320,7 @@ TEST(Posters, BelongToWhatIsFinished) {
     const Folder folder;
     folder.write("s.json", kWithPoster);
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("f.mkv as it is"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("f.mkv: up to date"));
     EXPECT_THAT(shell(folder, "rm f.png && $BEAMCAM run s.json && ls").out, HasSubstr("f.png"));
     // A foreign picture of that name is refused before any work.
     const Finished refused = shell(folder, "rm f.* && echo mine > f.png && $BEAMCAM run s.json; ls");
@@ -504,7 +504,7 @@ TEST(Films, HaveSubtitlesBesideThemAndChaptersWithin) {
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);
     EXPECT_THAT(testing::slurp(folder / "f.srt"), HasSubstr("Impact 1"));
     EXPECT_THAT(testing::slurp(folder / "f.mkv"), HasSubstr("Impact 1"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("left ./f.mkv as it is"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("kept ./f.mkv: up to date"));
 }
 
 TEST(Films, OfFewFramesSuggestADuration) {
@@ -587,7 +587,7 @@ TEST(Films, BearALogoAndColoursOfTheirOwn) {
     ASSERT_EQ(shell(folder, "$BEAMCAM run l.json && $BEAMCAM run s.json").code, 0);
     const auto digest = [&] { return shell(folder, "$BEAMCAM hash s.png | cut -c1-64").out; };
     const std::string first = digest();
-    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("as it is"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("up to date"));
     ASSERT_EQ(shell(folder, "$BEAMCAM run l.json --force --set outputs.0.theme=dark && $BEAMCAM run s.json").code, 0);
     EXPECT_NE(digest(), first);
     folder.write("t.json", R"({"outputs": [{"type": "still", "at": 0, "palette": {"motion": "blue"}}]})");
@@ -629,7 +629,7 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
         "intervals": [{"from": 0.5, "to": 4, "factor": 0.5}]}})");
     EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is outside the film"));
     const auto exposed = told(R"({"type": "still", "at": 0.1, "view": {"exposures": 4}})");
-    EXPECT_THAT(exposed.second, HasSubstr("outputs.0.view.exposures needs a \"shutter\" or \"strobe\""));
+    EXPECT_THAT(exposed.second, HasSubstr("outputs.0.view.exposures has no effect without a \"shutter\" or \"strobe\""));
     const auto nowhere =
         told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})", R"("cam": null, )");
     EXPECT_FALSE(nowhere.first);

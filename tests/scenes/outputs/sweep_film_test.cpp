@@ -28,7 +28,7 @@ TEST(SweepFilm, GrowsFromAnEmptyDiagramToTheWholeOne) {
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_THAT(done.err, HasSubstr("wrote ./f.mkv (40 frames)"));
     EXPECT_FALSE(std::filesystem::exists(folder / "f.mkv.part"));
-    EXPECT_THAT(shell(folder, run).err, HasSubstr("made from the same inputs"));
+    EXPECT_THAT(shell(folder, run).err, HasSubstr("up to date"));
     EXPECT_THAT(shell(folder, "$BEAMCAM info f.mkv --scene").out, HasSubstr("carry-down"));
     const auto ink = [&](int frame) {  // dark pixels of the diagram, which is the left half
         const Finished raw =
@@ -49,7 +49,7 @@ TEST(SweepFilm, RefusesWhatItCannotShow) {
         folder.write("s.json", scene);
         return shell(folder, "$BEAMCAM check s.json --set 'outputs=[{\"type\": \"sweep-film\"" + film + "}]'").err;
     };
-    EXPECT_THAT(judged("{}", ""), HasSubstr("has no \"sweep\" over one key"));
+    EXPECT_THAT(judged("{}", ""), HasSubstr("has no key \"sweep\" over one key"));
     EXPECT_THAT(judged(kSwept, R"(, "size": [200, 100])"), HasSubstr("too small for a diagram beside the beam"));
     EXPECT_THAT(judged(kSwept, R"(, "size": [481, 301])"), HasSubstr("use 482x302"));
     EXPECT_THAT(judged(kSwept, R"(, "file": "f.gif")"), HasSubstr(".mp4"));

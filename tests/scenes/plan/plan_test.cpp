@@ -140,7 +140,7 @@ TEST(PlanText, AFlatStillOfTheStart) {
     EXPECT_EQ(text_of(R"({"outputs": [{"type": "still", "at": 0, "view": {"style": "flat"}, "size": [800, 600]}]})"),
               R"(to do
   simulate  first-order, 2 hub-beam modes, compliant contact; the initial state only, without integration
-  still     scene.png: one picture of 0 s, 800 × 600, flat
+  still     scene.png: one picture at 0 s, 800 × 600, flat
 skipped
   simulation from 0 s to 1.5 s: no output needs it
   20 of 24 channels: no output needs them

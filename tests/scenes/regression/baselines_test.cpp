@@ -92,17 +92,17 @@ TEST(Baselines, TolerancesOfRenderersAreOverThoseOfTheSamePlace) {
                     "tolerance": {"share": 0.2, "renderers": {"0123456789ab": {"ssim": 0.9}, "ba9876543210": {"channel": 7}}}}}})");
     const Baselines read = read_baselines((folder / "b.json").string());
     const Tolerances &a = read.entries[0].tolerances, &b = read.entries[1].tolerances;
-    EXPECT_EQ(a.usual.channel, 3);
-    EXPECT_EQ(a.on_renderer("another").channel, 3);
-    EXPECT_EQ(a.on_renderer("0123456789ab").channel, 4);
-    EXPECT_EQ(a.on_renderer("0123456789ab").share, 0.1);
-    EXPECT_EQ(b.on_renderer("0123456789ab").channel, 4);
-    EXPECT_EQ(b.on_renderer("0123456789ab").share, 0.2);
-    EXPECT_EQ(b.on_renderer("0123456789ab").ssim, 0.9);
-    EXPECT_EQ(b.on_renderer("ba9876543210").channel, 7);
-    EXPECT_EQ(b.on_renderer("ba9876543210").motion, 2e-5);
+    EXPECT_EQ(a.common.channel, 3);
+    EXPECT_EQ(a.of("another").channel, 3);
+    EXPECT_EQ(a.of("0123456789ab").channel, 4);
+    EXPECT_EQ(a.of("0123456789ab").share, 0.1);
+    EXPECT_EQ(b.of("0123456789ab").channel, 4);
+    EXPECT_EQ(b.of("0123456789ab").share, 0.2);
+    EXPECT_EQ(b.of("0123456789ab").ssim, 0.9);
+    EXPECT_EQ(b.of("ba9876543210").channel, 7);
+    EXPECT_EQ(b.of("ba9876543210").motion, 2e-5);
     const Tolerances command_line = b.overridden_by({{1, {}, {}, {}, {}}, {}});
-    EXPECT_EQ(command_line.on_renderer("ba9876543210").channel, 1);
+    EXPECT_EQ(command_line.of("ba9876543210").channel, 1);
 }
 
 TEST(Baselines, PicturesAreExpectedOfPicturesOnly) {
