@@ -284,7 +284,7 @@ TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {
     ASSERT_EQ(testing::shell(folder, "$BEAMCAM sweep t.json -o t.csv").code, 0);
     EXPECT_EQ(testing::slurp(folder / "t.csv"), testing::slurp(folder / "s.csv"));
     const auto again = testing::shell(folder, "$BEAMCAM run s.json");
-    EXPECT_THAT(again.err, HasSubstr("left ./s.csv as it is"));
+    EXPECT_THAT(again.err, HasSubstr("kept ./s.csv"));
     EXPECT_THAT(again.err, ::testing::Not(HasSubstr("points in")));
     folder.write("none.json", R"({"outputs": [{"type": "sweep"}, {"type": "figure", "figure": "map"}]})");
     const auto refused = testing::shell(folder, "$BEAMCAM check none.json");
@@ -301,7 +301,7 @@ TEST(Diagram, IsMadeAgainWhenATableChangesAndIsGuardedAsABaseline) {
                   "transient": {"cam_turns": 30}, "keep": {"cam_turns": 12}}})");
     const char* run = "$BEAMCAM run s.json";
     EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("wrote ./d.png"));
-    EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("left ./d.png"));
+    EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("kept ./d.png"));
     folder.write("w.csv", "w\n40\n42\n");
     EXPECT_THAT(testing::shell(folder, run).err, HasSubstr("wrote ./d.png"));
     folder.write("b.json", R"({"references": "refs", "entries": {"d": {"scene": "s.json",

@@ -131,7 +131,7 @@ TEST(Page, IsAnOutputAndAFileOfRender) {
     EXPECT_THAT(testing::slurp(folder / "s.html"), HasSubstr("color-scheme: dark"));
     ASSERT_EQ(testing::shell(folder, "$BEAMCAM render s.json -o t.html --theme dark").code, 0);
     EXPECT_EQ(testing::slurp(folder / "s.html"), testing::slurp(folder / "t.html"));
-    EXPECT_THAT(testing::shell(folder, "$BEAMCAM run s.json").err, HasSubstr("left ./s.html as it is"));
+    EXPECT_THAT(testing::shell(folder, "$BEAMCAM run s.json").err, HasSubstr("kept ./s.html"));
 }
 
 }  // namespace

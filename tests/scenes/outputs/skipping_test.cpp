@@ -139,7 +139,7 @@ TEST(Skipping, ASecondRunLeavesEverythingAsItIs) {
     for (const char* what : {"integrations", "trajectories_from_cache", "frames_drawn", "files_written", "font_sets"})
         EXPECT_EQ(count(again, what), 0) << what;
     EXPECT_EQ(count(again, "files_left"), 4);
-    EXPECT_THAT(again.err, HasSubstr("left ./t.csv as it is"));
+    EXPECT_THAT(again.err, HasSubstr("kept ./t.csv"));
     EXPECT_EQ(stamp(folder / "t.csv"), before);
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("t.csv: up to date"));
     EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v --force s.json"), "files_written"), 4);

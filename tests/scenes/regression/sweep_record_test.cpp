@@ -231,7 +231,7 @@ TEST(SweepEntries, NeedASweepThatCanBeMade) {
     const Finished finished = shell(folder, "$BEAMCAM test b.json --update all");
     EXPECT_EQ(finished.code, 3) << finished.out;
     EXPECT_THAT(finished.err, AllOf(HasSubstr("entries.none.output: the scene has no \"sweep\""),
-                                    HasSubstr("entries.more.output: a sweep is described by")));
+                                    HasSubstr("entries.more.output: the \"sweep\" of the scene describes")));
     EXPECT_THAT(finished.out, HasSubstr("1 of 1 points are not compared"));
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fine --strict").code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "b/short"));

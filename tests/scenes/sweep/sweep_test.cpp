@@ -83,7 +83,7 @@ TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
     Folder folder;
     folder.write("s.json", kSweptScene);
     ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv").code, 0);
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv").err, HasSubstr("made from the same inputs"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv").err, HasSubstr("up to date"));
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o a.csv --keep 21").err, HasSubstr("31 points in"));
     folder.write("mine.csv", "1,2");
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o mine.csv").code, 6);
@@ -98,7 +98,7 @@ TEST(SweepCommand, SaysThatItDropsThePointsOfAnotherSweep) {
         "[ $(stat -c %s a.csv.part) -lt 2000 ]; do :; done; kill -9 $pid; wait $pid; ";
     const Finished done = shell(folder, begun + "$BEAMCAM sweep s.json -o a.csv");
     ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_THAT(done.err, HasSubstr("dropped the points in a.csv.part"));
+    EXPECT_THAT(done.err, HasSubstr("discarded the points in a.csv.part"));
     EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.part"));
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o b.csv").err, Not(HasSubstr("dropped")));
 }
@@ -192,7 +192,7 @@ TEST(SweepCommand, RefusesInWords) {
           {"--over cam.speed=1:2", 2, "KEY=FIRST:LAST:COUNT"},
           {"--over cam.speed=40:44:1n", 2, "one value cannot have two ends"},
           {"--over cam.speed=40:44:1:log", 2, "one value cannot have two ends"},
-          {"--over cam.speed=40:44:0", 2, "0 is no step"},
+          {"--over cam.speed=40:44:0", 2, "0 is not a step"},
           {"--over cam.speed=44:40:1", 2, "1 is no step"},
           {"--over cam.speed=40:44:0n", 2, "0 is no number of values"},
           {"--over cam.speed=40:44:-3n", 2, "is no number of values"},
