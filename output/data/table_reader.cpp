@@ -185,7 +185,7 @@ class NpzParser {
         if (name.ends_with(".npy")) name.resize(name.size() - 4);
         if (offset == 0xffffffff || size >= kLargestArchive) refuse("archives above 4 GiB cannot be read");
         const std::size_t data = offset + 30 + value(offset + 26, 2) + value(offset + 28, 2);
-        read_array(name, decompressed(name, part(data, compressed), method, size, crc));
+        read_array(name, decompressed(name, part(data, packed), method, size, crc));
         return at + 46 + name_size + value(at + 30, 2) + value(at + 32, 2);
     }
 
