@@ -209,8 +209,8 @@ TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {
     EXPECT_EQ(finished.code, 3) << finished.err;
     for (const char* part : {"b.json:2:17: unknown key \"chanel\"", "b.json:2:39: tolerance.share",
                              "b.json:4:40: entries.a.output needs \"at\"", "b.json:5:20: entries.b.scene: absent.json",
-                             "b.json:6:30: unknown key \"lenght\"", "films are guarded before they are encoded",
-                             "it has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
+                             "b.json:6:30: unknown key \"lenght\"", "films are compared before they are encoded",
+                             "this type has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
         EXPECT_THAT(finished.err, HasSubstr(part));
     for (const char* text : {"", "[]", "{}", "{\"entries\": {}}", "{\"entries\": 3}", "{\"entries\": {\"a\": {}",
                              "nonsense", "\xff\xfe"}) {
