@@ -100,7 +100,7 @@ TEST(OrbitsCommand, DrawsBranchesOverTheImpactsOfASweep) {
     EXPECT_THAT(testing::slurp((folder / "b.svg").string()), HasSubstr("impacts of a sweep"));
     const Finished other = shell(folder, "$BEAMCAM orbits s.json --over gravity=0:1 --sweep r.csv -o c.svg");
     EXPECT_EQ(other.code, 2);
-    EXPECT_THAT(other.err, HasSubstr("no column gravity"));
+    EXPECT_THAT(other.err, HasSubstr("column gravity is missing"));
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --sweep r.csv").code, 2);
 }
 

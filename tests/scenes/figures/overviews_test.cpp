@@ -124,7 +124,7 @@ TEST(Stretch, OfAnEventThatDoesNotOccurIsRefusedAlone) {
     EXPECT_EQ(made.figures[0].file, "c.pdf");
     ASSERT_EQ(why.size(), 2u);
     EXPECT_THAT(why[0], HasSubstr("0: impact 7 does not occur: the motion has 1 of them until 0.4 s"));
-    EXPECT_THAT(why[1], HasSubstr("1: figure kymograph: its begin, release 1 at 0.28"));
+    EXPECT_THAT(why[1], HasSubstr("1: figure kymograph: \"from\" = release 1 at 0.28"));
     const auto report = [](const std::string& keys) {
         return testing::read(R"({"outputs": [{"type": "figure", )" + keys + "}]}").report();
     };

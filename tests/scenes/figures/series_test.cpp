@@ -276,10 +276,10 @@ TEST(Measured, BadFilesAreToldWithTheirPlace) {
     EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("the file has no column \"angle\"; did you mean \"angel\"?"));
     EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row lies between 0 and 0.4 s"));
     EXPECT_THAT(told(""), HasSubstr("the file is empty"));
-    EXPECT_THAT(told("time,angle\n"), HasSubstr("there are no rows below the names of the columns"));
+    EXPECT_THAT(told("time,angle\n"), HasSubstr("the file has no rows below the names of the columns"));
     EXPECT_THAT(told("time,angle\n100,45\n200,inf\n"), HasSubstr("rig.csv:3:5: \"inf\" is not a finite number"));
     EXPECT_THAT(told("time;angle\n100;45\n"), HasSubstr("rig.csv:1:5: columns are separated by semicolons"));
-    EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" has no number"));
+    EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" contains no number"));
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("\"mm\" is not a unit of theta, which is measured in rad"));

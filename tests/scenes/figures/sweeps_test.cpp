@@ -289,7 +289,7 @@ TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {
     folder.write("none.json", R"({"outputs": [{"type": "sweep"}, {"type": "figure", "figure": "map"}]})");
     const auto refused = testing::shell(folder, "$BEAMCAM check none.json");
     EXPECT_EQ(refused.code, 3);
-    EXPECT_THAT(refused.err, HasSubstr("no \"sweep\""));
+    EXPECT_THAT(refused.err, HasSubstr("no key \"sweep\""));
 }
 
 TEST(Diagram, IsMadeAgainWhenATableChangesAndIsGuardedAsABaseline) {

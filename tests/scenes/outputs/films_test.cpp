@@ -351,7 +351,8 @@ TEST(Films, WithoutALegendTheExaggerationIsToldOnTheCommandLine) {
     const std::string still = "$BEAMCAM render s.json --at 0.3 --size 320x180 --style flat --force -o s.png";
     EXPECT_THAT(shell(folder, still + " --show clean").err, HasSubstr("without stating it; state it in the caption"));
     EXPECT_THAT(shell(folder, still).err, Not(HasSubstr("without stating it")));
-    EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err, Not(HasSubstr("without stating it")));
+    EXPECT_THAT(shell(folder, still + " --show clean --set beam.model=rigid").err,
+                Not(HasSubstr("without stating it")));
 }
 
 TEST(Render, RejectsOptionsThatWouldDoNothing) {
@@ -629,7 +630,8 @@ TEST(Films, TellOfWhatTheyWillNotShow) {
         "intervals": [{"from": 0.5, "to": 4, "factor": 0.5}]}})");
     EXPECT_THAT(slow.second, HasSubstr("outputs.0.speed.intervals.0.to = 4 s is outside the film"));
     const auto exposed = told(R"({"type": "still", "at": 0.1, "view": {"exposures": 4}})");
-    EXPECT_THAT(exposed.second, HasSubstr("outputs.0.view.exposures has no effect without a \"shutter\" or \"strobe\""));
+    EXPECT_THAT(exposed.second,
+                HasSubstr("outputs.0.view.exposures has no effect without a \"shutter\" or \"strobe\""));
     const auto nowhere =
         told(R"({"type": "video", "events": [{"at": 0.2, "text": "C", "anchor": "cam"}]})", R"("cam": null, )");
     EXPECT_FALSE(nowhere.first);
