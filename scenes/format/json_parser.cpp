@@ -1,4 +1,5 @@
-// The parser of scene files: JSON (RFC 8259) with positions, and with messages that name the mistake and its remedy.
+// The parser of scene files: JSON (RFC 8259) with the position of every value, and messages that name mistake and remedy.
+// nlohmann-json reports no positions of values; it decodes escapes here and writes JSON in tree.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
