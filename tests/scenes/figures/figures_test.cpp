@@ -219,6 +219,7 @@ TEST(Figures, OnlyABeamThatFallsOntoTheCamHasARebound) {
     const auto apex = [](const Scene& scene) {
         sim::Request request;
         request.end_time = scene.end_time;
+        request.apexes = true;
         const sim::Result result = sim::simulate(scene.problem, request);
         EXPECT_FALSE(result.impacts.empty());
         return rebound_apex(scene.problem, result, scene.end_time);
