@@ -14,7 +14,7 @@ namespace {
 
 constexpr std::uint64_t kLargestArchive = 0xffffffff;  // larger archives need 64-bit records
 constexpr std::size_t kMostEntries = 0xffff;
-constexpr std::size_t kBuffer = 1 << 13;  // numbers of an array that are written together
+constexpr std::size_t kNumbersAtOnce = 1 << 13;  // numbers of an array that are written together
 static_assert(std::endian::native == std::endian::little, "NPZ is written in memory order");
 
 void put(std::string& out, std::uint64_t value, int bytes) {
@@ -85,7 +85,7 @@ std::string NpzFile::common_record(const Member& member) {
 void NpzFile::append(std::size_t array, std::span<const double> numbers) {
     Member& member = members_[array];
     member.buffer.insert(member.buffer.end(), numbers.begin(), numbers.end());
-    if (member.buffer.size() >= kBuffer) flush(member);
+    if (member.buffer.size() >= kNumbersAtOnce) flush(member);
 }
 
 void NpzFile::flush(Member& member) {

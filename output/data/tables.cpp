@@ -14,7 +14,7 @@ namespace beamcam::output {
 
 namespace {
 
-constexpr std::size_t kBuffer = 1 << 16;  // [bytes] written at once
+constexpr std::size_t kWrittenAtOnce = 1 << 16;  // [bytes] written at once
 
 // Names and values of columns; the values belong to another object.
 struct Columns {
@@ -51,7 +51,7 @@ void csv(const Columns& table, const std::function<void(const std::string&)>& wr
             append_number(text, table.values[c][row]);
         }
         text += '\n';
-        if (text.size() < kBuffer) continue;
+        if (text.size() < kWrittenAtOnce) continue;
         write(text);
         text.clear();
     }

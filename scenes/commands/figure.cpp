@@ -20,13 +20,13 @@ struct FigureArguments {
     KeyOptions print{"figure"}, channels{"figure"}, axis{"figure"}, span{"figure"}, content{"figure"};
     std::optional<std::string> data, caption;
     // Of "series".
-    std::vector<std::string> right, compare, notes;
+    std::vector<std::string> right, lines, compare, notes;
     std::optional<std::string> low, high, title;
     bool impacts = false, residuals = false, logarithmic = false, apart = false;
 
     Lang lang() const { return lang_named(print.value("--lang")); }
     // Options of the figure's only panel.
-    bool describes_panel() const { return !right.empty() || low || high || title; }
+    bool describes_panel() const { return !right.empty() || !lines.empty() || low || high || title; }
     bool describes_series() const {
         return channels.any() || axis.any() || span.any() || describes_panel() || !compare.empty() || !notes.empty() ||
                impacts || residuals || logarithmic || apart;
@@ -70,6 +70,11 @@ Node panel_node(const FigureArguments& args) {
     Node panel = object_node();
     add(panel, "channels", list_node(args.channels.values("--channels")));
     if (!args.right.empty()) add(panel, "right", list_node(args.right));
+    if (!args.lines.empty()) {
+        Node lines = array_node();
+        for (const std::string& value : args.lines) lines.items.push_back(value_node(value));
+        add(panel, "lines", std::move(lines));
+    }
     if (args.low) add(panel, "low", value_node(*args.low));
     if (args.high) add(panel, "high", value_node(*args.high));
     if (args.title) add(panel, "title", text_node(*args.title));
@@ -188,6 +193,9 @@ void add_series_options(Command& app, FigureArguments& args) {
                "Of \"series\": channels of another unit, on an axis at the right")
         .separated_by(',');
     app.option("--compare", &args.compare, "SCENE,...", "Of \"series\": the same channels of these scenes, too")
+        .separated_by(',');
+    app.option("--lines", &args.lines, "V,...",
+               "Of \"series\" with one panel: horizontal lines at these values of the left axis, in SI units")
         .separated_by(',');
     app.option("--low", &args.low, "V", "Of \"series\" with one panel: lower end of the left axis, in SI units");
     app.option("--high", &args.high, "V", "Of \"series\" with one panel: upper end of the left axis, in SI units");

@@ -313,16 +313,16 @@ TEST(Series, OptionsAreKeysOfTheScene) {
     EXPECT_EQ(shell(folder, command + "series -o c.png").code, 2);
 }
 
-// The same bytes, the scene within them too.
-TEST(Series, AllOfAPanelIsToldByOptionsToo) {
+// The same bytes, including the embedded scene.
+TEST(Series, OptionsDescribeAPanelAsKeysDo) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
     folder.write("k.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "series", "file": "k.svg",
         "theme": "dark", "x_low": 0.1, "x_high": 0.35, "notes": [{"at": "impact:1", "text": "touch"}],
-        "panels": [{"channels": ["theta"], "right": ["gap"], "low": 0.3, "high": 1, "title": "Hub $θ$"}]}]})");
+        "panels": [{"channels": ["theta"], "right": ["gap"], "lines": [0.5, 0.7], "low": 0.3, "high": 1, "title": "Hub $θ$"}]}]})");
     const Finished made = shell(folder,
                                 "$BEAMCAM run k.json -q && $BEAMCAM figure s.json -q --channels theta --right gap "
-                                "--low 0.3 --high 1 --title 'Hub $θ$' --x-low 0.1 --x-high 0.35 "
+                                "--lines 0.5,0.7 --low 0.3 --high 1 --title 'Hub $θ$' --x-low 0.1 --x-high 0.35 "
                                 "--note impact:1=touch --theme dark -o s.svg");
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_EQ(testing::slurp(folder / "k.svg"), testing::slurp(folder / "s.svg"));
