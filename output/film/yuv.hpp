@@ -9,6 +9,7 @@
 #pragma once
 
 #include "output/film/video_library.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
 
 namespace beamcam::output {

@@ -1,5 +1,5 @@
-// The parser of scene files: JSON (RFC 8259) with the position of every value, and messages that name mistake and remedy.
-// nlohmann-json reports no positions of values; it decodes escapes here and writes JSON in tree.cpp.
+// The parser of scene files: JSON (RFC 8259) with the position of every value, and messages that name mistake and
+// remedy. nlohmann-json reports no positions of values; it decodes escapes here and writes JSON in tree.cpp.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -14,8 +14,6 @@
 
 namespace beamcam::scenes {
 namespace {
-
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
 
 bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
 bool is_digit_of_json(char c) { return c >= '0' && c <= '9'; }

@@ -24,8 +24,6 @@ std::string_view first_characters(std::string_view bytes, std::size_t count) {
     return bytes.substr(0, i);
 }
 
-constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";
-
 // The line around `offset`, cut to the width of a terminal, and a caret below the position.
 std::string excerpt(std::string_view text, std::size_t offset) {
     constexpr std::size_t kBefore = 60, kWidth = 100;  // characters; a line of 120 columns with its margin

@@ -9,6 +9,8 @@
 
 namespace beamcam::scenes {
 
+constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8; it may precede a scene
+
 // A scene file, or one override of the command line.
 struct Source {
     std::string name;  // as the user typed it; of an override "--set beam.modes=3"
