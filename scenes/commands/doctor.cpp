@@ -128,11 +128,12 @@ int act(const Common& common) {
 }  // namespace
 
 void add_doctor(Grammar& grammar) {
-    const auto [app, common] = grammar.command<Common>(
+    auto args = std::make_shared<Common>();
+    Command& app = grammar.command(
         "doctor",
-        "List libraries, fonts and encoders, and packages that contain missing ones; exit code 5 if any is missing",
-        act);
-    add_json(app, common);
+        "List libraries, fonts and encoders, and packages that contain missing ones; exit code 5 if any is missing");
+    add_json(app, *args);
+    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -35,8 +35,9 @@ void read_panel(ObjectReader& r, const Node& node, const std::string& key, Panel
     std::ranges::move(channel_names(channels), std::back_inserter(names));
     const auto found = static_cast<std::size_t>(std::ranges::find(names, node.text) - names.begin());
     if (node.kind != Node::Kind::string || found == names.size()) {
-        r.reject_value(node, key, " is not a panel{}",
-                       node.kind == Node::Kind::string ? suggestion_or_list(node.text, names) : "");
+        r.fail(node, key,
+               fmt::format("{} = {} is not a panel{}", r.path(key), as_written(node),
+                           node.kind == Node::Kind::string ? suggestion_or_list(node.text, names) : ""));
     } else if (found < panels) {
         out.kind = render::panel_types()[found].kind;
     } else {
@@ -56,9 +57,10 @@ void check_strip_units(ObjectReader& r, const std::string& key, const std::vecto
     for (std::size_t i = 1; i < channels.size(); ++i)
         if (const std::string unit = sim::unit(channels[i], problem), first = sim::unit(channels.front(), problem);
             unit != first)
-            r.reject(fmt::format("{}.{}", key, i),
-                     ": {} is measured in {}, but {} in {}; a strip has one unit: use two strips", name(channels[i]),
-                     unit.empty() ? "1" : unit, name(channels.front()), first.empty() ? "1" : first);
+            r.fail(fmt::format("{}.{}", key, i),
+                   fmt::format("{}.{}: {} is measured in {}, but {} in {}; a strip has one unit: use two strips",
+                               r.path(key), i, name(channels[i]), unit.empty() ? "1" : unit, name(channels.front()),
+                               first.empty() ? "1" : first));
 }
 
 bool is_strip(const ObjectReader& r) { return r.place("panel").text == type_of(PanelKind::strip).name; }
@@ -66,7 +68,7 @@ bool is_strip(const ObjectReader& r) { return r.place("panel").text == type_of(P
 ValueFormat strip_channels_format(PanelSpec& panel) {
     ValueFormat format = channels_format(panel.channels);
     format.read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
-        if (!is_strip(r)) return r.reject(key, " belongs to \"panel\": \"strip\"");
+        if (!is_strip(r)) return r.fail(node, key, fmt::format("{} belongs to \"panel\": \"strip\"", r.path(key)));
         const std::size_t items = node.items.size();
         read_channels(r, node, key, strip_channels(r.context().scene.problem), panel.channels);
         if (panel.channels.size() == items) check_strip_units(r, key, panel.channels);
@@ -77,10 +79,12 @@ ValueFormat strip_channels_format(PanelSpec& panel) {
 ValueFormat window_format(PanelSpec& panel) {
     const auto read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
         double window = 0;
-        if (!type_of(panel.kind).takes_window) return r.reject(key, " belongs to the panels \"strip\" and \"energy\"");
+        if (!type_of(panel.kind).takes_window)
+            return r.fail(node, key, fmt::format("{} belongs to the panels \"strip\" and \"energy\"", r.path(key)));
         panel.by_collision = node.kind == Node::Kind::string && node.text == "collision";
         if (panel.by_collision && !type_of(panel.kind).takes_collisions)
-            return r.reject(key, " of the panel \"energy\" must be a time, not \"collision\"");
+            return r.fail(node, key,
+                          fmt::format("{} of the panel \"energy\" must be a time, not \"collision\"", r.path(key)));
         if (!panel.by_collision &&
             r.ranged_value(node, key, sim::dimension::kTime,
                            {0, sim::Range::kInfinity, true, false, "must be positive, or \"collision\""}, window))
@@ -110,7 +114,8 @@ void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.value("channels", strip_channels_format(panel), "Of a strip: its curves, all of one unit.");
     v.check([&panel](ObjectReader& r) {
         if (panel.kind == PanelKind::strip && r.has("panel") && !r.has("channels") && panel.channels.empty())
-            r.reject_object("channels", " is a strip; it needs \"channels\", for example [\"theta\"]");
+            r.fail(*r.node(), "channels",
+                   fmt::format("{} is a strip; it needs \"channels\", for example [\"theta\"]", r.object_name()));
     });
     v.value("window", window_format(panel),
             "Of a strip or the energies: length of the time axis; by default all of the time. Of a strip also "
@@ -140,9 +145,13 @@ ValueFormat named_panel_format(std::vector<LayoutNode>& children) {
     const auto read = [&children](ObjectReader& r, const Node& node, const std::string& key) {
         LayoutNode& child = children.emplace_back();
         if (node.kind == Node::Kind::string && node.text == type_of(PanelKind::strip).name)
-            r.reject_value(node, key, " needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}");
+            r.fail(node, key,
+                   fmt::format("{} = {} needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}",
+                               r.path(key), in_quotes(node.text)));
         else if (node.kind != Node::Kind::string)
-            r.expect(node, key, "a panel's name or an object {{ … }}");
+            r.fail(
+                node, key,
+                fmt::format("{} must be a panel's name or an object {{ … }}, not {}", r.path(key), as_written(node)));
         else
             read_panel(r, node, key, child.panel);
     };
@@ -219,27 +228,29 @@ std::string needs_missing_cam(const sim::Problem& own, const Picture& picture, c
 
 void check_layout(ObjectReader& r, const Picture& picture) {
     if (!picture.layout || !r.has("layout")) return;
+    const auto reject = [&](const std::string& problem) { r.fail("layout", r.path("layout") + problem); };
     const std::vector<PanelSpec> panels = render::panels_of(*picture.layout);
     if (panels.size() > kMostPanels || depth_of(*picture.layout) > kDeepestLayout + 1)
-        r.reject("layout", " is too large for a picture; use at most {} panels and {} levels", kMostPanels,
-                 kDeepestLayout);
+        reject(fmt::format(" is too large for a picture; use at most {} panels and {} levels", kMostPanels,
+                           kDeepestLayout));
     const std::size_t motions = std::max<std::size_t>(1, picture.compare.size());
     for (const PanelSpec& panel : panels)
         if (static_cast<std::size_t>(panel.member) >= motions)
-            return r.reject("layout", ": \"motion\": {} does not exist; the picture shows {}", panel.member + 1,
-                            counted(motions, "motion"));
+            return reject(fmt::format(": \"motion\": {} does not exist; the picture shows {}", panel.member + 1,
+                                      counted(motions, "motion")));
     for (const PanelSpec& panel : panels)
         if (panel.by_collision && !picture.compare.empty())
-            r.reject("layout",
-                     ": \"window\": \"collision\" needs one motion, but the picture compares {}; write a time such as "
-                     "\"50 ms\"",
-                     picture.compare.size());
+            reject(fmt::format(
+                ": \"window\": \"collision\" needs one motion, but the picture compares {}; write a time such "
+                "as \"50 ms\"",
+                picture.compare.size()));
     if (r.diagnostics().failed("cam")) return;
     for (const PanelSpec& panel : panels)
         if (const std::string shown = needs_missing_cam(r.context().scene.problem, picture, panel); !shown.empty())
-            r.reject("layout",
-                     ": \"{}\" shows contact data, but the scene has no cam; remove the panel, or add a \"cam\"",
-                     shown);
+            reject(
+                fmt::format(": \"{}\" shows contact data, but the scene has no cam; remove the panel, or add a "
+                            "\"cam\"",
+                            shown));
 }
 
 }  // namespace beamcam::scenes

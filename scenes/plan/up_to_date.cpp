@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -71,7 +72,7 @@ class UpToDateCheck {
     }
 
     void check_figure(const FigureFile& f) {
-        const auto files = written_by(scene_.outputs[f.output]);
+        const auto files = files_of(std::get<FigureOutput>(scene_.outputs[f.output]));
         if (std::ranges::all_of(files, [&](const std::string& file) { return is_up_to_date(file, f.output); }))
             found_.existing.finished.insert(f.output);
     }
