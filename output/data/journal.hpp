@@ -11,37 +11,26 @@
 #include <vector>
 
 #include "output/data/records.hpp"
+#include "output/files/descriptor.hpp"
 
 namespace beamcam::output {
 
-// A lock for reading and changing the manifest and the journals of a directory. On file systems that cannot lock
-// directories, two processes that end at the same instant may lose an entry, but never a file.
-class DirectoryLock {
-  public:
-    explicit DirectoryLock(const std::filesystem::path& directory);
-    ~DirectoryLock();
-    DirectoryLock(const DirectoryLock&) = delete;
-    DirectoryLock& operator=(const DirectoryLock&) = delete;
-
-  private:
-    int descriptor_;
-};
+// A lock for reading and changing the manifest and the journals of a directory, as long as the result exists. On file
+// systems that cannot lock directories, two processes that end at the same instant may lose an entry, but never a file.
+[[nodiscard]] Descriptor locked_directory(const std::filesystem::path& directory);
 
 class Journal {
   public:
-    // Creates a new journal. Throws IoError.
+    // Creates a new journal. Throws IoError. The destructor keeps the file; its lines then count as those of a killed
+    // run. Call `remove` after the manifest contains them.
     explicit Journal(const std::filesystem::path& directory);
-    // Keeps the file; its lines then count as those of a killed run. Call `remove` after the manifest contains them.
-    ~Journal();
-    Journal(const Journal&) = delete;
-    Journal& operator=(const Journal&) = delete;
 
     void add(const std::string& line);  // throws IoError
     void remove();
 
   private:
-    std::filesystem::path file_;
-    int descriptor_ = -1;
+    std::filesystem::path path_;
+    Descriptor file_;
 };
 
 // The journals of all runs in a directory, and whether the run of a journal has ended.

@@ -5,7 +5,7 @@
 #include <cerrno>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 
 namespace beamcam::output {
 
@@ -167,7 +167,7 @@ void Manifest::recover(const fs::path& directory) {
 
 // Adds the records of the journals to the manifest. Removes the journals of ended runs, with their temporary files.
 void Manifest::merge_journals(const fs::path& directory, std::unique_ptr<Journal>& own) {
-    const DirectoryLock lock(directory);
+    const Descriptor lock = locked_directory(directory);
     std::vector<fs::path> abandoned;
     for (const fs::path& journal : journals_in(directory))
         if (is_abandoned(journal)) abandoned.push_back(journal);

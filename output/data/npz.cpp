@@ -55,10 +55,6 @@ const Target& checked_target(const Target& file, const std::vector<NpzArray>& ar
                             "write .csv");
 }
 
-std::string_view bytes_of(std::span<const double> numbers) {
-    return {reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()};
-}
-
 }  // namespace
 
 NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atomic_(checked_target(file, arrays)) {

@@ -2,15 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
-#include <bit>
 #include <cerrno>
 #include <cstring>
 
-#include "output/files/checksum.hpp"
+#include "output/files/digest.hpp"
 
 namespace beamcam::output {
 namespace {
@@ -29,9 +26,7 @@ std::string text_of(const StoredPoint& p) {
     Head head{p.point,  p.samples.size(),     p.state.size(), p.failure.size(), p.kind,
               p.period, p.impacts_per_period, p.exponent,     p.exponent_error, 0};
     std::string text(reinterpret_cast<const char*>(&head), sizeof head);
-    for (const std::vector<double>* numbers : {&p.samples, &p.state})
-        text.append(reinterpret_cast<const char*>(numbers->data()), numbers->size() * sizeof(double));
-    text += p.failure;
+    text.append(bytes_of(p.samples)).append(bytes_of(p.state)).append(p.failure);
     head.checksum = crc32(0, text.data(), text.size());
     std::memcpy(text.data(), &head, sizeof head);
     return text;
@@ -39,39 +34,30 @@ std::string text_of(const StoredPoint& p) {
 
 std::uint64_t rest_of(const Head& head) { return (head.samples + head.state) * sizeof(double) + head.failure; }
 
-[[noreturn]] void fail(const std::filesystem::path& file, const char* what) {
-    throw IoError(fmt::format("{}: {} ({})", file.string(), what, std::strerror(errno)));
-}
-
 }  // namespace
 
 PointStore::PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity)
-    : file_(std::move(file)), places_(points, 0), numbers_(points, 0) {
-    descriptor_ = open(file_.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0666);
-    if (descriptor_ < 0) fail(file_, "cannot be made");
-    if (flock(descriptor_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
-        throw IoError(file_.string() + ": another beamcam is making these points");
+    : path_(std::move(file)), file_(path_, O_RDWR | O_CREAT), places_(points, 0), numbers_(points, 0) {
+    if (!file_) fail("cannot be made");
+    if (!file_.try_lock() && errno == EWOULDBLOCK)
+        throw IoError(path_.string() + ": another beamcam is making these points");
     open_again(std::string(kMagic) + identity + "\n");
 }
 
-PointStore::~PointStore() {
-    if (descriptor_ >= 0) close(descriptor_);
+void PointStore::fail(const char* what) const {
+    throw IoError(fmt::format("{}: {} ({})", path_.string(), what, std::strerror(errno)));
 }
 
 void PointStore::open_again(const std::string& head) {
-    struct stat facts {};
-    if (fstat(descriptor_, &facts) != 0) fail(file_, "cannot be read");
-    const auto size = static_cast<std::uint64_t>(facts.st_size);
+    const std::uint64_t size = file_.size();
     const bool same = size >= head.size() && text_at(0, head.size()) == head;
     end_ = head.size();
     if (!same) {
         const std::string magic = text_at(0, std::min<std::uint64_t>(size, kMagic.size()));
         if (!kMagic.starts_with(magic))
-            throw IoError(file_.string() + ": points would be kept here, but this file is not beamcam's; move it away");
+            throw IoError(path_.string() + ": points would be kept here, but this file is not beamcam's; move it away");
         dropped_others_ = size > head.size();
-        if (ftruncate(descriptor_, 0) != 0 ||
-            pwrite(descriptor_, head.data(), head.size(), 0) != static_cast<ssize_t>(head.size()))
-            fail(file_, "cannot be written");
+        if (ftruncate(file_.number(), 0) != 0 || !file_.write_at(0, head)) fail("cannot be written");
         return;
     }
     while (end_ + sizeof(Head) <= size) {
@@ -87,21 +73,22 @@ void PointStore::open_again(const std::string& head) {
         zeroed.checksum = 0;
         std::memcpy(text.data(), &zeroed, sizeof zeroed);
         if (crc32(0, text.data(), text.size()) != found.checksum) break;
-        if (!has(found.point)) ++count_;
-        places_[found.point] = end_;
-        numbers_[found.point] = static_cast<std::uint32_t>(found.samples);
-        end_ += whole;
+        place(found.point, found.samples, whole);
     }
-    if (end_ < size && ftruncate(descriptor_, static_cast<off_t>(end_)) != 0) fail(file_, "cannot be written");
+    if (end_ < size && ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) fail("cannot be written");
+}
+
+// The point is at the end of the file, which grows by its size.
+void PointStore::place(std::uint64_t point, std::uint64_t samples, std::uint64_t size) {
+    if (!has(point)) ++count_;
+    places_[point] = end_;
+    numbers_[point] = static_cast<std::uint32_t>(samples);
+    end_ += size;
 }
 
 std::string PointStore::text_at(std::uint64_t at, std::size_t size) const {
     std::string text(size, '\0');
-    for (std::size_t done = 0; done < size;) {
-        const ssize_t got = pread(descriptor_, text.data() + done, size - done, static_cast<off_t>(at + done));
-        if (got <= 0) fail(file_, "cannot be read");
-        done += static_cast<std::size_t>(got);
-    }
+    if (file_.read_at(at, text.data(), size) != static_cast<std::ptrdiff_t>(size)) fail("cannot be read");
     return text;
 }
 
@@ -132,18 +119,10 @@ StoredPoint PointStore::read(std::uint64_t point) const {
 void PointStore::add(const StoredPoint& point) {
     const std::string text = text_of(point);
     const std::lock_guard lock(mutex_);
-    for (std::size_t done = 0; done < text.size();) {
-        const ssize_t put =
-            pwrite(descriptor_, text.data() + done, text.size() - done, static_cast<off_t>(end_ + done));
-        if (put <= 0) fail(file_, "cannot be written");
-        done += static_cast<std::size_t>(put);
-    }
-    if (!has(point.point)) ++count_;
-    places_[point.point] = end_;
-    numbers_[point.point] = static_cast<std::uint32_t>(point.samples.size());
-    end_ += text.size();
+    if (!file_.write_at(end_, text)) fail("cannot be written");
+    place(point.point, point.samples.size(), text.size());
 }
 
-void PointStore::remove() { std::filesystem::remove(file_); }
+void PointStore::remove() { std::filesystem::remove(path_); }
 
 }  // namespace beamcam::output

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "output/files/descriptor.hpp"
 #include "output/files/errors.hpp"
 
 namespace beamcam::output {
@@ -31,9 +32,6 @@ class PointStore {
     // `identity` names the sweep: the points of a file with another one are dropped. Throws IoError, also when another
     // program has the file open or the file is no store of points.
     PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity);
-    ~PointStore();
-    PointStore(const PointStore&) = delete;
-    PointStore& operator=(const PointStore&) = delete;
 
     bool has(std::uint64_t point) const { return places_[point] != 0; }
     std::uint64_t count() const { return count_; }
@@ -45,10 +43,12 @@ class PointStore {
 
   private:
     void open_again(const std::string& head);
+    void place(std::uint64_t point, std::uint64_t samples, std::uint64_t size);
+    [[noreturn]] void fail(const char* what) const;
     std::string text_at(std::uint64_t at, std::size_t size) const;
 
-    std::filesystem::path file_;
-    int descriptor_ = -1;
+    std::filesystem::path path_;
+    Descriptor file_;
     bool dropped_others_ = false;
     std::mutex mutex_;  // of adding
     std::uint64_t end_ = 0, count_ = 0;

@@ -4,8 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-
-#include "output/data/name_index.hpp"
+#include <map>
 
 namespace beamcam::output {
 
@@ -56,9 +55,10 @@ std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double u
     return pairs;
 }
 
-NameIndex index_of(const std::vector<std::string>& names) {
-    NameIndex index;
-    for (std::size_t i = 0; i < names.size(); ++i) index.add(names[i], i);
+// The positions of the names; of equal names, the first counts.
+std::map<std::string, std::size_t> index_of(const std::vector<std::string>& names) {
+    std::map<std::string, std::size_t> index;
+    for (std::size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], i);
     return index;
 }
 
@@ -104,15 +104,15 @@ TableDifference difference(const NamedTable& a, const NamedTable& b, double unti
     d.rows_b = b.rows();
     const std::vector<Pair> rows = common_rows(a, b, until);
     d.rows_compared = rows.size();
-    const NameIndex in_a = index_of(a.names), in_b = index_of(b.names);
+    const std::map<std::string, std::size_t> in_a = index_of(a.names), in_b = index_of(b.names);
     for (std::size_t i = 0; i < a.names.size(); ++i) {
-        if (const auto other = in_b.find(a.names[i]))
-            d.columns.push_back(compare(a.names[i], a.columns[i], b.columns[*other], rows));
+        if (const auto other = in_b.find(a.names[i]); other != in_b.end())
+            d.columns.push_back(compare(a.names[i], a.columns[i], b.columns[other->second], rows));
         else
             d.only_in_a.push_back(a.names[i]);
     }
     for (const std::string& name : b.names)
-        if (!in_a.find(name)) d.only_in_b.push_back(name);
+        if (!in_a.contains(name)) d.only_in_b.push_back(name);
     return d;
 }
 

@@ -11,8 +11,8 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <set>
 
-#include "output/data/name_index.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"
 #include "output/files/numbers.hpp"
@@ -85,7 +85,7 @@ class CsvParser {
             if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
             if (cell.empty()) refuse(column, "a column without a name in the header");
             if (number(cell)) refuse(column, in_quotes(cell) + " where the name of a column should be");
-            if (!index_.add(cell, table_.names.size()))
+            if (!known_.emplace(cell).second)
                 refuse(column, "the column " + in_quotes(cell) + " occurs twice in the header");
             table_.names.emplace_back(cell);
         });
@@ -134,7 +134,7 @@ class CsvParser {
     const std::string& file_;
     std::size_t at_ = 0, line_ = 0;
     NamedTable table_;
-    NameIndex index_;  // of its names
+    std::set<std::string> known_;  // its names
 };
 
 // ---- NPZ: PKWARE's APPNOTE, and https://numpy.org/doc/stable/reference/generated/numpy.lib.format.html --------
@@ -237,7 +237,7 @@ class NpzParser {
             wrong("has the shape (" + shape + "); a column has one dimension");
         if (!table_.columns.empty() && column.size() != table_.rows())
             wrong("has " + std::to_string(column.size()) + " rows, others have " + std::to_string(table_.rows()));
-        if (!index_.add(name, table_.names.size())) refuse("two arrays have the name \"" + name + "\"");
+        if (!known_.insert(name).second) refuse("two arrays have the name \"" + name + "\"");
         table_.names.push_back(name);
         table_.columns.push_back(std::move(column));
     }
@@ -268,7 +268,7 @@ class NpzParser {
     Inflater inflater_;
     std::size_t unread_;  // bytes of the file that belong to no array yet
     NamedTable table_;
-    NameIndex index_;  // of its names
+    std::set<std::string> known_;  // its names
 };
 
 }  // namespace

@@ -1,12 +1,12 @@
 #include "output/files/atomic_file.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstdio>
+#include <memory>
 #include <random>
 #include <utility>
 
@@ -16,13 +16,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
+constexpr std::size_t kPiece = 1 << 18;  // [bytes] read at once
+constexpr std::size_t kRandomDigits = 8;
+constexpr std::string_view kTemporaryEnding = ".part";
+
 // ".fall.mp4.3f9c01d2.part"; long names are shortened, since file systems allow 255 bytes.
-std::string hidden_name(const std::string& file_name, unsigned random) {
+std::string temporary_name(const std::string& file_name) {
     constexpr std::size_t kLongestKept = 200;
-    char suffix[24];
-    std::snprintf(suffix, sizeof suffix, ".%08x.part", random);
-    std::string name(1, '.');
-    return name.append(file_name, 0, kLongestKept).append(suffix);
+    return fmt::format(".{}.{}{}", file_name.substr(0, kLongestKept), random_digits(), kTemporaryEnding);
 }
 
 // The file that a chain of symbolic links ends at, whether it exists yet or not.
@@ -50,10 +51,8 @@ void require_file(const fs::path& target, const fs::path& real) {
 }
 
 void sync_directory(const fs::path& directory) {
-    const int descriptor = open(directory.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
-    if (descriptor < 0) return;  // the file itself is safe; some file systems do not open directories
-    fsync(descriptor);
-    close(descriptor);
+    // If this fails, the file itself is safe; some file systems do not open directories.
+    if (const Descriptor opened(directory, O_RDONLY | O_DIRECTORY); opened) fsync(opened.number());
 }
 
 // The path of an open directory, even if its name now leads elsewhere.
@@ -77,67 +76,49 @@ void require_below(const fs::path& file, const fs::path& real, const fs::path& f
 
 AtomicFile::AtomicFile(Target target) : target_(std::move(target)), real_(followed(target_.path)) {
     require_file(target_.path, real_);
-    directory_ = open(real_.parent_path().c_str(), O_PATH | O_DIRECTORY | O_CLOEXEC);
-    if (directory_ < 0) throw write_error(target_.path, errno);
-    try {
-        if (!target_.within.empty())
-            require_below(target_.path, path_of(directory_, real_.parent_path()), target_.within);
-        create();
-    } catch (...) {
-        close(directory_);
-        throw;
-    }
+    directory_ = Descriptor(real_.parent_path(), O_PATH | O_DIRECTORY);
+    if (!directory_) throw write_error(target_.path, errno);
+    if (!target_.within.empty())
+        require_below(target_.path, path_of(directory_.number(), real_.parent_path()), target_.within);
+    create();
 }
 
 void AtomicFile::create() {
-    if (faccessat(directory_, ".", W_OK | X_OK, AT_EACCESS) != 0) throw write_error(target_.path, errno);
-    std::random_device random;
-    for (int attempt = 0; attempt < 100 && descriptor_ < 0; ++attempt) {
-        temporary_ = real_.parent_path() / hidden_name(real_.filename().string(), random());
+    if (faccessat(directory_.number(), ".", W_OK | X_OK, AT_EACCESS) != 0) throw write_error(target_.path, errno);
+    for (int attempt = 0; attempt < 100 && !file_; ++attempt) {
+        temporary_ = real_.parent_path() / temporary_name(real_.filename().string());
         if (std::error_code error; fs::exists(fs::symlink_status(temporary_, error))) continue;
         if (target_.before_creation) target_.before_creation(temporary_);
         // Registered first: a signal between the two lines must not leave the file behind.
         registered_.emplace(temporary_);
-        descriptor_ = openat(directory_, temporary_.filename().c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                             0666);  // less the umask
-        if (descriptor_ < 0 && errno != EEXIST) throw write_error(target_.path, errno);
+        file_ = Descriptor(openat(directory_.number(), temporary_.filename().c_str(),
+                                  O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));  // less the umask
+        if (!file_ && errno != EEXIST) throw write_error(target_.path, errno);
     }
-    if (descriptor_ < 0) throw write_error(target_.path, EEXIST);
+    if (!file_) throw write_error(target_.path, EEXIST);
     pending_ = true;
 }
 
 AtomicFile::~AtomicFile() {
-    if (descriptor_ >= 0) close(descriptor_);
-    if (pending_) unlinkat(directory_, temporary_.filename().c_str(), 0);
-    close(directory_);
+    file_.close();
+    if (pending_) unlinkat(directory_.number(), temporary_.filename().c_str(), 0);
 }
 
 void AtomicFile::write(std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw write_error(target_.path, errno);
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-    }
+    if (!file_.write(bytes)) throw write_error(target_.path, errno);
 }
 
 void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
-    while (!bytes.empty()) {
-        const ssize_t written = pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
-        if (written < 0 && errno == EINTR) continue;
-        if (written < 0) throw write_error(target_.path, errno);
-        bytes.remove_prefix(static_cast<std::size_t>(written));
-        offset += static_cast<std::uint64_t>(written);
-    }
+    if (!file_.write_at(offset, bytes)) throw write_error(target_.path, errno);
 }
 
 void AtomicFile::commit(Durability durability) {
     if (!pending_) throw std::logic_error("AtomicFile: " + target_.path.string() + " is committed already");
-    if (durability == Durability::synced && fsync(descriptor_) != 0) throw write_error(target_.path, errno);
-    // Closed before it is renamed: network file systems report a full disk only here.
-    if (close(std::exchange(descriptor_, -1)) != 0) throw write_error(target_.path, errno);
+    if (durability == Durability::synced && fsync(file_.number()) != 0) throw write_error(target_.path, errno);
+    if (!file_.close()) throw write_error(target_.path, errno);
     if (target_.before_rename) target_.before_rename(temporary_);
-    if (renameat(directory_, temporary_.filename().c_str(), directory_, real_.filename().c_str()) != 0)
+    const int directory = directory_.number();
+    if (renameat(directory, temporary_.filename().c_str(), directory, real_.filename().c_str()) != 0)
         throw write_error(target_.path, errno);
     pending_ = false;
     registered_.reset();
@@ -171,23 +152,36 @@ void ensure_directory(const fs::path& directory) {
     if (error) throw IoError("cannot create the directory " + directory.string() + ": " + error.message());
 }
 
-std::string read_file(const fs::path& file) {
-    const int descriptor = open(file.c_str(), O_RDONLY | O_CLOEXEC);
-    if (descriptor < 0) throw read_error(file, errno);
-    std::string content;
-    constexpr std::size_t kChunk = 1 << 16;  // a megabyte would be cleared twice for every small file
+void read_pieces(const fs::path& file, const std::function<void(std::string_view piece)>& visit) {
+    Descriptor opened(file, O_RDONLY);
+    if (!opened) throw read_error(file, errno);
+    const auto piece = std::make_unique_for_overwrite<char[]>(kPiece);
     for (;;) {
-        const std::size_t used = content.size();
-        content.resize(used + kChunk);
-        const ssize_t got = read(descriptor, content.data() + used, kChunk);
-        content.resize(used + static_cast<std::size_t>(std::max<ssize_t>(got, 0)));
-        if (got < 0 && errno == EINTR) continue;
-        const int error_number = errno;
-        if (got > 0) continue;
-        close(descriptor);
-        if (got < 0) throw read_error(file, error_number);
-        return content;
+        const std::ptrdiff_t got = opened.read(piece.get(), kPiece);
+        if (got < 0) throw read_error(file, errno);
+        if (got > 0) visit({piece.get(), static_cast<std::size_t>(got)});
+        if (got < static_cast<std::ptrdiff_t>(kPiece)) return;
     }
+}
+
+std::string read_file(const fs::path& file) {
+    std::string content;
+    read_pieces(file, [&content](std::string_view piece) { content += piece; });
+    return content;
+}
+
+std::string random_digits() { return fmt::format("{:0{}x}", std::random_device()(), kRandomDigits); }
+
+bool is_random_part(std::string_view text) {
+    return text.size() == kRandomDigits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+bool is_temporary_name(std::string_view name) {
+    if (!name.starts_with('.') || !name.ends_with(kTemporaryEnding) || name.find('/') != std::string_view::npos)
+        return false;
+    name.remove_suffix(kTemporaryEnding.size());
+    return name.size() > kRandomDigits + 2 && name[name.size() - kRandomDigits - 1] == '.' &&
+           is_random_part(name.substr(name.size() - kRandomDigits));
 }
 
 }  // namespace beamcam::output

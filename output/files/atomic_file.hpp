@@ -5,10 +5,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "output/files/descriptor.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/interrupt.hpp"
 #include "output/files/target.hpp"
@@ -43,9 +45,9 @@ class AtomicFile {
     std::filesystem::path real_;       // absolute, links followed
     std::filesystem::path temporary_;  // absolute
     std::optional<TemporaryName> registered_;
-    int directory_ = -1;    // of both: stays the same if a link in the path is changed
-    int descriptor_ = -1;   // of the temporary file
-    bool pending_ = false;  // the temporary file exists
+    Descriptor directory_;  // of both: stays the same if a link in the path is changed
+    Descriptor file_;       // the temporary file
+    bool pending_ = false;  // it exists
 };
 
 // Writes the whole of `bytes` to `target`, atomically.
@@ -60,7 +62,14 @@ bool path_exists(const std::filesystem::path& file);
 // Creates the directory and those above it. Throws IoError.
 void ensure_directory(const std::filesystem::path& directory);
 
-// The whole content. Throws IoError.
+// The whole content, in one piece or in several. Throws IoError.
 std::string read_file(const std::filesystem::path& file);
+void read_pieces(const std::filesystem::path& file, const std::function<void(std::string_view piece)>& visit);
+
+// Eight hexadecimal digits, for names of files that no other run uses.
+std::string random_digits();
+// Whether a name is that of a temporary file of AtomicFile, and whether a text could come from `random_digits`.
+bool is_temporary_name(std::string_view name);
+bool is_random_part(std::string_view text);
 
 }  // namespace beamcam::output

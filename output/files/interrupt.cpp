@@ -1,12 +1,18 @@
 #include "output/files/interrupt.hpp"
 
 #include <signal.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <array>
 #include <atomic>
+#include <cstddef>
 #include <cstring>
+#include <initializer_list>
 #include <string>
+#include <string_view>
+
+#include "render/base/limits.hpp"
 
 namespace beamcam::output {
 
@@ -25,33 +31,70 @@ std::array<Slot, 64> slots;
 std::atomic<int> signals_seen{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
-extern "C" void on_signal(int) {
-    if (signals_seen.fetch_add(1) == 0) return;
-    unlink_temporaries();
-    _exit(130);
+constexpr std::string_view kNoMemory =
+    "beamcam: not enough memory: a library ended because an allocation failed; choose a smaller size, fewer threads "
+    "(-j 1), or raise the limit (ulimit -v)\n";
+constexpr std::string_view kNoThread = "beamcam: a library ended because no thread can be started; ";
+int exit_code_of_crash = 0;
+alignas(16) std::array<std::byte, 64 * 1024> handler_stack;
+
+// Removes the temporary files of this process and ends it. Safe in signal handlers.
+[[noreturn]] void end(int exit_code, std::initializer_list<std::string_view> message = {}) {
+    for (Slot& slot : slots)
+        if (slot.state.load() == slot_used) unlink(slot.path.data());
+    for (const std::string_view part : message)
+        [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, part.data(), part.size());
+    _exit(exit_code);
 }
 
-void handle(int signal_number, void (*handler)(int)) {
-    struct sigaction now = {};
-    sigaction(signal_number, nullptr, &now);
-    if (now.sa_handler == SIG_IGN) return;
+extern "C" void on_signal(int) {
+    if (signals_seen.fetch_add(1) > 0) end(130);
+}
+
+extern "C" void on_crash(int signal_number) {
+    if (render::memory_is_short()) end(exit_code_of_crash, {kNoMemory});
+    if ((signal_number == SIGTRAP || signal_number == SIGABRT) && render::threads_are_short())
+        end(exit_code_of_crash, {kNoThread, render::kThreadRemedy, "\n"});
+    raise(signal_number);  // with the default action: SA_RESETHAND
+}
+
+void handle(int signal_number, void (*handler)(int), unsigned flags) {
     struct sigaction action = {};
     action.sa_handler = handler;
     sigemptyset(&action.sa_mask);
-    action.sa_flags = SA_RESTART;
+    action.sa_flags = static_cast<int>(flags);
     sigaction(signal_number, &action, nullptr);
+}
+
+bool is_ignored(int signal_number) {
+    struct sigaction now = {};
+    sigaction(signal_number, nullptr, &now);
+    return now.sa_handler == SIG_IGN;
+}
+
+bool memory_is_limited() {
+    rlimit space = {}, data = {};
+    const bool known = getrlimit(RLIMIT_AS, &space) == 0 && getrlimit(RLIMIT_DATA, &data) == 0;
+    return known && (space.rlim_cur != RLIM_INFINITY || data.rlim_cur != RLIM_INFINITY);
 }
 
 }  // namespace
 
-void unlink_temporaries() noexcept {
-    for (Slot& slot : slots)
-        if (slot.state.load() == slot_used) unlink(slot.path.data());
+void install_handlers() {
+    for (const int signal_number : {SIGINT, SIGTERM, SIGHUP})
+        if (!is_ignored(signal_number)) handle(signal_number, on_signal, SA_RESTART);
+    for (const int signal_number : {SIGPIPE, SIGXFSZ}) handle(signal_number, SIG_IGN, SA_RESTART);
 }
 
-void install_handlers() {
-    for (int signal_number : {SIGINT, SIGTERM, SIGHUP}) handle(signal_number, on_signal);
-    for (int signal_number : {SIGPIPE, SIGXFSZ}) handle(signal_number, SIG_IGN);
+void install_crash_handlers(int exit_code) {
+    exit_code_of_crash = exit_code;
+    render::watch_threads_of_glib();
+    const stack_t stack = {handler_stack.data(), 0, handler_stack.size()};
+    sigaltstack(&stack, nullptr);
+    constexpr unsigned kFlags = SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
+    for (const int signal_number : {SIGTRAP, SIGABRT}) handle(signal_number, on_crash, kFlags);  // raised by libraries
+    if (!memory_is_limited()) return;
+    for (const int signal_number : {SIGSEGV, SIGBUS, SIGILL}) handle(signal_number, on_crash, kFlags);
 }
 
 bool interrupted() { return signals_seen.load(std::memory_order_relaxed) > 0; }

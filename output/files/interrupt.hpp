@@ -1,6 +1,6 @@
-// Interruption by signals such as Ctrl-C. The first signal sets a flag; the loops that simulate, draw and encode check
-// it and stop, and destructors remove unfinished files. At a second signal the handler removes the registered temporary
-// files and ends the program with code 130.
+// Signals. Interruption, such as by Ctrl-C: the first signal sets a flag; the loops that simulate, draw and encode
+// check it and stop, and destructors remove unfinished files. At a second signal the handler removes the registered
+// temporary files and ends the program with code 130.
 #pragma once
 
 #include <filesystem>
@@ -10,8 +10,9 @@ namespace beamcam::output {
 // SIGINT, SIGTERM, SIGHUP (unless ignored by the parent, as under nohup) set the flag. SIGPIPE and
 // SIGXFSZ are ignored, so that a closed pipe or a file-size limit gives an error message.
 void install_handlers();
-// Removes the temporary files of this process. Safe in signal handlers that end the process.
-void unlink_temporaries() noexcept;
+// GLib, Mesa and LLVM abort, or dereference a null pointer, if an allocation fails or a thread cannot start. The
+// handlers then print a message, remove temporary files and exit with this code. They leave other crashes unchanged.
+void install_crash_handlers(int exit_code);
 
 // True once a signal has come.
 bool interrupted();

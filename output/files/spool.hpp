@@ -7,15 +7,14 @@
 #include <span>
 #include <vector>
 
+#include "output/files/descriptor.hpp"
+
 namespace beamcam::output {
 
 class Spool {
   public:
     // `limit`: largest size in memory [bytes]. The file is in $TMPDIR, else /var/tmp, else /tmp.
     explicit Spool(std::size_t limit = 1 << 18) : limit_(limit) {}
-    ~Spool();
-    Spool(const Spool&) = delete;
-    Spool& operator=(const Spool&) = delete;
 
     // One thread at a time.
     void write(std::uint64_t at, std::span<const std::byte> bytes);
@@ -23,16 +22,16 @@ class Spool {
     void read(std::uint64_t at, std::span<std::byte> into) const;
 
     std::uint64_t size() const { return size_; }
-    bool on_disk() const { return descriptor_ >= 0; }
+    bool on_disk() const { return bool(file_); }
 
   private:
-    bool write_to_file(std::uint64_t at, std::span<const std::byte> bytes);
+    void move_to_file();
     void read_back();
 
     std::size_t limit_;
     std::vector<std::byte> memory_;  // all bytes, if there is no file
     std::uint64_t size_ = 0;
-    int descriptor_ = -1;
+    Descriptor file_;
     bool no_file_ = false;  // a file could not be created
 };
 

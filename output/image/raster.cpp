@@ -1,6 +1,7 @@
 #include "output/image/raster.hpp"
 
-#include "output/files/sha256.hpp"
+#include "output/files/descriptor.hpp"
+#include "output/files/digest.hpp"
 #include "output/image/pixels.hpp"
 
 namespace beamcam::output {
@@ -22,8 +23,6 @@ render::Image to_image(const Raster& raster) {
     return image;
 }
 
-std::string digest(const Raster& raster) {
-    return sha256({reinterpret_cast<const char*>(raster.rgba.data()), raster.rgba.size()});
-}
+std::string digest(const Raster& raster) { return sha256(bytes_of(raster.rgba)); }
 
 }  // namespace beamcam::output

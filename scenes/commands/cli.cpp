@@ -14,7 +14,6 @@
 #include <variant>
 #include <vector>
 
-#include "output/files/crash.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"

@@ -3,7 +3,8 @@
 
 #include <optional>
 
-#include "output/files/sha256.hpp"
+#include "output/files/descriptor.hpp"
+#include "output/files/digest.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
@@ -42,7 +43,7 @@ void hash_in_order(output::PictureSource& source, const std::string& file, bool 
     while (source.next(picture, name)) {
         stop_if_interrupted();
         if (whole)
-            all.update(picture.rgba.data(), picture.rgba.size());
+            all.update(output::bytes_of(picture.rgba));
         else
             print_line(output::digest(picture), name);
     }

@@ -6,7 +6,7 @@
 #include <filesystem>
 
 #include "output/data/table_reader.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"

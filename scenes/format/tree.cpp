@@ -12,7 +12,7 @@ static constexpr std::size_t kFewMembers = 16;  // up to this size a linear sear
 const Member* Members::find(std::string_view key) const {
     if (all_.size() > kFewMembers) {
         const auto position = index_.find(key);
-        return position ? &all_[*position] : nullptr;
+        return position == index_.end() ? nullptr : &all_[position->second];
     }
     for (const Member& member : all_)
         if (member.key == key) return &member;
@@ -25,7 +25,7 @@ Member& Members::add(Member member) {
     all_.push_back(std::move(member));
     if (all_.size() > kFewMembers)
         for (std::size_t i = all_.size() == kFewMembers + 1 ? 0 : all_.size() - 1; i < all_.size(); ++i)
-            index_.add(all_[i].key, i);
+            index_.try_emplace(all_[i].key, i);
     return all_.back();
 }
 

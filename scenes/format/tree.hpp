@@ -2,12 +2,13 @@
 // `//` and `/* */` comments and trailing commas are accepted.
 #pragma once
 
+#include <functional>
+#include <map>
 #include <string>
 #include <string_view>
 #include <variant>
 #include <vector>
 
-#include "output/data/name_index.hpp"
 #include "scenes/format/source.hpp"
 
 namespace beamcam::scenes {
@@ -31,7 +32,7 @@ class Members {
 
   private:
     std::vector<Member> all_;
-    output::NameIndex index_;
+    std::map<std::string, std::size_t, std::less<>> index_;  // ordered: fast for any input
 };
 
 struct Node {

@@ -1,18 +1,15 @@
 #include "scenes/motions/cache.hpp"
 
-#include <fmt/format.h>
+#include <fcntl.h>
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
-#include <fstream>
 #include <stdexcept>
 
-#include "output/files/atomic_file.hpp"
-#include "output/files/checksum.hpp"
+#include "output/files/digest.hpp"
 #include "output/files/numbers.hpp"
 
 namespace beamcam::scenes {
@@ -42,13 +39,10 @@ constexpr char kMagic[16] = {'b', 'e', 'a', 'm', 'c', 'a', 'm', ' ', 'm', 'o', '
 std::uint32_t checksum(const Trailer& t) { return output::crc32(0, &t, offsetof(Trailer, trailer)); }
 
 // The trailer, if it has this key and the right count of numbers.
-std::optional<Trailer> read_trailer(std::ifstream& in, const std::string& key) {
-    in.seekg(0, std::ios::end);
-    const auto size = static_cast<std::uint64_t>(in.tellg());
+std::optional<Trailer> read_trailer(const output::Descriptor& file, const std::string& key) {
+    const std::uint64_t size = file.size();
     Trailer t;
-    if (!in || size < sizeof t) return std::nullopt;
-    in.seekg(static_cast<std::streamoff>(size - sizeof t));
-    if (!in.read(reinterpret_cast<char*>(&t), sizeof t)) return std::nullopt;
+    if (size < sizeof t || file.read_at(size - sizeof t, &t, sizeof t) != sizeof t) return std::nullopt;
     const bool fine = std::memcmp(t.magic, kMagic, sizeof kMagic) == 0 && key.size() == sizeof t.key &&
                       std::memcmp(t.key, key.data(), sizeof t.key) == 0 && t.trailer == checksum(t) &&
                       t.count == (size - sizeof t) / sizeof(double) && (size - sizeof t) % sizeof(double) == 0 &&
@@ -99,9 +93,7 @@ std::uintmax_t cache_limit() {
 fs::path Cache::path_of(const std::string& key) const { return directory_ / (key + kEnding); }
 
 std::optional<double> Cache::reach(const std::string& key) const {
-    std::ifstream in(path_of(key), std::ios::binary);
-    if (!in) return std::nullopt;
-    const auto trailer = read_trailer(in, key);
+    const auto trailer = read_trailer(output::Descriptor(path_of(key), O_RDONLY), key);
     return trailer ? std::optional(trailer->end) : std::nullopt;
 }
 
@@ -110,17 +102,16 @@ namespace {
 // The numbers of an entry with a correct checksum.
 class EntryNumbers final : public sim::NumberSource {
   public:
-    EntryNumbers(std::ifstream file, std::uint64_t count) : file_(std::move(file)), count_(count) {}
+    EntryNumbers(output::Descriptor file, std::uint64_t count) : file_(std::move(file)), count_(count) {}
     std::uint64_t size() const override { return count_; }
     void read(std::uint64_t from, std::span<double> into) const override {
-        file_.clear();
-        file_.seekg(static_cast<std::streamoff>(from * sizeof(double)));
-        if (!file_.read(reinterpret_cast<char*>(into.data()), static_cast<std::streamsize>(into.size_bytes())))
+        const auto size = static_cast<std::ptrdiff_t>(into.size_bytes());
+        if (file_.read_at(from * sizeof(double), into.data(), into.size_bytes()) != size)
             throw std::invalid_argument("a kept trajectory became shorter while it was read");
     }
 
   private:
-    mutable std::ifstream file_;
+    output::Descriptor file_;
     std::uint64_t count_;
 };
 
@@ -138,11 +129,10 @@ std::uint32_t checksum(const sim::NumberSource& numbers) {
 }  // namespace
 
 std::shared_ptr<const sim::NumberSource> Cache::load(const std::string& key, double end) const {
-    std::ifstream in(path_of(key), std::ios::binary);
-    if (!in) return nullptr;
-    const auto trailer = read_trailer(in, key);
+    output::Descriptor file(path_of(key), O_RDONLY);
+    const auto trailer = read_trailer(file, key);
     if (!trailer || trailer->end < end) return nullptr;
-    auto numbers = std::make_shared<EntryNumbers>(std::move(in), trailer->count);
+    auto numbers = std::make_shared<EntryNumbers>(std::move(file), trailer->count);
     try {
         if (checksum(*numbers) != trailer->numbers) {
             drop(key);  // else it would block a valid one of the same length
@@ -163,87 +153,69 @@ void Cache::drop(const std::string& key) const {
 
 // ---- writing ---------------------------------------------------------------------------------------
 
-struct Cache::Entry::Impl {
-    const Cache cache;
-    std::string key, why;
-    std::unique_ptr<output::AtomicFile> file;
-    std::uint64_t count = 0;
-    std::uint32_t sum = 0;
-
-    void give_up(std::string reason) {
-        why = std::move(reason);
-        file.reset();
-    }
-    void make_room() const;
-};
-
-Cache::Entry::Entry(std::unique_ptr<Impl> impl) : impl_(std::move(impl)) {}
-Cache::Entry::Entry(Entry&&) noexcept = default;
-Cache::Entry::~Entry() = default;
-const std::string& Cache::Entry::why() const { return impl_->why; }
-
-Cache::Entry Cache::begin(const std::string& key) const {
-    Entry entry(std::unique_ptr<Entry::Impl>(new Entry::Impl{*this, key, {}, nullptr}));
+Cache::Entry::Entry(const Cache& cache, std::string key) : cache_(cache), key_(std::move(key)) {
     try {
-        if (limit_ == 0) throw output::IoError("the cache is turned off");
-        output::ensure_directory(directory_);
-        entry.impl_->file = std::make_unique<output::AtomicFile>(path_of(key));
+        if (cache_.limit_ == 0) throw output::IoError("the cache is turned off");
+        output::ensure_directory(cache_.directory_);
+        file_ = std::make_unique<output::AtomicFile>(cache_.path_of(key_));
     } catch (const std::exception& error) {
-        entry.impl_->give_up(error.what());
+        give_up(error.what());
     }
-    return entry;
+}
+
+void Cache::Entry::give_up(std::string reason) {
+    why_ = std::move(reason);
+    file_.reset();
 }
 
 void Cache::Entry::add(std::span<const double> numbers) {
-    Impl& e = *impl_;
-    if (!e.file) return;
-    e.count += numbers.size();
+    if (!file_) return;
+    count_ += numbers.size();
     // A larger entry would evict nearly all others.
-    if (e.count * sizeof(double) > e.cache.limit_ / 2) return e.give_up("it is larger than half of the cache");
-    e.sum = output::crc32(e.sum, numbers.data(), numbers.size_bytes());
+    if (count_ * sizeof(double) > cache_.limit_ / 2) return give_up("it is larger than half of the cache");
+    sum_ = output::crc32(sum_, numbers.data(), numbers.size_bytes());
     try {
-        e.file->write({reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes()});
+        file_->write(output::bytes_of(numbers));
     } catch (const std::exception& error) {
-        e.give_up(error.what());
+        give_up(error.what());
     }
 }
 
 bool Cache::Entry::commit(double end, long steps, const std::string& about) {
-    Impl& e = *impl_;
-    if (!e.file) return false;
-    if (const auto other = e.cache.reach(e.key); other && *other >= end) {
-        e.give_up("the cache has a longer one");
+    if (!file_) return false;
+    if (const auto other = cache_.reach(key_); other && *other >= end) {
+        give_up("the cache has a longer one");
         return false;
     }
     Trailer t{};
     std::memcpy(t.magic, kMagic, sizeof kMagic);
-    std::memcpy(t.key, e.key.data(), std::min(e.key.size(), sizeof t.key));
+    std::memcpy(t.key, key_.data(), std::min(key_.size(), sizeof t.key));
     std::memcpy(t.about, about.data(), std::min(about.size(), sizeof t.about - 1));
     t.end = end;
     t.steps = steps;
-    t.count = e.count;
-    t.numbers = e.sum;
+    t.count = count_;
+    t.numbers = sum_;
     t.trailer = checksum(t);
     try {
-        e.file->write({reinterpret_cast<const char*>(&t), sizeof t});
+        file_->write(output::bytes_of(std::span(&t, 1)));
         // Without fsync: the checksum detects damage by a power failure.
-        e.file->commit(output::Durability::buffered);
+        file_->commit(output::Durability::buffered);
     } catch (const std::exception& error) {
-        e.give_up(error.what());
+        give_up(error.what());
         return false;
     }
-    e.file.reset();
-    e.make_room();
+    file_.reset();
+    cache_.make_room(key_);
     return true;
 }
 
-void Cache::Entry::Impl::make_room() const {
-    remove_abandoned(cache.directory_);
-    std::vector<Kept> all = cache.list();
+void Cache::make_room(const std::string& newest) const {
+    remove_abandoned(directory_);
+    std::vector<Kept> all = list();
     std::uintmax_t bytes = 0;
     for (const Kept& kept : all) bytes += kept.size;
-    while (bytes > cache.limit_ && all.size() > 1) {
-        if (all.back().key != key) cache.drop(all.back().key);
+    while (bytes > limit_ && all.size() > 1) {
+        if (all.back().key != newest) drop(all.back().key);
         bytes -= all.back().size;
         all.pop_back();
     }
@@ -261,8 +233,7 @@ std::vector<Cache::Kept> Cache::list() const {
         kept.size = file.file_size(error);
         if (error) continue;  // removed in the meantime
         kept.used = file.last_write_time(error);
-        std::ifstream in(file.path(), std::ios::binary);
-        if (const auto trailer = read_trailer(in, kept.key)) {
+        if (const auto trailer = read_trailer(output::Descriptor(file.path(), O_RDONLY), kept.key)) {
             kept.about.assign(trailer->about, strnlen(trailer->about, sizeof trailer->about));
             kept.end = trailer->end;
             kept.steps = trailer->steps;

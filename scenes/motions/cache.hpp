@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "output/files/atomic_file.hpp"
 #include "sim/observe/trajectory.hpp"
 
 namespace beamcam::scenes {
@@ -37,21 +38,23 @@ class Cache {
     // An entry that is being written. Errors are stored, not thrown.
     class Entry {
       public:
-        Entry(Entry&&) noexcept;
-        ~Entry();
+        Entry(const Cache& cache, std::string key);
         void add(std::span<const double> numbers);
         // Publishes the entry unless the cache has a longer one, then evicts the least recently used entries. `about`:
         // description for `ls`. False: not published, for the reason `why`.
         bool commit(double end, long steps, const std::string& about);
-        const std::string& why() const;
+        const std::string& why() const { return why_; }
 
       private:
-        friend class Cache;
-        struct Impl;
-        explicit Entry(std::unique_ptr<Impl> impl);
-        std::unique_ptr<Impl> impl_;
+        void give_up(std::string reason);
+
+        const Cache& cache_;
+        const std::string key_;
+        std::string why_;
+        std::unique_ptr<output::AtomicFile> file_;  // null: given up
+        std::uint64_t count_ = 0;
+        std::uint32_t sum_ = 0;
     };
-    Entry begin(const std::string& key) const;
 
     struct Kept {
         std::string key;
@@ -70,6 +73,7 @@ class Cache {
 
   private:
     std::filesystem::path path_of(const std::string& key) const;
+    void make_room(const std::string& newest) const;
 
     std::filesystem::path directory_;
     std::uintmax_t limit_;

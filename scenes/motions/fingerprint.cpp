@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "render/base/versions.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/gl/lit.hpp"
@@ -17,32 +17,20 @@ std::string Fingerprint::id() const {
     return hash.hex().substr(0, 12);
 }
 
-namespace {
-
-Fingerprint fingerprint_of_libraries() {
+static Fingerprint fingerprint_with(render::Typefaces typefaces) {
     Fingerprint found;
     for (const auto& [name, version] : render::library_versions()) found.parts[name] = version;
     // pixman reads it before main, so main.cpp cannot remove it.
     if (const char* disabled = std::getenv("PIXMAN_DISABLE")) found.parts["PIXMAN_DISABLE"] = disabled;
-    return found;
-}
-
-}  // namespace
-
-Fingerprint flat_fingerprint() {
-    Fingerprint found = fingerprint_of_libraries();
-    for (const render::FontFile& font : render::font_files())
+    for (const render::FontFile& font : render::font_files(typefaces)) {
+        if (font.path.empty() && typefaces == render::Typefaces::print) continue;  // the Chinese one may be missing
         found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
+    }
     return found;
 }
 
-Fingerprint figure_fingerprint() {
-    Fingerprint found = fingerprint_of_libraries();
-    for (const render::FontFile& font : render::font_files(render::Typefaces::print))
-        if (!font.path.empty())
-            found.parts[fmt::format("font {}", font.name)] = output::sha256_of_file(font.path).substr(0, 12);
-    return found;
-}
+Fingerprint flat_fingerprint() { return fingerprint_with(render::Typefaces::screen); }
+Fingerprint figure_fingerprint() { return fingerprint_with(render::Typefaces::print); }
 
 Fingerprint lit_fingerprint() {
     Fingerprint found = flat_fingerprint();

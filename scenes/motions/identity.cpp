@@ -11,7 +11,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/scene/version.hpp"

@@ -238,7 +238,7 @@ std::optional<std::vector<sim::Result>> MotionStore::read_back(const Job& job, c
 
 std::vector<sim::Result> MotionStore::integrate(const Job& job, const sim::Progress& progress) {
     std::optional<Cache::Entry> entry;
-    if (job.keep && cache_) entry.emplace(cache_->begin(job.key));
+    if (job.keep && cache_) entry.emplace(*cache_, job.key);
     const auto remembered = std::make_shared<NumberSpool>();
     bool remember = job.remember;
     sim::TrajectoryWriter writer([&](std::span<const double> numbers) {

@@ -3,7 +3,7 @@
 #include <fmt/format.h>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 
 namespace beamcam::scenes {
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "scenes/regression/computed_sweep.hpp"
 #include "scenes/regression/sweep_record.hpp"
 #include "scenes/scene/exit_code.hpp"

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "output/image/png.hpp"
 #include "output/image/png_reader.hpp"
 

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -205,7 +205,7 @@ std::optional<ReferenceFiles> marked_files(const fs::path& folder) {
 std::string ReferenceUpdate::recover(const fs::path& references) {
     const fs::path staging = references / kStaging;
     if (!output::path_exists(staging)) return {};
-    const output::DirectoryLock lock(references);
+    const output::Descriptor lock = output::locked_directory(references);
     if (!output::path_exists(staging)) return {};
     if (!is_own_staging(staging))
         throw output::WouldOverwrite(
@@ -242,7 +242,7 @@ ReferenceUpdate::~ReferenceUpdate() {
 void ReferenceUpdate::start() {
     if (journal_) return;
     output::ensure_directory(references_);
-    const output::DirectoryLock lock(references_);
+    const output::Descriptor lock = output::locked_directory(references_);
     if (output::path_exists(staging_) && !fs::is_empty(staging_))
         throw output::IoError(fmt::format("another update of {} is in progress", references_.string()));
     output::ensure_directory(staging_);

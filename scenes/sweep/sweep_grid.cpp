@@ -6,7 +6,7 @@
 #include <bit>
 #include <cmath>
 
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/exit_code.hpp"

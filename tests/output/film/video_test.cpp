@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
+#include "output/files/digest.hpp"
 #include "output/film/video_library.hpp"
 #include "render/base/limits.hpp"
 #include "tests/output/scratch.hpp"

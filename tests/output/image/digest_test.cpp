@@ -1,7 +1,8 @@
 // Digests of pixels and files.
 
+#include "output/files/digest.hpp"
+
 #include "output/files/atomic_file.hpp"
-#include "output/files/sha256.hpp"
 #include "output/image/pixels.hpp"
 #include "tests/output/scratch.hpp"
 

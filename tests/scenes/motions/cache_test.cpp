@@ -32,7 +32,7 @@ std::optional<std::vector<double>> loaded(const Cache& cache, char digit, double
 }
 
 bool keep(const Cache& cache, char digit, double end, std::size_t count) {
-    Cache::Entry entry = cache.begin(key(digit));
+    Cache::Entry entry(cache, key(digit));
     const std::vector<double> all = numbers(count);
     const std::span<const double> span(all);
     entry.add(span.first(count / 3));
@@ -70,7 +70,7 @@ TEST(Cache, AnEntryThatIsNotCommittedLeavesNothing) {
     const Folder folder;
     const Cache cache(folder / "c", 10 * kMiB);
     {
-        Cache::Entry entry = cache.begin(key('a'));
+        Cache::Entry entry(cache, key('a'));
         entry.add(numbers(10));
     }
     EXPECT_TRUE(fs::is_empty(folder / "c"));
