@@ -40,12 +40,12 @@ Agreement::Statistics statistics(const std::vector<double>& values) {
     return out;
 }
 
-}  // namespace
-
 bool is_reproducible(const sim::Result& result, double t) {
     return std::ranges::none_of(result.not_reproducible,
                                 [&](const sim::Interval& lost) { return t > lost.from && !(lost.to && t > *lost.to); });
 }
+
+}  // namespace
 
 Agreement agreement(const std::vector<double>& times, const std::vector<double>& measured,
                     const std::vector<double>& computed, const sim::Result& result) {

@@ -36,8 +36,6 @@ struct Agreement {
     std::optional<Beyond> beyond;
 };
 
-bool is_reproducible(const sim::Result& result, double t);
-
 // Skips rows with a missing value. `times` must increase; `result` must have a horizon.
 Agreement agreement(const std::vector<double>& times, const std::vector<double>& measured,
                     const std::vector<double>& computed, const sim::Result& result);

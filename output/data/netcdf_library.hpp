@@ -9,8 +9,8 @@
 #include <filesystem>
 #include <string>
 
-#include "output/data/column_table.hpp"
 #include "output/data/sweep_data.hpp"
+#include "output/data/tables.hpp"
 
 namespace beamcam::output {
 

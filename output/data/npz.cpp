@@ -7,6 +7,8 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "output/files/numbers.hpp"
+
 namespace beamcam::output {
 namespace {
 
@@ -17,17 +19,13 @@ constexpr std::size_t kMostEntries = 0xffff;
 constexpr std::size_t kNumbersAtOnce = 1 << 13;  // numbers of an array that are written together
 static_assert(std::endian::native == std::endian::little, "NPZ is written in memory order");
 
-void put(std::string& out, std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) out.push_back(static_cast<char>(value >> (8 * i) & 0xff));
-}
-
 // Magic, version 1.0, and a Python literal padded so that the data begin at a multiple of 64 bytes.
 std::string npy_header(std::size_t rows) {
     std::string text = "{'descr': '<f8', 'fortran_order': False, 'shape': (" + std::to_string(rows) + ",), }";
     while ((10 + text.size() + 1) % 64 != 0) text += ' ';
     text += '\n';
     std::string header = "\x93NUMPY";
-    put(header, 1, 1), put(header, 0, 1), put(header, text.size(), 2);
+    append_bytes(header, 1, 1), append_bytes(header, 0, 1), append_bytes(header, text.size(), 2);
     return header + text;
 }
 
@@ -35,8 +33,9 @@ constexpr std::size_t kLocalRecord = 30;  // [bytes] before the name
 
 std::string end_record(std::size_t count, std::uint64_t size, std::uint64_t offset) {
     std::string record = "PK\x05\x06";
-    put(record, 0, 2), put(record, 0, 2), put(record, count, 2), put(record, count, 2);
-    put(record, size, 4), put(record, offset, 4), put(record, 0, 2);
+    append_bytes(record, 0, 2), append_bytes(record, 0, 2), append_bytes(record, count, 2),
+        append_bytes(record, count, 2);
+    append_bytes(record, size, 4), append_bytes(record, offset, 4), append_bytes(record, 0, 2);
     return record;
 }
 
@@ -71,10 +70,11 @@ NpzFile::NpzFile(const Target& file, const std::vector<NpzArray>& arrays) : atom
 // The common part of the local and the central record of an array.
 std::string NpzFile::common_record(const Member& member) {
     std::string record;
-    put(record, 20, 2), put(record, 0, 2), put(record, 0, 2);  // needs zip 2.0, no flags, stored
-    put(record, 0, 2), put(record, 1 << 5 | 1, 2);             // midnight, 1 January 1980: no clock in the bytes
-    put(record, member.crc, 4), put(record, member.size, 4), put(record, member.size, 4);
-    put(record, member.name.size(), 2), put(record, 0, 2);  // no extra field
+    append_bytes(record, 20, 2), append_bytes(record, 0, 2),
+        append_bytes(record, 0, 2);                                   // needs zip 2.0, no flags, stored
+    append_bytes(record, 0, 2), append_bytes(record, 1 << 5 | 1, 2);  // midnight, 1 January 1980: no clock in the bytes
+    append_bytes(record, member.crc, 4), append_bytes(record, member.size, 4), append_bytes(record, member.size, 4);
+    append_bytes(record, member.name.size(), 2), append_bytes(record, 0, 2);  // no extra field
     return record;
 }
 
@@ -104,10 +104,11 @@ void NpzFile::commit() {
         atomic_.write_at(member.offset, "PK\x03\x04" + common + member.name + member.header);
         end = member.offset + kLocalRecord + member.name.size() + member.size;
         directory += "PK\x01\x02";
-        put(directory, 20, 2);  // made by zip 2.0
+        append_bytes(directory, 20, 2);  // made by zip 2.0
         directory += common;
-        put(directory, 0, 2), put(directory, 0, 2), put(directory, 0, 2);  // no comment, first disk, binary
-        put(directory, 0, 4), put(directory, member.offset, 4);
+        append_bytes(directory, 0, 2), append_bytes(directory, 0, 2),
+            append_bytes(directory, 0, 2);  // no comment, first disk, binary
+        append_bytes(directory, 0, 4), append_bytes(directory, member.offset, 4);
         directory += member.name;
     }
     atomic_.write_at(end, directory + end_record(members_.size(), directory.size(), end));

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/column_table.hpp"
+#include "output/data/tables.hpp"
 #include "sim/orbit/continuation.hpp"
 #include "sim/orbit/exponents.hpp"
 

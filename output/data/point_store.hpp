@@ -27,6 +27,18 @@ struct StoredPoint {
     std::string failure;
 };
 
+// The results of a point that tables contain, but its class and period.
+struct PointNumber {
+    const char *name, *unit, *meaning;
+    double StoredPoint::*value;
+};
+inline constexpr PointNumber kPointNumbers[] = {
+    {"impacts_per_period", "1", "Impacts in a period; in a turn of the cam where there is none",
+     &StoredPoint::impacts_per_period},
+    {"exponent", "s-1", "Largest Lyapunov exponent", &StoredPoint::exponent},
+    {"exponent_error", "s-1", "Its standard error", &StoredPoint::exponent_error},
+};
+
 class PointStore {
   public:
     // `identity` names the sweep: the points of a file with another one are dropped. Throws IoError, also when another

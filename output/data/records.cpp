@@ -1,6 +1,5 @@
 #include "output/data/records.hpp"
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 #include <sstream>
@@ -269,20 +268,13 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
     return text_of(json);
 }
 
-void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
-                   const std::vector<sim::Channel>& extrema, const Work* work, const std::vector<Agreement>& data) {
-    write_file(file, summary_json(problem, result, extrema, work, data));
-}
-
 std::string modes_json(const std::vector<sim::Mode>& modes) {
     Json all = Json::array();
     for (const sim::Mode& mode : modes) {
         Json shape = Json::array();
         for (const sim::Vec2& at : mode.shape) shape.push_back({at.x, at.y});
-        const bool lost = std::isnan(mode.omega);
-        all.push_back({{"omega", lost ? Json(nullptr) : Json(mode.omega)},
-                       {"hz", lost ? Json(nullptr) : Json(mode.omega / (2 * std::numbers::pi))},
-                       {"shape", std::move(shape)}});
+        all.push_back(
+            {{"omega", mode.omega}, {"hz", mode.omega / (2 * std::numbers::pi)}, {"shape", std::move(shape)}});
     }
     return Json{{"modes", std::move(all)}}.dump(2) + "\n";
 }
@@ -327,7 +319,7 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
                          {"column", one.column},
                          {"variant", one.variant},
                          {"outcome", name(r.outcome)},
-                         {"closure", std::isnan(r.closure) ? Json(nullptr) : Json(r.closure)},
+                         {"closure", r.closure},
                          {"steps_per_second", r.steps_per_second},
                          {"steps", r.steps},
                          {"impacts", r.impacts},

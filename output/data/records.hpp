@@ -34,9 +34,6 @@ void write_impacts(const Target& file, const sim::Result& result);
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema, const Work* work = nullptr,
                          const std::vector<Agreement>& data = {});
-void write_summary(const Target& file, const sim::Problem& problem, const sim::Result& result,
-                   const std::vector<sim::Channel>& extrema, const Work* work = nullptr,
-                   const std::vector<Agreement>& data = {});
 
 // {"modes": [{"omega", "hz", "shape": [[x, y], …]}, …]}; omega and hz are null for a diverging mode.
 std::string modes_json(const std::vector<sim::Mode>& modes);

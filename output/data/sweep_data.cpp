@@ -1,8 +1,10 @@
 #include "output/data/sweep_data.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
-#include <ostream>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"
@@ -15,29 +17,7 @@ namespace {
 constexpr std::size_t kTextBuffer = 1 << 16;  // [bytes] written at once
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-// The columns that are equal in all rows of a point; they follow the swept keys.
-constexpr const char* kPointColumns[] = {"seed", "class", "period", "impacts_per_period", "exponent", "exponent_error"};
-enum PointColumn : std::size_t { kSeed, kClass, kPeriod, kImpacts, kExponent, kExponentError, kPointColumnCount };
-
-double point_value(const SweepData& data, const StoredPoint& p, std::size_t column) {
-    switch (static_cast<PointColumn>(column)) {
-        case kSeed:
-            return static_cast<double>(p.point % data.seeds);
-        case kClass:
-            return p.kind;
-        case kPeriod:
-            return p.period > 0 ? p.period : kNone;
-        case kImpacts:
-            return p.impacts_per_period;
-        case kExponent:
-            return p.exponent;
-        case kExponentError:
-            return p.exponent_error;
-        case kPointColumnCount:
-            break;
-    }
-    return kNone;
-}
+double period_of(const StoredPoint& p) { return p.period > 0 ? p.period : kNone; }
 
 // Calls visit(point) for the points of this file, in order.
 template <class Visit>
@@ -46,30 +26,53 @@ void each_point(const SweepData& data, Visit&& visit) {
         if (data.has(k)) visit(data.read(k));
 }
 
-std::string header(const SweepData& data) {
-    std::string text;
-    for (const SweepAxis& axis : data.axes) text += axis.name + ",";
-    for (const char* name : kPointColumns) text += std::string(name) + ",";
-    text += "sample";
-    for (const SweepColumn& column : data.columns) text += "," + column.name;
-    return text + "\n";
+std::vector<std::string> column_names(const SweepData& data) {
+    std::vector<std::string> names;
+    for (const SweepAxis& axis : data.axes) names.push_back(axis.name);
+    names.insert(names.end(), {"seed", "class", "period"});
+    for (const PointNumber& number : kPointNumbers) names.emplace_back(number.name);
+    names.emplace_back("sample");
+    for (const TableColumn& column : data.columns) names.push_back(column.name);
+    return names;
+}
+
+// Calls visit(number of the column, values in the rows of the point) for every column.
+template <class Visit>
+void each_column(const SweepData& data, const StoredPoint& p, Visit&& visit) {
+    const std::size_t width = data.columns.size(), samples = p.samples.size() / width;
+    std::vector<double> values(std::max<std::size_t>(samples, 1));
+    std::size_t column = 0;
+    const auto constant = [&](double value) {
+        std::ranges::fill(values, value);
+        visit(column++, values);
+    };
+    for (const double value : data.place(p.point)) constant(value);
+    constant(static_cast<double>(p.point % data.seeds));
+    constant(p.kind);
+    constant(period_of(p));
+    for (const PointNumber& number : kPointNumbers) constant(p.*number.value);
+    std::ranges::fill(values, kNone);
+    for (std::size_t row = 0; row < samples; ++row) values[row] = static_cast<double>(row);
+    visit(column++, values);
+    for (std::size_t c = 0; c < width; ++c) {
+        for (std::size_t row = 0; row < samples; ++row) values[row] = p.samples[row * width + c];
+        if (samples == 0) values.front() = kNone;
+        visit(column++, values);
+    }
 }
 
 void csv(const SweepData& data, const std::function<void(const std::string&)>& write) {
-    std::string text = header(data);
+    std::string text = fmt::format("{}\n", fmt::join(column_names(data), ","));
     each_point(data, [&](const StoredPoint& p) {
         std::string common;
-        for (const double value : data.place(p.point)) {
+        const auto cell = [&common](double value) {
             append_number(common, value);
             common += ',';
-        }
-        for (std::size_t c = 0; c < kPointColumnCount; ++c) {
-            if (c == kClass)
-                common += data.classes[static_cast<std::size_t>(p.kind)];
-            else
-                append_number(common, point_value(data, p, c));
-            common += ',';
-        }
+        };
+        std::ranges::for_each(data.place(p.point), cell);
+        common += fmt::format("{},{},", p.point % data.seeds, data.classes[static_cast<std::size_t>(p.kind)]);
+        cell(period_of(p));
+        for (const PointNumber& number : kPointNumbers) cell(p.*number.value);
         const std::size_t width = data.columns.size(), rows = p.samples.size() / width;
         for (std::size_t row = 0; row < std::max<std::size_t>(rows, 1); ++row) {
             text += common;
@@ -89,40 +92,28 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
 
 void npz(const Target& file, const SweepData& data) {
     std::vector<NpzArray> arrays;
-    const std::uint64_t all = data.rows_in_all();
-    for (const SweepAxis& axis : data.axes) arrays.push_back({axis.name, all});
-    for (const char* name : kPointColumns) arrays.push_back({name, all});
-    arrays.push_back({"sample", all});
-    for (const SweepColumn& column : data.columns) arrays.push_back({column.name, all});
+    const std::uint64_t rows = data.rows_in_all();
+    for (const std::string& name : column_names(data)) arrays.push_back({name, rows});
     NpzFile archive(file, arrays);
-    const std::size_t width = data.columns.size();
-    std::vector<double> values;  // of one array
     each_point(data, [&](const StoredPoint& p) {
-        const std::size_t samples = p.samples.size() / width, rows = std::max<std::size_t>(samples, 1);
-        std::size_t array = 0;
-        const auto append = [&](auto&& value) {
-            values.assign(rows, kNone);
-            for (std::size_t row = 0; row < rows; ++row) values[row] = value(row);
-            archive.append(array++, values);
-        };
-        for (const double value : data.place(p.point)) append([=](std::size_t) { return value; });
-        for (std::size_t c = 0; c < kPointColumnCount; ++c)
-            append([value = point_value(data, p, c)](std::size_t) { return value; });
-        append([=](std::size_t row) { return samples == 0 ? kNone : static_cast<double>(row); });
-        for (std::size_t c = 0; c < width; ++c)
-            append([&, c](std::size_t row) { return samples == 0 ? kNone : p.samples[row * width + c]; });
+        each_column(data, p, [&](std::size_t c, const std::vector<double>& values) { archive.append(c, values); });
     });
     archive.commit();
 }
 
 }  // namespace
 
-void write_sweep_csv(std::ostream& out, const SweepData& data) {
-    csv(data, [&out](const std::string& text) {
-        if (!out.write(text.data(), static_cast<std::streamsize>(text.size())))
-            throw IoError("cannot write the table: the output was closed or the disk is full");
+void write_sweep_csv(std::ostream& out, const SweepData& data) { csv(data, to_stream(out)); }
+
+NamedTable table_of(const SweepData& data) {
+    NamedTable table{column_names(data), {}};
+    table.columns.resize(table.names.size());
+    each_point(data, [&](const StoredPoint& p) {
+        each_column(data, p, [&](std::size_t c, const std::vector<double>& values) {
+            table.columns[c].insert(table.columns[c].end(), values.begin(), values.end());
+        });
     });
-    if (!out.flush()) throw IoError("cannot write the table: the output was closed or the disk is full");
+    return table;
 }
 
 const std::string* SweepData::attribute(const std::string& name) const {

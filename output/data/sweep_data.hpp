@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "output/data/point_store.hpp"
+#include "output/data/tables.hpp"
 #include "output/files/target.hpp"
 
 namespace beamcam::output {
@@ -18,15 +19,12 @@ struct SweepAxis {
     std::string name, unit;  // "cam.speed", "rad/s"
     std::vector<double> values;
 };
-struct SweepColumn {
-    std::string name, unit, meaning;
-};
 
 // Points are numbered (row · first axis + value) · seeds + seed, rows being the values of the second axis.
 struct SweepData {
     std::vector<SweepAxis> axes;  // one or two
     std::uint64_t seeds = 1;
-    std::vector<SweepColumn> columns;                             // of the samples
+    std::vector<TableColumn> columns;                             // of the samples
     std::vector<std::string> classes;                             // names, by number
     std::vector<std::pair<std::string, std::string>> attributes;  // of a NetCDF file
     std::function<bool(std::uint64_t)> has;                       // whether this file contains the point
@@ -74,5 +72,7 @@ inline std::vector<double> SweepData::place(std::uint64_t point) const {
 // The ending decides: .csv, .npz or .nc. Throws IoError, UnsupportedOption.
 void write_sweep(const Target& file, const SweepData& data);
 void write_sweep_csv(std::ostream& out, const SweepData& data);
+// The rows of .csv and .npz.
+NamedTable table_of(const SweepData& data);
 
 }  // namespace beamcam::output

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 
 namespace beamcam::output {
 

@@ -1,5 +1,3 @@
-#include "output/data/table_reader.hpp"
-
 #include <libdeflate.h>
 
 #include <algorithm>
@@ -13,6 +11,7 @@
 #include <optional>
 #include <set>
 
+#include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"
 #include "output/files/numbers.hpp"

@@ -81,13 +81,14 @@ void write_columns(const Target& file, const Columns& table) {
 
 }  // namespace
 
-void write_csv(std::ostream& out, const sim::Table& table) {
-    csv(columns_of(table), [&out](const std::string& text) {
-        if (!out.write(text.data(), static_cast<std::streamsize>(text.size())))
+std::function<void(const std::string&)> to_stream(std::ostream& out) {
+    return [&out](const std::string& text) {
+        if (!out.write(text.data(), static_cast<std::streamsize>(text.size())).flush())
             throw IoError("cannot write the table: the output was closed or the disk is full");
-    });
-    if (!out.flush()) throw IoError("cannot write the table: the output was closed or the disk is full");
+    };
 }
+
+void write_csv(std::ostream& out, const sim::Table& table) { csv(columns_of(table), to_stream(out)); }
 
 void write_table(const Target& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
 void write_table(const Target& file, const NamedTable& table) { write_columns(file, columns_of(table)); }

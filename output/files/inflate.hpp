@@ -1,5 +1,5 @@
-// Decompression of the parts of an untrusted file within a total budget: a few bytes may claim to expand to gigabytes,
-// and many parts may be the same bytes.
+// Compression by libdeflate. Decompression of the parts of an untrusted file within a total budget: a few bytes may
+// claim to expand to gigabytes, and many parts may be the same bytes.
 #pragma once
 
 #include <cstddef>
@@ -11,6 +11,9 @@
 struct libdeflate_decompressor;
 
 namespace beamcam::output {
+
+// A zlib stream. Higher levels, up to 12, take longer.
+std::string zlib_compressed(std::string_view bytes, int level);
 
 class Inflater {
   public:

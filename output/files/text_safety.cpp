@@ -1,6 +1,7 @@
 #include "output/files/text_safety.hpp"
 
 #include <fmt/format.h>
+#include <glib.h>
 
 namespace beamcam::output {
 namespace {
@@ -40,19 +41,11 @@ std::string copy(std::string_view text, Replace replace) {
 }  // namespace
 
 Character first_character(std::string_view text) {
-    const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
-    const unsigned char first = byte(0);
-    if (first < 0x80) return {1, first};
-    const std::size_t bytes = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
-    if (first < 0xC2 || first > 0xF4 || bytes > text.size()) return {};
-    char32_t code = first & (0x7Fu >> bytes);
-    for (std::size_t i = 1; i < bytes; ++i) {
-        if ((byte(i) & 0xC0) != 0x80) return {};
-        code = code << 6 | (byte(i) & 0x3Fu);
-    }
-    constexpr char32_t kLeast[] = {0, 0, 0x80, 0x800, 0x10000};
-    const bool exists = code >= kLeast[bytes] && code <= 0x10FFFF && (code < 0xD800 || code > 0xDFFF);
-    return exists ? Character{bytes, code} : Character{};
+    if (text.front() == '\0') return {1, 0};  // for GLib it ends the text
+    const gunichar code = g_utf8_get_char_validated(text.data(), static_cast<gssize>(text.size()));
+    constexpr gunichar kInvalid = 0x80000000;  // and what is above it
+    if (code >= kInvalid) return {};
+    return {static_cast<std::size_t>(g_utf8_skip[static_cast<unsigned char>(text.front())]), code};
 }
 
 std::string visible(std::string_view text) {

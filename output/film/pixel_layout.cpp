@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "output/film/yuv.hpp"
-#include "output/image/pixels.hpp"
+#include "output/image/raster.hpp"
 
 namespace beamcam::output {
 namespace {

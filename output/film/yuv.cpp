@@ -4,7 +4,7 @@
 #include <stdexcept>
 #include <string>
 
-#include "output/image/pixels.hpp"
+#include "output/image/raster.hpp"
 #include "render/draw/color.hpp"
 
 // Compilers vectorize the loops below; on x86-64 a wider version is chosen when the program starts. All versions give

@@ -1,5 +1,7 @@
 #include "output/image/document_metadata.hpp"
 
+#include <glib.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -11,24 +13,6 @@
 namespace beamcam::output {
 
 namespace {
-
-void append_utf8(std::string& text, std::uint32_t c) {
-    if (c < 0x80) {
-        text.push_back(static_cast<char>(c));
-    } else if (c < 0x800) {
-        text.push_back(static_cast<char>(0xC0 | c >> 6));
-        text.push_back(static_cast<char>(0x80 | (c & 0x3F)));
-    } else if (c < 0x10000) {
-        text.push_back(static_cast<char>(0xE0 | c >> 12));
-        text.push_back(static_cast<char>(0x80 | (c >> 6 & 0x3F)));
-        text.push_back(static_cast<char>(0x80 | (c & 0x3F)));
-    } else {
-        text.push_back(static_cast<char>(0xF0 | c >> 18));
-        text.push_back(static_cast<char>(0x80 | (c >> 12 & 0x3F)));
-        text.push_back(static_cast<char>(0x80 | (c >> 6 & 0x3F)));
-        text.push_back(static_cast<char>(0x80 | (c & 0x3F)));
-    }
-}
 
 // ---- SVG -----------------------------------------------------------------------------------------
 
@@ -62,13 +46,6 @@ std::string element(std::string_view xml, const std::string& name) {
 
 // ---- PDF (ISO 32000-1, 7.3.4 and 7.5.7) ------------------------------------------------------------
 
-int hex_digit(char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'A' && c <= 'F') return c - 'A' + 10;
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    return -1;
-}
-
 // The bytes of "(…)" or "<…>" at the beginning. `is_open`: the string begins but never ends.
 std::optional<std::string> string_object(std::string_view pdf, bool& is_open) {
     while (!pdf.empty() && (pdf.front() == ' ' || pdf.front() == '\n' || pdf.front() == '\r')) pdf.remove_prefix(1);
@@ -79,7 +56,7 @@ std::optional<std::string> string_object(std::string_view pdf, bool& is_open) {
         int high = -1;
         for (const char c : pdf.substr(1)) {
             if (c == '>') return bytes;
-            const int digit = hex_digit(c);
+            const int digit = g_ascii_xdigit_value(c);
             if (digit < 0) continue;
             if (high >= 0) bytes.push_back(static_cast<char>(high << 4 | digit));
             high = high >= 0 ? -1 : digit;
@@ -121,7 +98,8 @@ std::string from_utf16(std::string_view bytes) {
             c = 0x10000 + ((c - 0xD800) << 10) + (unit(i + 2) - 0xDC00);
             i += 2;
         }
-        append_utf8(text, c);
+        char utf8[6];
+        text.append(utf8, static_cast<std::size_t>(g_unichar_to_utf8(c, utf8)));
     }
     return text;
 }

@@ -165,7 +165,6 @@ PictureDifference difference(const Raster& a, const Raster& b, int threshold) {
     PictureDifference d;
     d.pixels = a.pixels();
     if (a.rgba == b.rgba) return d;
-    d.box = {a.width, a.height, 0, 0};
     const std::size_t row_size = 4 * static_cast<std::size_t>(a.width);
     for (int y = 0; y < a.height; ++y) {
         if (std::memcmp(a.at(0, y), b.at(0, y), row_size) == 0) continue;
@@ -175,11 +174,9 @@ PictureDifference difference(const Raster& a, const Raster& b, int threshold) {
             if (step <= threshold) continue;
             ++d.changed;
             if (is_antialiasing(a, b, x, y)) ++d.antialiased;
-            d.box = {std::min(d.box.left, x), std::min(d.box.top, y), std::max(d.box.right, x + 1),
-                     std::max(d.box.bottom, y + 1)};
+            d.box.add(x, y);
         }
     }
-    if (d.changed == 0) d.box = {};
     measure_similarity(a, b, d);
     return d;
 }
@@ -187,7 +184,7 @@ PictureDifference difference(const Raster& a, const Raster& b, int threshold) {
 Raster difference_picture(const Raster& a, const Raster& b, int threshold) {
     require_one_size(a, b);
     Raster picture(a.width, a.height);
-    PixelBox box{a.width, a.height, 0, 0};
+    PixelBox box;
     for (int y = 0; y < a.height; ++y)
         for (int x = 0; x < a.width; ++x) {
             // A quarter of the contrast, towards white, so that changed pixels are conspicuous.
@@ -195,8 +192,7 @@ Raster difference_picture(const Raster& a, const Raster& b, int threshold) {
             Rgb color{grey, grey, grey};
             if (channel_difference(a.at(x, y), b.at(x, y)) > threshold) {
                 color = is_antialiasing(a, b, x, y) ? kEdge : kChanged;
-                box = {std::min(box.left, x), std::min(box.top, y), std::max(box.right, x + 1),
-                       std::max(box.bottom, y + 1)};
+                box.add(x, y);
             }
             put(picture, x, y, color);
         }

@@ -1,6 +1,7 @@
 // The difference of two pictures of the same size, in numbers and as a picture.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <vector>
 
@@ -13,6 +14,11 @@ struct PixelBox {  // [px], right and bottom not included
     bool empty() const { return right <= left; }
     int width() const { return right - left; }
     int height() const { return bottom - top; }
+    void add(int x, int y) {
+        *this = empty()
+                    ? PixelBox{x, y, x + 1, y + 1}
+                    : PixelBox{std::min(left, x), std::min(top, y), std::max(right, x + 1), std::max(bottom, y + 1)};
+    }
 };
 
 struct PictureDifference {

@@ -8,14 +8,13 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <memory>
-#include <new>
 #include <span>
 #include <stdexcept>
 #include <utility>
 #include <vector>
 
-#include "output/image/pixels.hpp"
+#include "output/files/inflate.hpp"
+#include "output/image/raster.hpp"
 #include "output/image/run_deflate.hpp"
 
 namespace beamcam::output {
@@ -182,13 +181,7 @@ class WholeDeflate {
     void bytes(std::span<const std::uint8_t> data) { rows_.insert(rows_.end(), data.begin(), data.end()); }
     void zeros(std::size_t count) { rows_.resize(rows_.size() + count, 0); }
     std::string finish() && {
-        const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-            libdeflate_alloc_compressor(kCompressionLevel), libdeflate_free_compressor);
-        if (!compressor) throw std::bad_alloc();
-        // Uninitialized: most of it is never used, and the system provides only memory that is used.
-        const std::size_t most = libdeflate_zlib_compress_bound(compressor.get(), rows_.size());
-        const auto room = std::make_unique_for_overwrite<char[]>(most);
-        return {room.get(), libdeflate_zlib_compress(compressor.get(), rows_.data(), rows_.size(), room.get(), most)};
+        return zlib_compressed({reinterpret_cast<const char*>(rows_.data()), rows_.size()}, kCompressionLevel);
     }
 
   private:

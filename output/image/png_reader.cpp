@@ -94,11 +94,7 @@ class PngDecoder {
         (this->*step)();
         return true;
     }
-    void read_header() {
-        if (header_read_) return;
-        header_read_ = true;
-        png_read_info(png_, info_);
-    }
+    void read_header() { png_read_info(png_, info_); }
     void read_pixels() {
         png_set_expand(png_);    // palettes, fewer than 8 bits, transparent colours
         png_set_strip_16(png_);  // for callers that do not use FFmpeg
@@ -128,7 +124,6 @@ class PngDecoder {
     std::size_t at_ = 0;
     png_structp png_ = nullptr;
     png_infop info_ = nullptr;
-    bool header_read_ = false;
     Raster raster_;
     std::vector<png_bytep> rows_;
     std::array<char, 128> reason_{};

@@ -2,8 +2,10 @@
 // form; render::Image is the form for drawing.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,6 +33,22 @@ struct Raster {
     }
     bool operator==(const Raster&) const = default;
 };
+
+// A pixel with its colour not premultiplied: c = round(255 c' / a) for the premultiplied c', 0 for a = 0.
+struct StraightColor {
+    int r = 0, g = 0, b = 0, a = 0;
+};
+inline StraightColor straight_color(std::uint32_t pixel) {
+    const int a = static_cast<int>(pixel >> 24);
+    const auto channel = [&](int shift) {
+        const int c = static_cast<int>(pixel >> shift & 255);
+        return a == 255 ? c : std::min((255 * c + a / 2) / a, 255);
+    };
+    return a == 0 ? StraightColor{} : StraightColor{channel(16), channel(8), channel(0), a};
+}
+
+// Writes R, G, B, A of each pixel, in four bytes each.
+void rgba_bytes(std::span<const std::uint32_t> pixels, std::uint8_t* out);
 
 void to_raster(const render::Image& image, Raster& out);
 // Premultiplies transparent pixels, which loses precision.

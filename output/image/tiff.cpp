@@ -1,21 +1,17 @@
 #include "output/image/tiff.hpp"
 
-#include <libdeflate.h>
-
 #include <cmath>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <vector>
 
 #include "output/files/errors.hpp"
+#include "output/files/inflate.hpp"
+#include "output/files/numbers.hpp"
 
 namespace beamcam::output {
 namespace {
 
-void put(std::string& out, std::uint64_t value, int bytes) {
-    for (int i = 0; i < bytes; ++i) out += static_cast<char>(value >> (8 * i) & 0xff);
-}
+constexpr int kTiffLevel = 9;  // of compression
 
 // Each byte minus that of the pixel at the left (predictor 2), which compresses better.
 std::string rows_of(const render::Image& image) {
@@ -32,57 +28,46 @@ std::string rows_of(const render::Image& image) {
     return out;
 }
 
-std::string deflated(const std::string& plain) {
-    constexpr int kLevel = 9;
-    const std::unique_ptr<libdeflate_compressor, void (*)(libdeflate_compressor*)> compressor(
-        libdeflate_alloc_compressor(kLevel), libdeflate_free_compressor);
-    if (!compressor) throw std::bad_alloc();
-    std::string out(libdeflate_zlib_compress_bound(compressor.get(), plain.size()), '\0');
-    out.resize(libdeflate_zlib_compress(compressor.get(), plain.data(), plain.size(), out.data(), out.size()));
-    return out;
+enum TagType { ascii = 2, short_number = 3, long_number = 4, ratio = 5 };
+
+struct TagEntry {
+    int tag;
+    TagType type;
+    std::uint32_t count;
+    std::string bytes;
+};
+
+TagEntry tag_number(int tag, TagType type, std::uint64_t value) {
+    TagEntry entry{tag, type, 1, {}};
+    append_bytes(entry.bytes, value, 4);
+    return entry;
 }
 
-// The entries of the directory, by ascending tags; values longer than four bytes follow the directory.
-class Directory {
-  public:
-    enum Type { text = 2, short_number = 3, long_number = 4, ratio = 5 };
+TagEntry tag_text(int tag, const std::string& value) {
+    return {tag, ascii, static_cast<std::uint32_t>(value.size() + 1), value + std::string(1, '\0')};
+}
 
-    void number(int tag, Type type, std::uint32_t value) {
-        std::string bytes;
-        put(bytes, value, 4);
-        entries_.push_back({tag, type, 1, bytes});
-    }
-    void value(int tag, Type type, std::uint32_t count, std::string bytes) {
-        entries_.push_back({tag, type, count, std::move(bytes)});
-    }
-    std::string bytes(std::size_t at) const {
-        std::string out, behind;
-        put(out, entries_.size(), 2);
-        const std::size_t end = at + 2 + 12 * entries_.size() + 4;
-        for (const Entry& e : entries_) {
-            put(out, static_cast<std::uint64_t>(e.tag), 2), put(out, e.type, 2), put(out, e.count, 4);
-            std::string value = e.bytes;
-            if (value.size() > 4) {
-                put(out, end + behind.size(), 4);
-                behind += value + (value.size() % 2 ? std::string(1, '\0') : "");
-            } else {
-                value.resize(4, '\0');
-                out += value;
-            }
+// The directory at this place of the file; values longer than four bytes follow it.
+std::string tag_directory(const std::vector<TagEntry>& entries, std::size_t at) {
+    std::string out, behind;
+    append_bytes(out, entries.size(), 2);
+    const std::size_t end = at + 2 + 12 * entries.size() + 4;
+    for (const TagEntry& e : entries) {
+        append_bytes(out, static_cast<std::uint64_t>(e.tag), 2);
+        append_bytes(out, e.type, 2);
+        append_bytes(out, e.count, 4);
+        std::string value = e.bytes;
+        if (value.size() > 4) {
+            append_bytes(out, end + behind.size(), 4);
+            behind += value + (value.size() % 2 ? std::string(1, '\0') : "");
+        } else {
+            value.resize(4, '\0');
+            out += value;
         }
-        put(out, 0, 4);
-        return out + behind;
     }
-
-  private:
-    struct Entry {
-        int tag;
-        Type type;
-        std::uint32_t count;
-        std::string bytes;
-    };
-    std::vector<Entry> entries_;
-};
+    append_bytes(out, 0, 4);
+    return out + behind;
+}
 
 }  // namespace
 
@@ -90,36 +75,33 @@ std::string encode_tiff(const render::Image& image, const TiffOptions& options) 
     const std::string rows = rows_of(image);
     if (rows.size() > 0xf0000000) throw UnsupportedOption("a TIFF file cannot exceed 4 GiB; lower the dpi");
     std::string out("II*\0", 4);
-    const std::string strip = deflated(rows);
+    const std::string strip = zlib_compressed(rows, kTiffLevel);
     const std::size_t at = 8 + strip.size() + strip.size() % 2;
-    put(out, at, 4);
+    append_bytes(out, at, 4);
     out += strip + (strip.size() % 2 ? std::string(1, '\0') : "");
 
     std::string bits, resolution;
-    for (int i = 0; i < 3; ++i) put(bits, 8, 2);
+    for (int i = 0; i < 3; ++i) append_bytes(bits, 8, 2);
     constexpr double kUnit = 1000;  // of the resolution's fraction
-    put(resolution, static_cast<std::uint64_t>(std::llround(options.dpi * kUnit)), 4);
-    put(resolution, static_cast<std::uint64_t>(kUnit), 4);
-    const auto text = [](const std::string& words) { return words + std::string(1, '\0'); };
-    const auto size = [](const std::string& words) { return static_cast<std::uint32_t>(words.size() + 1); };
-    Directory d;
-    d.number(256, Directory::long_number, static_cast<std::uint32_t>(image.width));
-    d.number(257, Directory::long_number, static_cast<std::uint32_t>(image.height));
-    d.value(258, Directory::short_number, 3, bits);
-    d.number(259, Directory::short_number, 8);  // compression: deflate
-    d.number(262, Directory::short_number, 2);  // RGB
-    if (!options.description.empty())
-        d.value(270, Directory::text, size(options.description), text(options.description));
-    d.number(273, Directory::long_number, 8);  // where the strip begins
-    d.number(277, Directory::short_number, 3);
-    d.number(278, Directory::long_number, static_cast<std::uint32_t>(image.height));
-    d.number(279, Directory::long_number, static_cast<std::uint32_t>(strip.size()));
-    d.value(282, Directory::ratio, 1, resolution);
-    d.value(283, Directory::ratio, 1, resolution);
-    d.number(296, Directory::short_number, 2);  // inches
-    if (!options.software.empty()) d.value(305, Directory::text, size(options.software), text(options.software));
-    d.number(317, Directory::short_number, 2);  // predictor
-    return out + d.bytes(at);
+    append_bytes(resolution, static_cast<std::uint64_t>(std::llround(options.dpi * kUnit)), 4);
+    append_bytes(resolution, static_cast<std::uint64_t>(kUnit), 4);
+    const auto width = static_cast<std::uint64_t>(image.width), height = static_cast<std::uint64_t>(image.height);
+    std::vector<TagEntry> entries = {tag_number(256, long_number, width),
+                                     tag_number(257, long_number, height),
+                                     {258, short_number, 3, bits},
+                                     tag_number(259, short_number, 8),   // compression: deflate
+                                     tag_number(262, short_number, 2)};  // RGB
+    if (!options.description.empty()) entries.push_back(tag_text(270, options.description));
+    entries.push_back(tag_number(273, long_number, 8));  // where the strip begins
+    entries.push_back(tag_number(277, short_number, 3));
+    entries.push_back(tag_number(278, long_number, height));
+    entries.push_back(tag_number(279, long_number, strip.size()));
+    entries.push_back({282, ratio, 1, resolution});
+    entries.push_back({283, ratio, 1, resolution});
+    entries.push_back(tag_number(296, short_number, 2));  // inches
+    if (!options.software.empty()) entries.push_back(tag_text(305, options.software));
+    entries.push_back(tag_number(317, short_number, 2));  // predictor
+    return out + tag_directory(entries, at);
 }
 
 }  // namespace beamcam::output

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "output/data/manifest.hpp"
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "scenes/commands/cli.hpp"
@@ -45,9 +45,8 @@ class DifferencePictures {
     void add(long number, const output::Raster& a, const output::Raster& b, const PictureComparison& found) {
         if (!args_.picture || !found.same_size() || found.verdict == Verdict::identical) return;
         if (numbered_) return write(numbered_file(*args_.picture, number), a, b);
-        const double weight = static_cast<double>(found.difference.changed) + found.difference.largest / 256.0;
-        if (worst_ && weight <= worst_->weight) return;
-        worst_ = Worst{weight, a, b};
+        if (worst_ && found.weight() <= worst_->weight) return;
+        worst_ = Worst{found.weight(), a, b};
     }
     void finish() {
         if (worst_) write(*args_.picture, worst_->a, worst_->b);
@@ -102,7 +101,7 @@ Comparison compare_pictures(const DiffArguments& args) {
         found.a = name_a;
         found.b = name_b;
         pictures.add(static_cast<long>(all.pictures_a) - 1, left, right, found);
-        all.verdict = worse(all.verdict, found.verdict);
+        all.verdict = std::max(all.verdict, found.verdict);
         if (found.verdict != Verdict::identical) all.pictures.push_back(std::move(found));
     }
     pictures.finish();

@@ -7,7 +7,7 @@
 #include <map>
 
 #include "output/data/manifest.hpp"
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/text_safety.hpp"
 #include "output/film/video_reader.hpp"

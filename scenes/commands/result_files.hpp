@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "output/data/column_table.hpp"
 #include "output/data/manifest.hpp"
+#include "output/data/tables.hpp"
 #include "render/plot/figure.hpp"
 #include "scenes/commands/commands.hpp"
 

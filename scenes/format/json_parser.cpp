@@ -108,6 +108,12 @@ class Parser {
     enum class Expected { value, key, colon, separator };
 
     Node value() {
+        Node node = begun_value();
+        node.end = at_;
+        return node;
+    }
+
+    Node begun_value() {
         switch (next()) {
             case '{':
                 return object();

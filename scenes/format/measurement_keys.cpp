@@ -5,7 +5,7 @@
 #include <cmath>
 #include <filesystem>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "output/files/digest.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/format/checks.hpp"

@@ -39,7 +39,8 @@ struct Node {
     enum class Kind { null, boolean, number, string, array, object };
 
     Kind kind = Kind::null;
-    Place place;  // first byte of the value
+    Place place;          // first byte of the value
+    std::size_t end = 0;  // offset of the byte after it
     bool boolean = false;
     double number = 0;
     std::string text;         // the value of a string; a number as it was written

@@ -36,12 +36,10 @@ std::array<Number*, kPoseNumbers> numbers_of(Pose& p, Nearest& n, Number& has_ne
 
 }  // namespace
 
-std::uint64_t PoseSpool::place(std::size_t frame) const {
-    return sizeof(double) * frame * (kPoseNumbers + 3 * stations_);
-}
+std::uint64_t PoseSpool::place(std::size_t row) const { return sizeof(double) * row * (kPoseNumbers + 3 * stations_); }
 
-void PoseSpool::put(std::size_t frame, const sim::Pose& pose) {
-    if (frame >= frames_ || pose.centreline.size() != stations_ || pose.moment.size() != stations_)
+void PoseSpool::put(std::size_t row, const sim::Pose& pose) {
+    if (row >= most_ || pose.centreline.size() != stations_ || pose.moment.size() != stations_)
         throw std::invalid_argument("a pose outside the spool, or with another number of stations");
     const sim::Nearest nearest = pose.nearest.value_or(sim::Nearest{});
     const double has_nearest = pose.nearest.has_value(), touching = nearest.touching;
@@ -49,24 +47,19 @@ void PoseSpool::put(std::size_t frame, const sim::Pose& pose) {
     for (const double* number : numbers_of(pose, nearest, has_nearest, touching)) record.push_back(*number);
     for (const sim::Vec2 r : pose.centreline) record.push_back(r.x), record.push_back(r.y);
     record.insert(record.end(), pose.moment.begin(), pose.moment.end());
-    spool_.write(place(frame), std::as_bytes(std::span(record)));
+    spool_.write(place(row), std::as_bytes(std::span(record)));
+    count_ = std::max(row == 0 ? fixed_ : count_, row + 1);
 }
 
-void SampledPoses::put(std::size_t row, const sim::Pose& pose) {
-    if (row == 0) count_ = fixed_;
-    poses_.put(row, pose);
-    count_ = std::max(count_, row + 1);
-}
-
-double PoseSpool::time(std::size_t frame) const {
+double PoseSpool::time(std::size_t row) const {
     double t = 0;
-    spool_.read(place(frame), std::as_writable_bytes(std::span(&t, 1)));
+    spool_.read(place(row), std::as_writable_bytes(std::span(&t, 1)));
     return t;
 }
 
-sim::Pose PoseSpool::pose(std::size_t frame) const {
+sim::Pose PoseSpool::pose(std::size_t row) const {
     std::vector<double> record(kPoseNumbers + 3 * stations_);
-    spool_.read(place(frame), std::as_writable_bytes(std::span(record)));
+    spool_.read(place(row), std::as_writable_bytes(std::span(record)));
     sim::Pose p;
     sim::Nearest nearest;
     double has_nearest = 0, touching = 0;

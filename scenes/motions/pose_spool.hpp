@@ -8,6 +8,7 @@
 
 #include "output/files/spool.hpp"
 #include "render/film/film.hpp"
+#include "sim/observe/request.hpp"
 #include "sim/observe/trajectory.hpp"
 
 namespace beamcam::scenes {
@@ -29,40 +30,28 @@ class NumberSpool final : public sim::NumberSource {
     std::uint64_t size_ = 0;
 };
 
-// A fixed number of poses, stored without loss.
+// Poses, stored without loss.
 class PoseSpool final : public render::PoseStore {
   public:
-    PoseSpool(std::size_t frames, int stations) : frames_(frames), stations_(static_cast<std::size_t>(stations)) {}
+    // Poses at the times of the request, which count from the beginning, and those in contact, up to its limit.
+    explicit PoseSpool(const sim::PoseRequest& request)
+        : fixed_(request.times.size()),
+          most_(fixed_ + request.contacts),
+          stations_(static_cast<std::size_t>(request.stations)),
+          count_(fixed_) {}
 
-    // Frames in any order, also repeatedly, from one thread. Throws std::invalid_argument for another number of
-    // stations.
-    void put(std::size_t frame, const sim::Pose& pose);
-    std::size_t size() const override { return frames_; }
-    double time(std::size_t frame) const override;
-    sim::Pose pose(std::size_t frame) const override;
-
-  private:
-    std::uint64_t place(std::size_t frame) const;
-
-    output::Spool spool_;
-    std::size_t frames_, stations_;
-};
-
-// Poses at fixed times, and poses in contact up to a limit, for the choice of scales.
-class SampledPoses final : public render::PoseStore {
-  public:
-    SampledPoses(std::size_t fixed, std::size_t contacts, int stations)
-        : poses_(fixed + contacts, stations), fixed_(fixed), count_(fixed) {}
-
-    // Rows as in sim::PoseRequest; row 0 discards the earlier contact poses.
+    // Rows of the request in any order, also repeatedly, from one thread; row 0 discards the earlier contact poses.
+    // Throws std::invalid_argument for another number of stations.
     void put(std::size_t row, const sim::Pose& pose);
     std::size_t size() const override { return count_; }
-    double time(std::size_t k) const override { return poses_.time(k); }
-    sim::Pose pose(std::size_t k) const override { return poses_.pose(k); }
+    double time(std::size_t row) const override;
+    sim::Pose pose(std::size_t row) const override;
 
   private:
-    PoseSpool poses_;
-    std::size_t fixed_, count_;
+    std::uint64_t place(std::size_t row) const;
+
+    output::Spool spool_;
+    std::size_t fixed_, most_, stations_, count_;
 };
 
 }  // namespace beamcam::scenes

@@ -21,8 +21,8 @@ std::string beyond_model(const sim::Problem& problem) {
     return fmt::format(" · bends beyond {}", sim::name(problem.beam.model));
 }
 
-std::shared_ptr<SampledPoses> stored(const std::vector<sim::Pose>& held, const sim::PoseRequest& request) {
-    auto poses = std::make_shared<SampledPoses>(request.times.size(), request.contacts, request.stations);
+std::shared_ptr<PoseSpool> stored(const std::vector<sim::Pose>& held, const sim::PoseRequest& request) {
+    auto poses = std::make_shared<PoseSpool>(request);
     for (std::size_t row = 0; row < held.size(); ++row) poses->put(row, held[row]);
     return poses;
 }

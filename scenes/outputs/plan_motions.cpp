@@ -10,8 +10,7 @@ namespace {
 // The poses of a request go to disk as they are found.
 StoredPoses store_poses(sim::Request& request, std::size_t frames, std::size_t survey) {
     sim::PoseRequest &all = request.poses[frames], &some = request.poses[survey];
-    StoredPoses stored{std::make_shared<PoseSpool>(all.times.size(), all.stations),
-                       std::make_shared<SampledPoses>(some.times.size(), some.contacts, some.stations)};
+    StoredPoses stored{std::make_shared<PoseSpool>(all), std::make_shared<PoseSpool>(some)};
     all.take = [to = stored.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
     some.take = [to = stored.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
     return stored;

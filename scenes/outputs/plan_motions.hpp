@@ -14,7 +14,7 @@ namespace beamcam::scenes {
 // The poses of a picture, on disk.
 struct StoredPoses {
     std::shared_ptr<PoseSpool> frames;
-    std::shared_ptr<SampledPoses> survey;  // for the choice of scales
+    std::shared_ptr<PoseSpool> survey;  // for the choice of scales
 };
 
 struct PlanResults {

@@ -1,5 +1,6 @@
 // Output "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.
 #include "output/data/records.hpp"
+#include "output/files/atomic_file.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
@@ -31,7 +32,7 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
                 all.push_back(std::move(each));
         const std::vector<sim::Channel>& extrema = from.request.extrema;
         if (from.file)
-            output::write_summary(*from.file, from.problem, from.run, extrema, &from.work, all);
+            output::write_file(*from.file, output::summary_json(from.problem, from.run, extrema, &from.work, all));
         else
             output::print_json(output::summary_json(from.problem, from.run, extrema, &from.work, all));
         return from.run.reproducibility;

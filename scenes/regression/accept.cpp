@@ -54,7 +54,7 @@ class Acceptor {
 
     void accept(const Baseline& entry, const ReportedEntry& found) {
         by_digest_.clear();
-        for (const auto& [name, file] : marked_files(folder_of(entry)).value_or(ReferenceFiles()))
+        for (const auto& [name, file] : marked_files(folder_of(entry)))
             if (!file.pixels.empty()) by_digest_[file.pixels] = folder_of(entry) / name;
         BaselineEdit edit{entry.name, entry.accepted, entry.reproducible_until};
         if (has_pictures(entry, found)) {
@@ -75,7 +75,7 @@ class Acceptor {
         const fs::path fresh = update_.replace(entry.name), old = folder_of(entry);
         for (std::size_t k = 0; k < found.sha256.size(); ++k)
             copy_picture(entry, found, k, fresh / picture_name(static_cast<long>(k)));
-        for (const auto& [name, file] : marked_files(old).value_or(ReferenceFiles()))  // the motion
+        for (const auto& [name, file] : marked_files(old))  // the motion
             if (!name.ends_with(".png") && output::path_exists(old / name))
                 output::write_file(fresh / name, output::read_file(old / name));
         copy_motion(entry, found, fresh);

@@ -13,67 +13,27 @@
 namespace beamcam::scenes {
 namespace {
 
-// The position after the value that begins at `begin`. `plain` has no comments.
-std::size_t end_of_value(std::string_view plain, std::size_t begin) {
-    int depth = 0;
-    bool in_string = false;
-    for (std::size_t i = begin; i < plain.size(); ++i) {
-        const char c = plain[i];
-        if (in_string) {
-            if (c == '\\')
-                ++i;
-            else if (c == '"') {
-                in_string = false;
-                if (depth == 0) return i + 1;
-            }
-            continue;
-        }
-        if (c == '"') {
-            in_string = true;
-        } else if (c == '{' || c == '[') {
-            ++depth;
-        } else if (c == '}' || c == ']') {
-            if (depth == 0) return i;  // the end of the object or array around a scalar
-            if (--depth == 0) return i + 1;
-        } else if (depth == 0 && (c == ',' || c == ' ' || c == '\n' || c == '\t' || c == '\r')) {
-            return i;
-        }
-    }
-    return plain.size();
-}
-
 struct Edit {
     std::size_t begin = 0, end = 0;
     std::string text;
 };
 
-std::string json_text(std::string_view text) {
-    std::string out;
-    out.push_back('"');
-    for (const char c : text) {
-        if (c == '"' || c == '\\')
-            out.append(1, '\\').append(1, c);
-        else if (static_cast<unsigned char>(c) < 0x20)
-            out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-        else
-            out.push_back(c);
-    }
-    out.push_back('"');
+// As JSON.
+std::string json_text(const std::string& text) {
+    std::string out = to_text(text_node(text));
+    out.pop_back();  // the line break
     return out;
 }
 
 // Replaces the value of a key, or adds the key after the last one.
-void set_member(std::string_view plain, const Node& object, const std::string& key, const std::string& value,
-                const std::string& indent, std::vector<Edit>& edits) {
+void set_member(const Node& object, const std::string& key, const std::string& value, const std::string& indent,
+                std::vector<Edit>& edits) {
     if (const Member* member = object.find(key)) {
-        const std::size_t begin = member->value.place.offset;
-        edits.push_back({begin, end_of_value(plain, begin), value});
-    } else if (object.members.empty()) {
-        edits.push_back(
-            {object.place.offset + 1, object.place.offset + 1, fmt::format("{}{}: {}", indent, json_text(key), value)});
+        edits.push_back({member->value.place.offset, member->value.end, value});
     } else {
-        const std::size_t at = end_of_value(plain, object.members.back().value.place.offset);
-        edits.push_back({at, at, fmt::format(",{}{}: {}", indent, json_text(key), value)});
+        const bool first = object.members.empty();
+        const std::size_t at = first ? object.place.offset + 1 : object.members.back().value.end;
+        edits.push_back({at, at, fmt::format("{}{}{}: {}", first ? "" : ",", indent, json_text(key), value)});
     }
 }
 
@@ -121,7 +81,6 @@ Baselines read_recovered(const std::string& path) {
 std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& changes,
                    const std::map<std::string, RendererParts>& renderers) {
     const std::string& text = baselines.source.text;
-    const std::string plain = blank_comments(text);  // the same offsets
     const Parsed parsed = parse(text);
     const Node& entries = parsed.root.find("entries")->value;
     std::vector<Edit> edits;
@@ -134,11 +93,11 @@ std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& 
         if (change == changes.end()) continue;
         const Node& object = entries.find(entry.name)->value;
         if (entry.has_pictures() && entry.expected.empty())
-            set_member(plain, object, "accepted", accepted_text(change->accepted), "\n      ", edits);
+            set_member(object, "accepted", accepted_text(change->accepted), "\n      ", edits);
         if (change->reproducible_until) {
             std::string number;
             output::append_number(number, *change->reproducible_until);
-            set_member(plain, object, "reproducible_until", number, "\n      ", edits);
+            set_member(object, "reproducible_until", number, "\n      ", edits);
         }
     }
     std::map<std::string, RendererParts> listed;
@@ -148,7 +107,7 @@ std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& 
         else if (const auto known = baselines.renderers.find(id); known != baselines.renderers.end())
             listed[id] = known->second;
     if (!listed.empty() || !baselines.renderers.empty())
-        set_member(plain, parsed.root, "renderers", renderers_text(listed), "\n  ", edits);
+        set_member(parsed.root, "renderers", renderers_text(listed), "\n  ", edits);
 
     std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin > b.begin; });
     std::string result = text;

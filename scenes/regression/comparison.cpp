@@ -10,12 +10,6 @@
 namespace beamcam::scenes {
 namespace {
 
-std::string size_of(const output::Raster& r) { return fmt::format("{}x{}", r.width, r.height); }
-
-std::string box_text(const output::PixelBox& box) {
-    return fmt::format("{}x{}+{}+{}", box.width(), box.height(), box.left, box.top);
-}
-
 // The first names: a table may have a hundred thousand.
 std::string names_of(const std::vector<std::string>& all) {
     constexpr std::size_t kMost = 100;
@@ -27,27 +21,18 @@ std::string names_of(const std::vector<std::string>& all) {
 }  // namespace
 
 const char* name(Verdict verdict) {
-    switch (verdict) {
-        case Verdict::identical:
-            return "identical";
-        case Verdict::equivalent:
-            return "equivalent";
-        case Verdict::new_renderer:
-            return "new-renderer";
-        case Verdict::different:
-            return "different";
-        case Verdict::missing:
-            return "missing";
-    }
-    return "?";
+    constexpr const char* kNames[] = {"identical", "equivalent", "new-renderer", "different", "missing"};
+    return kNames[static_cast<std::size_t>(verdict)];
 }
 
-Verdict worse(Verdict a, Verdict b) { return std::max(a, b); }
+double PictureComparison::weight() const {
+    return same_size() ? static_cast<double>(difference.changed) + difference.largest / 256.0 : 1e300;
+}
 
 PictureComparison compare(const output::Raster& a, const output::Raster& b, int tolerance) {
     PictureComparison c;
-    c.size_a = size_of(a);
-    c.size_b = size_of(b);
+    c.size_a = fmt::format("{}x{}", a.width, a.height);
+    c.size_b = fmt::format("{}x{}", b.width, b.height);
     if (!c.same_size()) {
         c.verdict = Verdict::different;
         return c;
@@ -64,7 +49,8 @@ std::string to_text(const output::PictureDifference& d) {
     std::string text = fmt::format("{} of {} pixels ({:.3g} %), largest channel difference {} of 255", d.changed,
                                    d.pixels, 100 * d.share(), d.largest);
     if (d.changed > 0)
-        text += fmt::format(", within {}, {:.3g} % of them antialiasing", box_text(d.box),
+        text += fmt::format(", within {}x{}+{}+{}, {:.3g} % of them antialiasing", d.box.width(), d.box.height(),
+                            d.box.left, d.box.top,
                             100.0 * static_cast<double>(d.antialiased) / static_cast<double>(d.changed));
     return text + fmt::format(", SSIM {:.6f} (lowest window {:.4f})", d.ssim, d.lowest_ssim);
 }

@@ -10,7 +10,7 @@
 
 namespace beamcam::scenes {
 
-enum class Verdict {
+enum class Verdict {  // the worse, the greater
     identical,
     equivalent,    // not identical, but within the tolerance
     new_renderer,  // similar pictures of libraries or fonts of which no picture is accepted yet
@@ -18,8 +18,6 @@ enum class Verdict {
     missing  // one of the two does not exist
 };
 const char* name(Verdict verdict);
-// The worse of the two.
-Verdict worse(Verdict a, Verdict b);
 
 struct PictureComparison {
     std::string a, b;  // names of the two pictures
@@ -27,6 +25,7 @@ struct PictureComparison {
     std::string size_a, size_b;  // "1920x1080"; pictures of different sizes are not compared further
     output::PictureDifference difference;
     bool same_size() const { return size_a == size_b; }
+    double weight() const;  // size of the difference; reports begin with the largest
 };
 
 // `tolerance`: largest difference of a channel, 0…255, that counts as none.

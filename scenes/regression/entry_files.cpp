@@ -9,21 +9,16 @@ namespace beamcam::scenes {
 
 namespace fs = std::filesystem;
 
-std::string picture_name(long frame) { return fmt::format("{:04}.png", frame); }
 std::string picture_name(long frame, const std::string& renderer) {
-    return fmt::format("{:04}-{}.png", frame, renderer);
+    return fmt::format("{:04}{}{}.png", frame, renderer.empty() ? "" : "-", renderer);
 }
 
 fs::path report_picture(const std::string& entry, long frame, const char* kind) {
-    return fs::path(entry) / fmt::format("{:04}-{}.png", frame, kind);
+    return fs::path(entry) / picture_name(frame, kind);
 }
 
 EntryReferences::EntryReferences(const fs::path& all, std::string entry, ReferenceUpdate& update, Change change)
-    : folder(all / entry),
-      entry_(std::move(entry)),
-      update_(update),
-      change_(change),
-      marked_(marked_files(folder).value_or(ReferenceFiles{})) {
+    : folder(all / entry), entry_(std::move(entry)), update_(update), change_(change), marked_(marked_files(folder)) {
     if (change_ == Change::replace) replacement_ = update_.replace(entry_);
 }
 

@@ -1,4 +1,5 @@
-// The files of one entry during a test: its accepted references, their update, and its part of the report.
+// The files of one entry during a test: its accepted references, their update, and its part of the report; and what
+// else belongs to the entry.
 #pragma once
 
 #include <filesystem>
@@ -8,12 +9,12 @@
 
 #include "output/data/manifest.hpp"
 #include "scenes/regression/references.hpp"
+#include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
 
 // "0012.png"; of a renderer that draws another picture than the first one: "0012-0123456789ab.png".
-std::string picture_name(long frame);
-std::string picture_name(long frame, const std::string& renderer);
+std::string picture_name(long frame, const std::string& renderer = {});
 // In the folder of a report. `kind`: "actual", "expected", "difference".
 std::filesystem::path report_picture(const std::string& entry, long frame, const char* kind);
 
@@ -58,6 +59,16 @@ struct EntryReport {
 
     // A file of the entry; there must be a report.
     output::Target file(const std::string& name) const;
+};
+
+// What the judges of an entry's pictures and motion share.
+struct EntryContext {
+    const Baseline& entry;
+    EntryResult& result;
+    const std::string renderer;  // id of what draws it
+    const Tolerance tolerance;
+    EntryReferences references;
+    const EntryReport report;
 };
 
 }  // namespace beamcam::scenes

@@ -11,7 +11,6 @@
 #include "scenes/motions/progress.hpp"
 #include "scenes/regression/entry_files.hpp"
 #include "scenes/regression/motion_record.hpp"
-#include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
 
@@ -20,10 +19,7 @@ bool records_all_channels(const Baseline& entry);
 
 class EntryMotion {
   public:
-    // All references must outlive this.
-    EntryMotion(const Baseline& entry, const Tolerance& tolerance, const EntryReferences& references,
-                const EntryReport& report, EntryResult& result)
-        : entry_(entry), tolerance_(tolerance), references_(references), report_(report), result_(result) {}
+    explicit EntryMotion(const EntryContext& test) : test_(test) {}
 
     // `until`: the last instant that the entry shows [s].
     void judge(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
@@ -41,18 +37,14 @@ class EntryMotion {
   private:
     using Files = std::function<output::Target(const std::string& name)>;
 
-    bool is_reported() const { return report_.folder && *result_.motion > Verdict::equivalent; }
+    bool is_reported() const { return test_.report.folder && *test_.result.motion > Verdict::equivalent; }
     void store(const std::vector<std::string>& names, const std::function<void(const Files&)>& write);
     void judge_record(const RecordNames& names, const std::string& label, const sim::Table& table,
                       const std::vector<sim::Impact>& impacts, double until, double horizon);
     void add(const MotionVerdict& verdict, const std::string& label, const std::vector<std::string>& names);
     void add_missing(const std::string& label);
 
-    const Baseline& entry_;
-    const Tolerance& tolerance_;
-    const EntryReferences& references_;
-    const EntryReport& report_;
-    EntryResult& result_;
+    const EntryContext& test_;
 };
 
 }  // namespace beamcam::scenes

@@ -6,42 +6,18 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 
-#include "output/film/picture_source.hpp"
 #include "scenes/regression/entry_files.hpp"
-#include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
 
-// The pictures of a file of expected pictures, taken approximately in the order of their numbers, from any thread.
-class ExpectedPictures {
-  public:
-    // Throws IoError, MissingCodec.
-    explicit ExpectedPictures(const std::string& file) : source_(file) {}
-
-    std::optional<output::Raster> take(long frame);
-    bool has_more();  // whether some were not taken
-
-  private:
-    output::PictureSource source_;
-    std::map<long, output::Raster> ahead_;  // read but not taken yet
-    long next_ = 0;
-    std::mutex mutex_;
-};
+class ExpectedPictures;
 
 class EntryPictures {
   public:
-    // `renderer`: id of the renderer that draws. All references must outlive this.
-    EntryPictures(const Baseline& entry, const Tolerance& tolerance, const std::string& renderer,
-                  const EntryReferences& references, const EntryReport& report, EntryResult& result)
-        : entry_(entry),
-          tolerance_(tolerance),
-          renderer_(renderer),
-          references_(references),
-          report_(report),
-          result_(result) {}
+    explicit EntryPictures(const EntryContext& test);
+    ~EntryPictures();
 
     // From any thread.
     void judge(long frame, const render::Image& image);
@@ -63,15 +39,10 @@ class EntryPictures {
     void report_difference(long frame, const output::Raster& expected, const output::Raster& actual,
                            FrameResult& result);
     std::filesystem::path report(long frame, const char* kind, const output::Raster& picture);
-    std::string message(const std::pair<const long, FrameResult>& worst) const;
+    std::string message(const ChangedFrames& changed) const;
 
-    const Baseline& entry_;
-    const Tolerance& tolerance_;
-    const std::string& renderer_;
-    const EntryReferences& references_;
-    const EntryReport& report_;
-    EntryResult& result_;
-    std::mutex mutex_;  // guards what follows and result_.frames
+    const EntryContext& test_;
+    std::mutex mutex_;  // guards what follows and the frames of the result
     std::unique_ptr<ExpectedPictures> expected_;
 };
 

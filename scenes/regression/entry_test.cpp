@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "output/film/picture_source.hpp"
 #include "render/base/error.hpp"
 #include "scenes/outputs/run_context.hpp"
 
@@ -48,32 +49,32 @@ EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const Re
                      const Fingerprint& renderer, ReferenceUpdate& update, output::Manifest& report_files,
                      EntryResult& result)
     : baselines_(baselines),
-      entry_(entry),
       options_(options),
-      result_(result),
       renderer_(renderer),
-      renderer_id_(renderer.id()),
-      tolerance_(entry.tolerances.overridden_by({options.tolerance, {}}).of(renderer_id_)),
-      references_(baselines.references, entry.name, update, change_of(entry, options, renderer_id_)),
-      report_{options.report, report_files, entry.name},
-      pictures_(entry, tolerance_, renderer_id_, references_, report_, result),
-      motion_(entry, tolerance_, references_, report_, result) {
-    if (entry.has_pictures()) result_.picture = Verdict::identical;
-    if (entry.has_motion()) result_.motion = Verdict::identical;
+      test_{entry,
+            result,
+            renderer.id(),
+            entry.tolerances.overridden_by({options.tolerance, {}}).of(renderer.id()),
+            {baselines.references, entry.name, update, change_of(entry, options, renderer.id())},
+            {options.report, report_files, entry.name}},
+      pictures_(test_),
+      motion_(test_) {
+    if (entry.has_pictures()) test_.result.picture = Verdict::identical;
+    if (entry.has_motion()) test_.result.motion = Verdict::identical;
 }
 
 void EntryTest::require_reproducible(const sim::Result& motion, double until) {
     const std::vector<sim::Interval>& lost = motion.not_reproducible;
-    if (!result_.picture || !entry_.expected.empty() || lost.empty() || lost.front().from >= until) return;
-    result_.not_reproducible = fmt::format(
+    if (!test_.result.picture || !test_.entry.expected.empty() || lost.empty() || lost.front().from >= until) return;
+    test_.result.not_reproducible = fmt::format(
         "not accepted: it shows the motion until {:.6g} s, and {}; end it before that, or guard a trajectory or a "
         "sweep",
         until, motion.reproducibility);
-    if (is_updated()) throw render::PictureError(result_.not_reproducible);
+    if (is_updated()) throw render::PictureError(test_.result.not_reproducible);
 }
 
 void EntryTest::judge_file() {
-    output::PictureSource source(entry_.file);
+    output::PictureSource source(test_.entry.file);
     output::Raster picture;
     std::string name;
     for (long frame = 0; source.next(picture, name); ++frame) {
@@ -83,17 +84,17 @@ void EntryTest::judge_file() {
 }
 
 void EntryTest::finish() {
-    if (result_.picture) pictures_.conclude();
+    if (test_.result.picture) pictures_.conclude();
 }
 
 void EntryTest::fail(const std::string& reason, Verdict verdict, int exit_code) {
-    if (result_.picture) result_.picture = verdict;
-    if (result_.motion) result_.motion = verdict;
-    (result_.motion ? result_.motion_lines : result_.picture_lines) = {reason};
-    result_.exit_code = exit_code;
-    result_.frames.clear();  // a report of them must not be accepted
-    result_.motion_files.clear();
-    references_.drop();
+    if (test_.result.picture) test_.result.picture = verdict;
+    if (test_.result.motion) test_.result.motion = verdict;
+    (test_.result.motion ? test_.result.motion_lines : test_.result.picture_lines) = {reason};
+    test_.result.exit_code = exit_code;
+    test_.result.frames.clear();  // a report of them must not be accepted
+    test_.result.motion_files.clear();
+    test_.references.drop();
 }
 
 bool EntryTest::attempt(const std::function<void()>& work) {
@@ -116,25 +117,25 @@ bool EntryTest::attempt(const std::function<void()>& work) {
 
 void EntryTest::judge_renderer() {
     const auto has_accepted_reference = [](const auto& frame) { return frame.second.reference_accepted; };
-    has_new_renderer_ = result_.picture == Verdict::different && result_.exit_code == 0 &&
-                        result_.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
-                        is_new_renderer(entry_, renderer_id_) &&
-                        std::ranges::all_of(result_.frames, has_accepted_reference) &&
-                        entry_.accepted.front().sha256.size() == result_.frames.size();
+    has_new_renderer_ = test_.result.picture == Verdict::different && test_.result.exit_code == 0 &&
+                        test_.result.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
+                        is_new_renderer(test_.entry, test_.renderer) &&
+                        std::ranges::all_of(test_.result.frames, has_accepted_reference) &&
+                        test_.entry.accepted.front().sha256.size() == test_.result.frames.size();
     if (!has_new_renderer_) return;
     const auto is_similar = [](const auto& each) {
         const FrameResult& frame = each.second;
         return frame.verdict == Verdict::identical ||
                (frame.compared && frame.comparison.same_size() && frame.comparison.difference.ssim > kSimilar);
     };
-    if (std::ranges::all_of(result_.frames, is_similar)) result_.picture = Verdict::new_renderer;
-    if (!options_.add_digest) result_.picture_lines.push_back(renderer_message());
+    if (std::ranges::all_of(test_.result.frames, is_similar)) test_.result.picture = Verdict::new_renderer;
+    if (!options_.add_digest) test_.result.picture_lines.push_back(renderer_message());
 }
 
 std::string EntryTest::renderer_message() const {
-    std::string text = fmt::format("no picture of this renderer, {} (beamcam doctor), is accepted yet", renderer_id_);
+    std::string text = fmt::format("no picture of this renderer, {} (beamcam doctor), is accepted yet", test_.renderer);
     std::optional<std::pair<std::vector<std::string>, std::string>> nearest;  // different parts, and the id
-    for (const Accepted& accepted : entry_.accepted)
+    for (const Accepted& accepted : test_.entry.accepted)
         if (const auto parts = baselines_.renderers.find(accepted.renderer); parts != baselines_.renderers.end()) {
             auto differing = differences(renderer_.parts, parts->second);
             if (!nearest || differing.size() < nearest->first.size())
@@ -146,36 +147,36 @@ std::string EntryTest::renderer_message() const {
 
 // Then the accepted pictures, also of other renderers, stay.
 bool EntryTest::has_new_motion_only() const {
-    return result_.picture == Verdict::identical && result_.motion && !result_.frames.empty() &&
-           !entry_.accepted.empty() && entry_.expected.empty();
+    return test_.result.picture == Verdict::identical && test_.result.motion && !test_.result.frames.empty() &&
+           !test_.entry.accepted.empty() && test_.entry.expected.empty();
 }
 
 std::optional<BaselineEdit> EntryTest::edit() {
-    BaselineEdit change{entry_.name, entry_.accepted, entry_.reproducible_until};
-    Accepted own{renderer_id_, {}};
-    for (const auto& [number, frame] : result_.frames) own.sha256.push_back(frame.sha256);
+    BaselineEdit change{test_.entry.name, test_.entry.accepted, test_.entry.reproducible_until};
+    Accepted own{test_.renderer, {}};
+    for (const auto& [number, frame] : test_.result.frames) own.sha256.push_back(frame.sha256);
     if (is_updated()) {
         if (has_new_motion_only()) {
-            for (const auto& [number, frame] : result_.frames)
-                fs::remove(references_.new_folder() / picture_name(number));
-            references_.keep_others();
+            for (const auto& [number, frame] : test_.result.frames)
+                fs::remove(test_.references.new_folder() / picture_name(number));
+            test_.references.keep_others();
         } else {
             change.accepted.clear();
-            if (result_.picture && entry_.expected.empty()) change.accepted.push_back(std::move(own));
+            if (test_.result.picture && test_.entry.expected.empty()) change.accepted.push_back(std::move(own));
         }
-        if (result_.motion) change.reproducible_until = result_.reproducible_until;
-        result_.updated = true;
+        if (test_.result.motion) change.reproducible_until = test_.result.reproducible_until;
+        test_.result.updated = true;
         return change;
     }
-    const bool added = options_.add_digest ? has_new_renderer_ || result_.picture == Verdict::equivalent
-                                           : result_.picture == Verdict::new_renderer &&
+    const bool added = options_.add_digest ? has_new_renderer_ || test_.result.picture == Verdict::equivalent
+                                           : test_.result.picture == Verdict::new_renderer &&
                                                  options_.rule.new_renderer == NewRenderer::accept;
-    if (!added || !entry_.expected.empty()) {
-        references_.drop();
+    if (!added || !test_.entry.expected.empty()) {
+        test_.references.drop();
         return std::nullopt;
     }
     change.accepted.push_back(std::move(own));
-    result_.digest_added = true;
+    test_.result.digest_added = true;
     return change;
 }
 

@@ -24,13 +24,13 @@ class EntryTest {
               const Fingerprint& renderer, ReferenceUpdate& update, output::Manifest& report_files,
               EntryResult& result);
 
-    const Baseline& entry() const { return entry_; }
-    bool needs_motion() const { return result_.motion.has_value(); }
-    void ignore_motion() { result_.motion.reset(); }
-    bool is_updated() const { return references_.is_replaced(); }
+    const Baseline& entry() const { return test_.entry; }
+    bool needs_motion() const { return test_.result.motion.has_value(); }
+    void ignore_motion() { test_.result.motion.reset(); }
+    bool is_updated() const { return test_.references.is_replaced(); }
     // Acceptance depends on the horizon to which the motion is reproducible.
-    bool needs_horizon() const { return is_updated() || report_.folder; }
-    EntryResult& result() { return result_; }
+    bool needs_horizon() const { return is_updated() || test_.report.folder; }
+    EntryResult& result() { return test_.result; }
     EntryPictures& pictures() { return pictures_; }  // from any thread
     EntryMotion& motion() { return motion_; }
     void judge_file();
@@ -58,14 +58,9 @@ class EntryTest {
     bool has_new_motion_only() const;
 
     const Baselines& baselines_;
-    const Baseline& entry_;
     const RegressionOptions& options_;
-    EntryResult& result_;
     const Fingerprint& renderer_;
-    const std::string renderer_id_;
-    const Tolerance tolerance_;
-    EntryReferences references_;
-    const EntryReport report_;
+    EntryContext test_;
     EntryPictures pictures_;
     EntryMotion motion_;
     bool has_new_renderer_ = false;

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "output/files/target.hpp"
 #include "scenes/regression/baselines.hpp"
 #include "scenes/regression/comparison.hpp"

@@ -192,9 +192,9 @@ void remove_staging(const fs::path& staging) {
 
 }  // namespace
 
-std::optional<ReferenceFiles> marked_files(const fs::path& folder) {
-    if (!output::path_exists(folder / kMarker)) return std::nullopt;
+ReferenceFiles marked_files(const fs::path& folder) {
     ReferenceFiles files;
+    if (!output::path_exists(folder / kMarker)) return files;
     for (std::istringstream& line : lines_of(folder / kMarker, kMarkerFormat)) {
         const ReferenceFile file{word_of(line), word_of(line)};
         if (const std::string name = rest_of(line); is_file_name(name)) files[name] = file;
@@ -262,10 +262,9 @@ fs::path ReferenceUpdate::open(const std::string& entry, bool keeps_others) {
     if (fs::is_symlink(folder, error)) fail(folder, "is a symbolic link");
     if (output::path_exists(folder)) {
         if (!fs::is_directory(folder)) fail(folder, "is not a directory");
-        const auto marked = marked_files(folder);
-        if (!marked && !force_ && !fs::is_empty(folder))
+        if (!output::path_exists(folder / kMarker) && !force_ && !fs::is_empty(folder))
             fail(folder, "is not a folder of references that beamcam made");
-        for (const auto& [name, file] : marked.value_or(ReferenceFiles{}))
+        for (const auto& [name, file] : marked_files(folder))
             if (const std::string now = digest_of(folder / name); !force_ && !now.empty() && now != file.sha256)
                 fail(folder / name, "was changed after beamcam made it");
     }
@@ -295,7 +294,7 @@ void ReferenceUpdate::commit(const std::string& expected, const std::string& tex
 void ReferenceUpdate::add_tasks(const std::string& entry, bool keeps_others,
                                 const std::map<std::string, std::string>& pixels, std::vector<Task>& tasks) const {
     const fs::path folder = folder_of(entry), fresh_folder = staged(entry);
-    const ReferenceFiles old = marked_files(folder).value_or(ReferenceFiles{});
+    const ReferenceFiles old = marked_files(folder);
     ReferenceFiles fresh;
     for (const std::string& name : files_in(fresh_folder)) {
         const auto picture = pixels.find(name);

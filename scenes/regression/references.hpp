@@ -12,7 +12,6 @@
 #include <map>
 #include <memory>
 #include <mutex>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,8 +25,8 @@ struct ReferenceFile {
 };
 using ReferenceFiles = std::map<std::string, ReferenceFile>;  // by file name
 
-// The files that the marker of a folder lists; nothing if there is no marker. Throws IoError.
-std::optional<ReferenceFiles> marked_files(const std::filesystem::path& folder);
+// The files that the marker of a folder lists; none if there is no marker. Throws IoError.
+ReferenceFiles marked_files(const std::filesystem::path& folder);
 
 // Functions may be called from any thread.
 class ReferenceUpdate {

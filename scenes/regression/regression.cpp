@@ -15,30 +15,16 @@
 namespace beamcam::scenes {
 namespace {
 
-// What draws the pictures of an entry.
-enum class Renderer { none, flat, lit, figure, other_program };
+// Identifies what draws the pictures of an entry.
+using Renderer = Fingerprint (*)();
 
 Renderer renderer_of(const Baseline& entry) {
-    if (!entry.file.empty()) return Renderer::other_program;
-    if (!entry.has_pictures()) return Renderer::none;
+    if (!entry.file.empty()) return [] { return Fingerprint{{{"pictures", "of another tool"}}}; };
+    if (!entry.has_pictures()) return [] { return Fingerprint(); };
     const Picture* picture = entry.picture();
-    return !picture ? Renderer::figure : picture->view.style == render::Style::flat ? Renderer::flat : Renderer::lit;
-}
-
-Fingerprint fingerprint_of(Renderer renderer) {
-    switch (renderer) {
-        case Renderer::none:
-            return {};
-        case Renderer::flat:
-            return flat_fingerprint();
-        case Renderer::lit:
-            return lit_fingerprint();
-        case Renderer::figure:
-            return figure_fingerprint();
-        case Renderer::other_program:
-            return {{{"pictures", "of another tool"}}};
-    }
-    throw std::logic_error("a renderer without fingerprint");
+    return !picture                                     ? figure_fingerprint
+           : picture->view.style == render::Style::flat ? flat_fingerprint
+                                                        : lit_fingerprint;
 }
 
 class Regression {
@@ -78,7 +64,7 @@ class Regression {
             }
             const Renderer renderer = renderer_of(*chosen[i]);
             try {
-                if (!fingerprints_.contains(renderer)) fingerprints_[renderer] = fingerprint_of(renderer);
+                if (!fingerprints_.contains(renderer)) fingerprints_[renderer] = renderer();
                 tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, fingerprints_[renderer],
                                                              update_, report_files_, result));
             } catch (const render::MissingPart& error) {  // such as OpenGL for a lit view

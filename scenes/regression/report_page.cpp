@@ -1,7 +1,7 @@
 // The HTML page of a regression test: a table of all entries, and the pictures of those that changed.
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <ranges>
 
 #include "output/files/atomic_file.hpp"
 #include "scenes/regression/entry_pictures.hpp"
@@ -83,17 +83,7 @@ std::string frame_html(const EntryResult& entry, long number, const FrameResult&
     return fmt::format("{}<div class=\"views\">\n{}{}</div>\n", title, choices, figures);
 }
 
-// The pictures that changed most.
-std::vector<std::pair<long, const FrameResult*>> worst_frames(const EntryResult& entry) {
-    constexpr std::size_t kMost = 4;
-    std::vector<std::pair<long, const FrameResult*>> frames;
-    for (const auto& [number, frame] : entry.frames)
-        if (frame.verdict != Verdict::identical) frames.emplace_back(number, &frame);
-    std::stable_sort(frames.begin(), frames.end(),
-                     [](const auto& a, const auto& b) { return a.second->weight() > b.second->weight(); });
-    if (frames.size() > kMost) frames.resize(kMost);
-    return frames;
-}
+constexpr std::size_t kMostShown = 4;  // pictures of an entry
 
 std::string section_html(const EntryResult& entry, const char* classes) {
     std::string out = fmt::format("<section id=\"{0}\" class=\"{1}\"><h2>{0} <span class=\"{2}\">{2}</span></h2>\n",
@@ -104,7 +94,8 @@ std::string section_html(const EntryResult& entry, const char* classes) {
     if (!entry.new_digest.empty())
         out += fmt::format("<p class=\"soft\">expected <code>{}</code><br>actual <code>{}</code></p>\n",
                            entry.old_digest.empty() ? "none" : entry.old_digest, entry.new_digest);
-    for (const auto& [number, frame] : worst_frames(entry)) out += frame_html(entry, number, *frame);
+    for (const auto& [number, frame] : entry.changed_frames() | std::views::take(kMostShown))
+        out += frame_html(entry, number, *frame);
     return out + "</section>\n";
 }
 

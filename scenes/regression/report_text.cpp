@@ -95,8 +95,9 @@ std::string to_text(const RegressionResult& result, const PassRule& rule, bool f
     for (const EntryResult& entry : result.entries) {
         if (failures_only && !entry.updated && rule.passes(entry)) continue;
         text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, describe(entry, " | "));
-        const auto* worst = entry.worst();
-        if (worst && entry.picture != Verdict::equivalent) text += frame_files(worst->second);
+        if (const ChangedFrames changed = entry.changed_frames();
+            !changed.empty() && entry.picture != Verdict::equivalent)
+            text += frame_files(*changed.front().second);
         if (entry.updated)
             text += entry.new_digest.empty()
                         ? "    updated\n"

@@ -4,25 +4,9 @@
 
 namespace beamcam::scenes {
 
-double FrameResult::weight() const {
-    if (verdict == Verdict::identical) return -1;
-    if (!compared || !comparison.same_size()) return 1e300;
-    return static_cast<double>(comparison.difference.changed) + comparison.difference.largest / 256.0;
-}
-
 bool PassRule::passes(Verdict verdict) const {
-    switch (verdict) {
-        case Verdict::identical:
-            return true;
-        case Verdict::equivalent:
-            return !strict;
-        case Verdict::new_renderer:
-            return new_renderer != NewRenderer::fail;
-        case Verdict::different:
-        case Verdict::missing:
-            break;
-    }
-    return false;
+    return verdict == Verdict::identical || (verdict == Verdict::equivalent && !strict) ||
+           (verdict == Verdict::new_renderer && new_renderer != NewRenderer::fail);
 }
 
 bool PassRule::passes(const EntryResult& entry) const {
@@ -30,20 +14,15 @@ bool PassRule::passes(const EntryResult& entry) const {
 }
 
 Verdict EntryResult::verdict() const {
-    return worse(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
+    return std::max(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
 }
 
-const std::pair<const long, FrameResult>* EntryResult::worst() const {
-    const std::pair<const long, FrameResult>* worst = nullptr;
-    for (const auto& frame : frames)
-        if (frame.second.verdict != Verdict::identical && (!worst || frame.second.weight() > worst->second.weight()))
-            worst = &frame;
-    return worst;
-}
-
-std::size_t EntryResult::frames_with(Verdict verdict) const {
-    return static_cast<std::size_t>(
-        std::count_if(frames.begin(), frames.end(), [verdict](const auto& f) { return f.second.verdict == verdict; }));
+ChangedFrames EntryResult::changed_frames() const {
+    ChangedFrames changed;
+    for (const auto& [number, frame] : frames)
+        if (frame.verdict != Verdict::identical) changed.emplace_back(number, &frame);
+    std::ranges::stable_sort(changed, std::greater(), [](const auto& each) { return each.second->weight(); });
+    return changed;
 }
 
 }  // namespace beamcam::scenes

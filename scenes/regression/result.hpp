@@ -19,9 +19,10 @@ struct FrameResult {
     bool compared = false;                               // with a reference picture
     bool reference_accepted = true;                      // the reference picture belongs to an accepted digest
     std::filesystem::path expected, actual, difference;  // files, if they exist
-    // Size of the difference; reports begin with the largest.
-    double weight() const;
+    double weight() const { return compared ? comparison.weight() : 1e300; }
 };
+
+using ChangedFrames = std::vector<std::pair<long, const FrameResult*>>;  // with their numbers
 
 struct EntryResult {
     std::string name;
@@ -38,9 +39,8 @@ struct EntryResult {
     int exit_code = 0;     // of the program if the entry could not be compared; 0: it was compared
 
     Verdict verdict() const;
-    // The frame that changed most; null: none changed.
-    const std::pair<const long, FrameResult>* worst() const;
-    std::size_t frames_with(Verdict verdict) const;
+    // The frames that are not identical; those that changed most come first.
+    ChangedFrames changed_frames() const;
 };
 
 // Pictures of a new renderer fail, pass with a warning, or pass and are accepted.

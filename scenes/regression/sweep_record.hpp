@@ -2,7 +2,7 @@
 // compared point by point: settled motions by their numbers, others by their statistics.
 #pragma once
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "scenes/regression/motion_record.hpp"
 
 namespace beamcam::scenes {

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {

@@ -4,11 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "output/data/netcdf_library.hpp"
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "scenes/sweep/problem_family.hpp"
 #include "sim/problem/number_keys.hpp"
@@ -27,10 +26,7 @@ std::vector<double> lasting_classes() {
 
 // A NetCDF file gives the same rows as the .csv file of the sweep.
 output::NamedTable sweep_table(const std::string& file) {
-    if (!file.ends_with(".nc")) return output::read_table(file);
-    std::ostringstream text;
-    output::write_sweep_csv(text, output::netcdf_library().open(file));
-    return output::parse_csv(text.str(), file);
+    return file.ends_with(".nc") ? table_of(output::netcdf_library().open(file)) : output::read_table(file);
 }
 
 }  // namespace

@@ -1,5 +1,5 @@
 // The reader of CSV tables: columns of one length, or the place of what is wrong.
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "tests/fuzz/support.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

@@ -2,7 +2,7 @@
 // hardly ever guess one.
 #include <libdeflate.h>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "tests/fuzz/support.hpp"
 
 namespace {

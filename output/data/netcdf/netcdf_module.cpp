@@ -69,12 +69,6 @@ class File {
     int id = -1;
 };
 
-// Variables with one value for each point, in the order of StoredPoint.
-constexpr const char* kPointNumbers[] = {"impacts_per_period", "exponent", "exponent_error"};
-constexpr const char* kPointMeanings[] = {"Impacts in a period; in a turn of the cam where there is none",
-                                          "Largest Lyapunov exponent", "Its standard error"};
-constexpr const char* kPointUnits[] = {"1", "s-1", "s-1"};
-
 std::string udunits(const std::string& unit) {
     if (unit == "rad/s") return "rad s-1";
     if (unit == "m/s") return "m s-1";
@@ -163,7 +157,7 @@ class Writer {
         all.push_back(dimension("sample", extent_[3]));
         sample_ = variable("sample", NC_INT, {all.back()}, "1", "Number of the sample");
         define_points(point);
-        for (const SweepColumn& column : data_.columns) {
+        for (const TableColumn& column : data_.columns) {
             const int id = variable(column.name, NC_DOUBLE, all, column.unit, column.meaning);
             need(nc_def_var_fill(file_->id, id, NC_FILL, &kNone));
             compress(id, {chunk_.begin(), chunk_.end()});
@@ -186,8 +180,8 @@ class Writer {
             kind, variable("period", NC_INT, point, "1", "Period in turns of the cam; 0: none"),
             variable("sample_count", NC_INT, point, "1", "Samples of the point; -1: not in this file")};
         for (const int id : {all[1], all[2]}) need(nc_def_var_fill(file_->id, id, NC_FILL, &kMissing));
-        for (std::size_t k = 0; k < std::size(kPointNumbers); ++k) {
-            all.push_back(variable(kPointNumbers[k], NC_DOUBLE, point, kPointUnits[k], kPointMeanings[k]));
+        for (const PointNumber& number : kPointNumbers) {
+            all.push_back(variable(number.name, NC_DOUBLE, point, number.unit, number.meaning));
             need(nc_def_var_fill(file_->id, all.back(), NC_FILL, &kNone));
         }
         std::vector<std::size_t> chunk(3);
@@ -210,8 +204,8 @@ class Writer {
         class_ = chunks.variable("class");
         period_ = chunks.variable("period");
         count_ = chunks.variable("sample_count");
-        for (const char* name : kPointNumbers) numbers_.push_back(chunks.variable(name));
-        for (const SweepColumn& column : data_.columns) columns_.push_back(chunks.variable(column.name));
+        for (const PointNumber& number : kPointNumbers) numbers_.push_back(chunks.variable(number.name));
+        for (const TableColumn& column : data_.columns) columns_.push_back(chunks.variable(column.name));
     }
 
     // The points of one chunk; points that this file does not contain are empty.
@@ -244,9 +238,7 @@ class Writer {
             kinds.push_back(static_cast<signed char>(p.kind));
             periods.push_back(here ? p.period : kMissing);
             counts.push_back(here ? static_cast<int>(p.samples.size() / columns_.size()) : kMissing);
-            numbers[0].push_back(p.impacts_per_period);
-            numbers[1].push_back(p.exponent);
-            numbers[2].push_back(p.exponent_error);
+            for (std::size_t k = 0; k < std::size(kPointNumbers); ++k) numbers[k].push_back(p.*kPointNumbers[k].value);
         }
         chunks.write(class_, at, size, kinds.data());
         chunks.write(period_, at, size, periods.data());
@@ -348,9 +340,8 @@ class Reader {
         need(nc_get_var1_schar(file_->id, file_->variable("class"), at.data(), &kind));
         p.kind = kind;
         need(nc_get_var1_int(file_->id, file_->variable("period"), at.data(), &p.period));
-        double* const numbers[] = {&p.impacts_per_period, &p.exponent, &p.exponent_error};
-        for (std::size_t k = 0; k < std::size(numbers); ++k)
-            need(nc_get_var1_double(file_->id, file_->variable(kPointNumbers[k]), at.data(), numbers[k]));
+        for (const PointNumber& number : kPointNumbers)
+            need(nc_get_var1_double(file_->id, file_->variable(number.name), at.data(), &(p.*number.value)));
         const std::size_t rows = static_cast<std::size_t>(counts_[point]), width = columns_.size();
         std::vector<std::size_t> size(at.size(), 1);
         size.back() = rows;

@@ -1,8 +1,6 @@
 // Joins films without encoding them again.
 #include <algorithm>
 #include <cstdint>
-#include <memory>
-#include <new>
 #include <string>
 #include <vector>
 
@@ -89,8 +87,6 @@ class Joiner {
     Joiner(const std::vector<Segment>& segments, const std::filesystem::path& file, const std::filesystem::path& named,
            const std::string& container)
         : file_(file, named, container) {
-        packet_.reset(av_packet_alloc());
-        if (!packet_) throw std::bad_alloc();
         const Segment &first = segments.front(), &last = segments.back();
         AVStream& stream = file_.stream();
         const int code = avcodec_parameters_copy(stream.codecpar, first.stream->codecpar);
@@ -139,10 +135,6 @@ class Joiner {
     }
 
   private:
-    struct FreePacket {
-        void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-    };
-
     // So small that the sum of three does not overflow. Excludes AV_NOPTS_VALUE, the smallest number.
     static bool is_instant(std::int64_t stamp) {
         constexpr std::int64_t kFar = std::int64_t(1) << 60;
@@ -164,7 +156,7 @@ class Joiner {
     }
 
     OutputFile file_;
-    std::unique_ptr<AVPacket, FreePacket> packet_;
+    Owned<AVPacket> packet_ = owned(av_packet_alloc());
     std::int64_t frames_ = 0;
 };
 

@@ -51,12 +51,6 @@ class FfmpegDecoder : public Decoder {
     }
 
   private:
-    struct Free {
-        void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-        void operator()(AVFrame* frame) const { av_frame_free(&frame); }
-        void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-    };
-
     void open_codec() {
         const AVCodecParameters* parameters = stream_->codecpar;
         const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
@@ -64,10 +58,7 @@ class FfmpegDecoder : public Decoder {
             throw MissingCodec(
                 "cannot read " + file_.file().string() + ": the FFmpeg libraries on this machine have no decoder for " +
                 avcodec_get_name(parameters->codec_id) + "; install the distribution's full build of libavcodec");
-        codec_.reset(avcodec_alloc_context3(decoder));
-        packet_.reset(av_packet_alloc());
-        frame_.reset(av_frame_alloc());
-        if (!codec_ || !packet_ || !frame_) throw std::bad_alloc();
+        codec_ = owned(avcodec_alloc_context3(decoder));
         int code = avcodec_parameters_to_context(codec_.get(), parameters);
         if (code < 0) file_.refuse(kDamaged, code);
         codec_->thread_count = 0;  // one for each core
@@ -156,9 +147,9 @@ class FfmpegDecoder : public Decoder {
 
     InputFile file_;
     const AVStream* stream_ = nullptr;
-    std::unique_ptr<AVCodecContext, Free> codec_;
-    std::unique_ptr<AVPacket, Free> packet_;
-    std::unique_ptr<AVFrame, Free> frame_;
+    Owned<AVCodecContext> codec_;
+    Owned<AVPacket> packet_ = owned(av_packet_alloc());
+    Owned<AVFrame> frame_ = owned(av_frame_alloc());
     SwsContext* scaler_ = nullptr;
     AVPixelFormat scaler_from_ = AV_PIX_FMT_NONE;
     bool drained_ = false;  // the decoder has received the end of the film

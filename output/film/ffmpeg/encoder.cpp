@@ -1,7 +1,6 @@
 // Encodes films: encoders of libavcodec, containers of libavformat.
 #include <cstring>
 #include <memory>
-#include <new>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,14 +17,7 @@ namespace beamcam::output::ffmpeg {
 namespace {
 
 struct OwnedFrame : FramePlanes {
-    AVFrame* av = av_frame_alloc();
-
-    OwnedFrame() {
-        if (av == nullptr) throw std::bad_alloc();
-    }
-    ~OwnedFrame() { av_frame_free(&av); }
-    OwnedFrame(const OwnedFrame&) = delete;
-    OwnedFrame& operator=(const OwnedFrame&) = delete;
+    Owned<AVFrame> av = owned(av_frame_alloc());
 
     void show_planes() {
         for (int i = 0; i < 4; ++i) {
@@ -66,9 +58,6 @@ class FfmpegEncoder : public Encoder {
   public:
     explicit FfmpegEncoder(const EncoderSettings& s)
         : encoder_(first_encoder(s)), file_(s.file, s.named, s.container), settings_(s) {
-        packet_.reset(av_packet_alloc());
-        codec_.reset(avcodec_alloc_context3(&encoder_));
-        if (!packet_ || !codec_) throw std::bad_alloc();
         describe_pictures();
         open_codec();
         open_file();
@@ -87,7 +76,7 @@ class FfmpegEncoder : public Encoder {
         frame->av->color_trc = codec_->color_trc;
         frame->av->colorspace = codec_->colorspace;
         frame->av->color_range = codec_->color_range;
-        if (const int code = av_frame_get_buffer(frame->av, 0); code < 0) fail("making a frame", code);
+        if (const int code = av_frame_get_buffer(frame->av.get(), 0); code < 0) fail("making a frame", code);
         if (settings_.palette) std::memcpy(frame->av->data[1], settings_.palette->data(), 1024);
         frame->show_planes();
         frames_.push_back(std::move(frame));
@@ -97,11 +86,11 @@ class FfmpegEncoder : public Encoder {
     void encode(FramePlanes& planes) override {
         auto& frame = static_cast<OwnedFrame&>(planes);
         frame.av->pts = next_frame_++;
-        int code = avcodec_send_frame(codec_.get(), frame.av);
+        int code = avcodec_send_frame(codec_.get(), frame.av.get());
         if (code < 0) fail("encoding", code);
         drain();
         // x264 has copied the picture; an encoder that still reads it keeps the old buffer.
-        code = av_frame_make_writable(frame.av);
+        code = av_frame_make_writable(frame.av.get());
         if (code < 0) fail("encoding", code);
         frame.show_planes();
     }
@@ -116,13 +105,6 @@ class FfmpegEncoder : public Encoder {
     }
 
   private:
-    struct FreePacket {
-        void operator()(AVPacket* packet) const { av_packet_free(&packet); }
-    };
-    struct FreeCodec {
-        void operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
-    };
-
     void describe_pictures() {
         codec_->width = settings_.width;
         codec_->height = settings_.height;
@@ -183,14 +165,13 @@ class FfmpegEncoder : public Encoder {
     void run_dry() noexcept {
         if (!codec_ || !avcodec_is_open(codec_.get()) || ended_ || std::strcmp(encoder_.name, "libsvtav1") != 0) return;
         if (next_frame_ == 0) {
-            AVFrame* blank = av_frame_alloc();
-            if (blank == nullptr) return;
+            const Owned<AVFrame> blank(av_frame_alloc());
+            if (!blank) return;
             blank->format = codec_->pix_fmt;
             blank->width = codec_->width;
             blank->height = codec_->height;
             blank->pts = 0;
-            if (av_frame_get_buffer(blank, 0) >= 0) avcodec_send_frame(codec_.get(), blank);
-            av_frame_free(&blank);
+            if (av_frame_get_buffer(blank.get(), 0) >= 0) avcodec_send_frame(codec_.get(), blank.get());
         }
         avcodec_send_frame(codec_.get(), nullptr);
         while (avcodec_receive_packet(codec_.get(), packet_.get()) >= 0) av_packet_unref(packet_.get());
@@ -199,8 +180,8 @@ class FfmpegEncoder : public Encoder {
     const AVCodec& encoder_;
     OutputFile file_;
     EncoderSettings settings_;
-    std::unique_ptr<AVPacket, FreePacket> packet_;
-    std::unique_ptr<AVCodecContext, FreeCodec> codec_;
+    Owned<AVPacket> packet_ = owned(av_packet_alloc());
+    Owned<AVCodecContext> codec_ = owned(avcodec_alloc_context3(&encoder_));
     std::vector<std::unique_ptr<OwnedFrame>> frames_;
     std::int64_t next_frame_ = 0;
     bool ended_ = false;  // all packets are written

@@ -96,6 +96,10 @@ const Library kLibrary;
 
 }  // namespace
 
+void Free::operator()(AVPacket* packet) const { av_packet_free(&packet); }
+void Free::operator()(AVFrame* frame) const { av_frame_free(&frame); }
+void Free::operator()(AVCodecContext* codec) const { avcodec_free_context(&codec); }
+
 std::string reason(int code) {
     std::array<char, AV_ERROR_MAX_STRING_SIZE> text{};
     av_strerror(code, text.data(), text.size());

@@ -3,16 +3,33 @@
 
 #include <filesystem>
 #include <memory>
+#include <new>
 #include <string>
 
 #include "output/film/video_library.hpp"
 
+struct AVCodecContext;
 struct AVDictionary;
 struct AVFormatContext;
+struct AVFrame;
 struct AVPacket;
 struct AVStream;
 
 namespace beamcam::output::ffmpeg {
+
+// Objects of FFmpeg. Throws std::bad_alloc for a null pointer.
+struct Free {
+    void operator()(AVPacket* packet) const;
+    void operator()(AVFrame* frame) const;
+    void operator()(AVCodecContext* codec) const;
+};
+template <class Object>
+using Owned = std::unique_ptr<Object, Free>;
+template <class Object>
+Owned<Object> owned(Object* made) {
+    if (made == nullptr) throw std::bad_alloc();
+    return Owned<Object>(made);
+}
 
 // FFmpeg's message for a negative status.
 std::string reason(int code);

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "output/data/table_reader.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"

@@ -105,7 +105,7 @@ TEST(Summary, HasEveryNameInItsOrder) {
     result.reproducibility = "not all along";
     const std::string printed = [&] {
         Scratch scratch;
-        write_summary(scratch / "s.json", {}, result, kTheta);
+        write_file(scratch / "s.json", summary_json({}, result, kTheta));
         return output_of(
             "/usr/bin/python3 -c 'import json, sys\n"
             "s = json.load(open(sys.argv[1]))\n"

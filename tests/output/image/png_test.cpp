@@ -6,7 +6,7 @@
 #include <array>
 #include <cmath>
 
-#include "output/image/pixels.hpp"
+#include "output/image/raster.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "scenes/scene/film_times.hpp"
 #include "tests/scenes/support.hpp"
 

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <sstream>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/plan/plan.hpp"
 #include "sim/beam/modes.hpp"

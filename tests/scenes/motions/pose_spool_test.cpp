@@ -47,7 +47,7 @@ Both run(const sim::Problem& problem, int frames, double end) {
     const sim::PoseRequest held{.times = instants(frames, end), .stations = kStations};
     sim::PoseRequest handed_on = held;
     Both both;
-    both.spooled = std::make_shared<PoseSpool>(held.times.size(), kStations);
+    both.spooled = std::make_shared<PoseSpool>(held);
     handed_on.take = [&](std::size_t row, const sim::Pose& pose) { both.spooled->put(row, pose); };
     sim::Request request;
     request.end_time = end;
@@ -72,7 +72,7 @@ TEST(PoseSpool, AreThePosesToTheBit) {
 }
 
 TEST(PoseSpool, OtherStationsHaveNoPlace) {
-    PoseSpool poses(2, 5);
+    PoseSpool poses({.times = {0, 1}, .stations = 5});
     sim::Pose pose;
     pose.centreline.resize(4), pose.moment.resize(4);
     EXPECT_THROW(poses.put(0, pose), std::invalid_argument);
@@ -82,7 +82,7 @@ TEST(PoseSpool, OtherStationsHaveNoPlace) {
 }
 
 TEST(PoseSpool, ASurveyBegunAnewForgetsItsContacts) {
-    SampledPoses poses(1, 2, 5);
+    PoseSpool poses({.times = {0}, .stations = 5, .contacts = 2});
     sim::Pose pose;
     pose.centreline.resize(5), pose.moment.resize(5);
     for (std::size_t row : {0, 1, 2}) poses.put(row, pose);

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "output/data/table_reader.hpp"
+#include "output/data/tables.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "tests/scenes/support.hpp"
 
