@@ -1,86 +1,90 @@
-// Numbers with eight directional derivatives (forward-mode automatic differentiation): a function of jets returns its
-// value and its exact derivatives along eight tangents.
+// Numbers with derivatives (forward-mode automatic differentiation): a function of them returns its value and its exact
+// derivatives.
 #pragma once
 
 #include <cmath>
-#include <vector>
+#include <cstddef>
 
 #include "sim/base/lanes.hpp"
 
 namespace beamcam::sim {
 
+// A value and its derivatives, each a number of type V or several of them side by side.
+template <class V, class D>
+struct Dual {
+    V v{};
+    D d{};
+
+    Dual() = default;
+    Dual(double value) : v(value) {}  // a constant
+    Dual(const V& value, const D& derivatives) : v(value), d(derivatives) {}
+
+    friend Dual operator-(const Dual& a) { return {-a.v, -a.d}; }
+    friend Dual operator+(const Dual& a, const Dual& b) { return {a.v + b.v, a.d + b.d}; }
+    friend Dual operator-(const Dual& a, const Dual& b) { return {a.v - b.v, a.d - b.d}; }
+    friend Dual operator*(const Dual& a, const Dual& b) { return {a.v * b.v, a.d * b.v + b.d * a.v}; }
+    friend Dual operator/(const Dual& a, const Dual& b) {
+        const V q = a.v / b.v;
+        return {q, (a.d - b.d * q) / b.v};
+    }
+    friend Dual operator+(const Dual& a, double b) { return {a.v + b, a.d}; }
+    friend Dual operator-(const Dual& a, double b) { return {a.v - b, a.d}; }
+    friend Dual operator*(const Dual& a, double b) { return {a.v * b, a.d * b}; }
+    friend Dual operator/(const Dual& a, double b) { return {a.v / b, a.d / b}; }
+    friend Dual operator+(double a, const Dual& b) { return b + a; }
+    friend Dual operator-(double a, const Dual& b) { return -b + a; }
+    friend Dual operator*(double a, const Dual& b) { return b * a; }
+    Dual& operator+=(const Dual& b) { return *this = *this + b; }
+    Dual& operator-=(const Dual& b) { return *this = *this - b; }
+
+    // f(a) from the values f and f′ there.
+    friend Dual chain(const Dual& a, const V& f, const V& slope) { return {f, a.d * slope}; }
+    friend Dual sin(const Dual& a) {
+        using std::sin, std::cos;
+        return chain(a, sin(a.v), cos(a.v));
+    }
+    friend Dual cos(const Dual& a) {
+        using std::sin, std::cos;
+        return chain(a, cos(a.v), -sin(a.v));
+    }
+    friend Dual sqrt(const Dual& a) {
+        using std::sqrt;
+        const V root = sqrt(a.v);
+        return chain(a, root, 0.5 / root);
+    }
+    friend Dual tanh(const Dual& a) {
+        using std::tanh;
+        const V t = tanh(a.v);
+        return chain(a, t, 1.0 - t * t);
+    }
+    friend Dual fabs(const Dual& a) { return a.v < 0 ? -a : a; }
+
+    // Comparisons use the values only.
+    friend bool isfinite(const Dual& a) { return std::isfinite(a.v); }
+    friend bool operator<(const Dual& a, const Dual& b) { return a.v < b.v; }
+    friend bool operator>(const Dual& a, const Dual& b) { return a.v > b.v; }
+    friend bool operator<=(const Dual& a, const Dual& b) { return a.v <= b.v; }
+    friend bool operator>=(const Dual& a, const Dual& b) { return a.v >= b.v; }
+    friend bool operator==(const Dual& a, const Dual& b) { return a.v == b.v; }
+
+    // The functions of contact_lanes.hpp.
+    friend void root(const Dual& a, Dual& out) { out = sqrt(a); }
+    friend void sine_and_cosine(const Dual& a, Dual& sine, Dual& cosine) {
+        sine = sin(a);
+        cosine = cos(a);
+    }
+    friend void product(std::size_t rows, std::size_t columns, const double* a, const Dual* x, Dual* y) {
+        for (std::size_t r = 0; r < rows; ++r) {
+            y[r] = 0;
+            for (std::size_t c = 0; c < columns; ++c) y[r] += a[r * columns + c] * x[c];
+        }
+    }
+};
+
+// Derivatives along eight directions.
 inline constexpr int kDirections = kNodes;
-
-struct Jet {
-    double v = 0;
-    Lanes d{};  // derivative along each direction
-
-    Jet() = default;
-    Jet(double value) : v(value) {}  // a constant
-    Jet(double value, const Lanes& derivatives) : v(value), d(derivatives) {}
-};
-
-inline Jet operator-(const Jet& a) { return {-a.v, -a.d}; }
-inline Jet operator+(const Jet& a, const Jet& b) { return {a.v + b.v, a.d + b.d}; }
-inline Jet operator-(const Jet& a, const Jet& b) { return {a.v - b.v, a.d - b.d}; }
-inline Jet operator*(const Jet& a, const Jet& b) { return {a.v * b.v, a.d * b.v + b.d * a.v}; }
-inline Jet operator/(const Jet& a, const Jet& b) {
-    const double q = a.v / b.v;
-    return {q, (a.d - b.d * q) / b.v};
-}
-inline Jet operator+(const Jet& a, double b) { return {a.v + b, a.d}; }
-inline Jet operator-(const Jet& a, double b) { return {a.v - b, a.d}; }
-inline Jet operator*(const Jet& a, double b) { return {a.v * b, a.d * b}; }
-inline Jet operator/(const Jet& a, double b) { return {a.v / b, a.d / b}; }
-inline Jet operator+(double a, const Jet& b) { return b + a; }
-inline Jet operator-(double a, const Jet& b) { return -b + a; }
-inline Jet operator*(double a, const Jet& b) { return b * a; }
-inline Jet& operator+=(Jet& a, const Jet& b) { return a = a + b; }
-inline Jet& operator-=(Jet& a, const Jet& b) { return a = a - b; }
-
-// f(a) from the values f and f′ there.
-inline Jet chain(const Jet& a, double f, double slope) { return {f, a.d * slope}; }
-inline Jet sin(const Jet& a) { return chain(a, std::sin(a.v), std::cos(a.v)); }
-inline Jet cos(const Jet& a) { return chain(a, std::cos(a.v), -std::sin(a.v)); }
-inline Jet sqrt(const Jet& a) {
-    const double root = std::sqrt(a.v);
-    return chain(a, root, 0.5 / root);
-}
-inline Jet tanh(const Jet& a) {
-    const double t = std::tanh(a.v);
-    return chain(a, t, 1 - t * t);
-}
-
-inline Jet fabs(const Jet& a) { return a.v < 0 ? -a : a; }
-
-// Comparisons use the values only.
-inline bool isfinite(const Jet& a) { return std::isfinite(a.v); }
-inline bool operator<(const Jet& a, const Jet& b) { return a.v < b.v; }
-inline bool operator>(const Jet& a, const Jet& b) { return a.v > b.v; }
-inline bool operator<=(const Jet& a, const Jet& b) { return a.v <= b.v; }
-inline bool operator>=(const Jet& a, const Jet& b) { return a.v >= b.v; }
-inline bool operator==(const Jet& a, const Jet& b) { return a.v == b.v; }
-
-// Jets with int indices, as coordinates have.
-class JetVector {
-  public:
-    explicit JetVector(int size = 0) : jets_(static_cast<std::size_t>(size)) {}
-    int size() const { return static_cast<int>(jets_.size()); }
-    Jet& operator[](int i) { return jets_[static_cast<std::size_t>(i)]; }
-    const Jet& operator[](int i) const { return jets_[static_cast<std::size_t>(i)]; }
-
-  private:
-    std::vector<Jet> jets_;
-};
-
-// A vector of the plane.
-struct Jet2 {
-    Jet x, y;
-};
-inline Jet2 operator+(const Jet2& a, const Jet2& b) { return {a.x + b.x, a.y + b.y}; }
-inline Jet2 operator-(const Jet2& a, const Jet2& b) { return {a.x - b.x, a.y - b.y}; }
-inline Jet2 operator*(const Jet& s, const Jet2& a) { return {s * a.x, s * a.y}; }
-inline Jet dot(const Jet2& a, const Jet2& b) { return a.x * b.x + a.y * b.y; }
-inline Jet cross(const Jet2& a, const Jet2& b) { return a.x * b.y - a.y * b.x; }
+using Jet = Dual<double, Lanes>;
+// A jet that depends on time, and its time derivative.
+using JetRate = Dual<Jet, Jet>;
 
 }  // namespace beamcam::sim

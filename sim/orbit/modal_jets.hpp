@@ -6,38 +6,38 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <optional>
+#include <vector>
 
 #include "sim/beam/modal_model.hpp"
 #include "sim/dynamics/system.hpp"
+#include "sim/integrate/contact_lanes.hpp"
 #include "sim/orbit/jet.hpp"
 
 namespace beamcam::sim {
 
 struct JetState {
-    explicit JetState(int coordinates) : xi(coordinates), rate(coordinates) {}
+    // The state y of this system at time t, without derivatives.
+    JetState(const System& system, double time, const double* y, const Phase& phase);
     Jet t;
-    JetVector xi, rate;
-    Jet bristle, approach = 1;
+    std::vector<Jet> xi, rate;
+    Jet bristle, approach;
 };
 
+// All functions of a state set the angle and the rate of a prescribed hub in it. `near` is the contact at the value of
+// the state.
 class ModalJets {
   public:
     explicit ModalJets(System& system);  // copies what it needs
 
-    // ξ̈ and ż in this phase. In contact `near` is the contact at the value of the state.
-    void flow(const JetState& s, const Phase& phase, const ContactState& near, JetVector& acceleration,
+    // ξ̈ and ż in this phase. Of `near` only contact needs it.
+    void flow(JetState& s, const Phase& phase, const ContactState& near, std::vector<Jet>& acceleration,
               Jet& bristle_rate);
-    // Gap and its rate.
-    struct Gap {
-        Jet gap, rate;
-    };
-    Gap gap(const JetState& s, const ContactState& near);
-    // Position of the last evaluated contact's foot along the beam; beyond an end, on its straight extension [m].
-    double foot(const ContactState& near) const;
+    const ContactKinematics<Jet>& contact(JetState& s, const ContactState& near, double gap_offset = 0);
     struct Forces {
         Jet normal, friction, slip;
     };
-    Forces forces(const JetState& s, const Phase& phase, const ContactState& near);
+    Forces forces(JetState& s, const Phase& phase, const ContactState& near);
     Jet sliding_bristle(FrictionState state, const Forces& f) const;  // deflection under the sliding force (S36)
     // s.rate ← ξ̇ after an impact with this restitution, by the problem's impact law and friction.
     void apply_impact(JetState& s, const ContactState& near, double restitution);
@@ -46,38 +46,31 @@ class ModalJets {
     double inertia_share(const double* q) const;
 
   private:
-    // The centre line at the contact, and the rows of the contact forces.
-    struct Contact {
-        Jet2 r, r1, r2, v, v1, normal, along;
-        Jet distance, gap_rate, slip, bend;
-        JetVector jn, jt;
-    };
-    void set(const JetState& s);
-    void line(const Jet& x);
-    void contact(const JetState& s, const ContactState& near);
+    template <class T>
+    ContactKinematics<T> kinematics(const std::vector<T>& xi, const std::vector<T>& rate, const T& t,
+                                    const ContactState& near, double gap_offset, std::vector<T>& hq);
+    void place_hub(JetState& s) const;
+    Jet gap_acceleration_at_rest(const JetState& s, const ContactState& near);
+    Jet constraint_force(const JetState& s, const ContactState& near);
+    Jet friction_ratio() const { return -friction_.kinetic * tanh(contact_.slip / friction_.slip_speed); }
     void assemble(const JetState& s);
-    void solve(const JetState& s, JetVector& f, bool driven) const;
-    Forces current_forces(const JetState& s, const Phase& phase, bool at_end);
-    Jet constraint_force(const JetState& s, bool at_end);
-    Jet friction_ratio() const;
+    void solve(const JetState& s, std::vector<Jet>& forces, bool driven) const;
 
     const Problem problem_;
     const ModalModel model_;  // tables
-    const ModalMatrices& m_;
     const DriveLaw drive_;
     const NormalLaw law_;
     const FrictionLaw friction_;
+    std::optional<ContactExpansion> expansion_;  // of a problem with a cam
     int n_, modes_;
-    double offset_, baumgarte_rate_;
+    double baumgarte_rate_;
     Eigen::MatrixXd damping_;  // C_d; empty: none
 
     // Of the present state.
-    Jet sin_, cos_, Theta_dot_, Theta_, alpha_, alpha_dot_, inertia_;
-    JetVector q_, dq_, force_;
-    Contact c_;
-    Eigen::VectorXd y_, y1_, y2_, y3_;
-    Eigen::MatrixXd shortening_matrix_;  // H (S5a)
-    JetVector shape_, slope_, curve_, shortening_;
+    Jet inertia_;
+    std::vector<Jet> force_;
+    ContactKinematics<Jet> contact_;
+    std::vector<Jet> jn_, jt_, hq_;  // rows of the contact, and scratch
 };
 
 }  // namespace beamcam::sim

@@ -11,19 +11,9 @@ namespace {
 
 constexpr int kFlow = kDirections - 1;  // this direction of the jets carries the time derivative of the motion itself
 
-void seed(JetState& s, const double* y, const Phase& phase, bool bristle) {
-    const int n = s.xi.size();
-    for (int i = 0; i < n; ++i) {
-        s.xi[i] = y[i];
-        s.rate[i] = y[n + i];
-    }
-    s.bristle = bristle ? y[2 * n] : 0;
-    s.approach = phase.approach;
-}
-
 void seed_column(JetState& s, int direction, const double* column, const double* units) {
-    const int n = s.xi.size();
-    for (int i = 0; i < n; ++i) {
+    const std::size_t n = s.xi.size();
+    for (std::size_t i = 0; i < n; ++i) {
         s.xi[i].d[direction] = column[i] / units[i];
         s.rate[i].d[direction] = column[n + i] / units[n + i];
     }
@@ -65,11 +55,13 @@ Eigen::VectorXd Saltation::flow_after(const Instant& at) {
     return flow;
 }
 
-// After jets_.gap at the contact near_.
+// At the contact near_, in the state before the touch. Beyond an end of the beam the foot is on its straight extension.
 void Saltation::record_touch(const Instant& at) {
-    if (-near_.gap_rate > kRestSpeed)
-        touches_.push_back(
-            {at.t, -near_.gap_rate, at.t - left_, near_.x, jets_.foot(near_) - probe_.problem().beam.length});
+    if (!(-near_.gap_rate > kRestSpeed)) return;
+    BeamPoint p;
+    probe_.model().point(near_.x, p);
+    const double beyond = -dot(p.r1, p.r - probe_.cam(at.t).disc) / dot(p.r1, p.r1);
+    touches_.push_back({at.t, -near_.gap_rate, at.t - left_, near_.x, near_.x + beyond - probe_.problem().beam.length});
 }
 
 // The state before an event as jets: the tangents from column `first` on and, in the last direction, the time
@@ -79,13 +71,11 @@ JetState Saltation::jets_before(const Instant& at, const Eigen::MatrixXd& tangen
     probe_.set_phase(at.was);
     probe_.rhs(at.t, at.before, flow.data());
     near_ = probe_.contact(at.t, at.before, true);
-    JetState s(n_);
-    seed(s, at.before, at.was, probe_.has_bristle());
-    s.t = at.t;
+    JetState s(probe_, at.t, at.before, at.was);
     s.t.d[kFlow] = 1;
     for (int i = 0; i < n_; ++i) {
-        s.xi[i].d[kFlow] = flow[i];
-        s.rate[i].d[kFlow] = flow[n_ + i];
+        s.xi[static_cast<std::size_t>(i)].d[kFlow] = flow[i];
+        s.rate[static_cast<std::size_t>(i)].d[kFlow] = flow[n_ + i];
     }
     if (probe_.has_bristle()) s.bristle.d[kFlow] = flow[2 * n_];
     for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k)
@@ -100,13 +90,13 @@ void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
     for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
         JetState s = jets_before(at, tangents, first);
         const double pre_set = probe_.problem().contact.restitution;
-        const Jet gap = jets_.gap(s, near_).gap;
+        const Jet gap = jets_.contact(s, near_).gap;
         if (first == 0) record_touch(at);
         jets_.apply_impact(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             const double delay = -gap.d[k] / gap.d[kFlow];
             for (int i = 0; i < n_; ++i) {
-                const Jet &xi = s.xi[i], &rate = s.rate[i];
+                const Jet &xi = s.xi[static_cast<std::size_t>(i)], &rate = s.rate[static_cast<std::size_t>(i)];
                 tangents(i, first + k) = units_[i] * (xi.d[k] + (xi.d[kFlow] - flow[i]) * delay);
                 tangents(n_ + i, first + k) = units_[n_ + i] * (rate.d[k] + (rate.d[kFlow] - flow[n_ + i]) * delay);
             }
@@ -125,13 +115,11 @@ void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents
     Eigen::MatrixXd normals(freedoms, 2);  // gradients of gap and gap rate
     const Eigen::MatrixXd basis = Eigen::MatrixXd::Identity(rows_, rows_);
     for (int first = 0; first < freedoms; first += kDirections) {
-        JetState s(n_);
-        seed(s, y, Phase{}, false);
-        s.t = t;
+        JetState s(probe_, t, y, Phase{});
         const int count = std::min(kDirections, freedoms - first);
         for (int k = 0; k < count; ++k) seed_column(s, k, basis.col(first + k).data(), units_.data());
-        const ModalJets::Gap gap = jets_.gap(s, near_);
-        for (int k = 0; k < count; ++k) normals.row(first + k) << gap.gap.d[k], gap.rate.d[k];
+        const ContactKinematics<Jet>& contact = jets_.contact(s, near_);
+        for (int k = 0; k < count; ++k) normals.row(first + k) << contact.gap.d[k], contact.gap_rate.d[k];
     }
     normals.col(0).normalize();
     normals.col(1) -= normals.col(0) * normals.col(0).dot(normals.col(1));
@@ -144,17 +132,17 @@ void Saltation::keep_on_cam(double t, const double* y, Eigen::MatrixXd& tangents
 // or the speed of an earlier touch. (S72)
 void Saltation::begin_touch(const Instant& at, Eigen::MatrixXd& tangents) {
     for (Eigen::Index first = 0; first == 0 || first < tangents.cols(); first += kFlow) {
-        const JetState s = jets_before(at, tangents, first);
+        JetState s = jets_before(at, tangents, first);
         const double floor = probe_.problem().contact.approach_floor.value;
         const bool keeps = -near_.gap_rate > floor && at.is.approach > 0 &&
                            std::fabs(at.is.approach + near_.gap_rate) < kSameSpeed * at.is.approach;
-        const ModalJets::Gap gap = jets_.gap(s, near_);
+        const ContactKinematics<Jet>& contact = jets_.contact(s, near_);
         if (first == 0) record_touch(at);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             tangents(2 * n_, first + k) = 0;  // the bristle starts without deflection
             double& row = tangents(rows_ - 1, first + k);
-            const double delay = -gap.gap.d[k] / gap.gap.d[kFlow];
-            if (keeps) row = -units_[rows_ - 1] * (gap.rate.d[k] + gap.rate.d[kFlow] * delay);
+            const double delay = -contact.gap.d[k] / contact.gap.d[kFlow];
+            if (keeps) row = -units_[rows_ - 1] * (contact.gap_rate.d[k] + contact.gap_rate.d[kFlow] * delay);
             if (at.is.approach == floor) row = 0;
         }
     }
@@ -167,9 +155,9 @@ void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
     const FrictionLaw& friction = probe_.friction();
     const Eigen::VectorXd flow = flow_after(at);
     for (Eigen::Index first = 0; first < tangents.cols(); first += kFlow) {
-        const JetState s = jets_before(at, tangents, first);
+        JetState s = jets_before(at, tangents, first);
         const ModalJets::Forces f = jets_.forces(s, at.was, near_);
-        JetVector acceleration;
+        std::vector<Jet> acceleration;
         Jet bristle_rate;
         jets_.flow(s, at.was, near_, acceleration, bristle_rate);
         const Jet guard = friction.limit * f.normal - fabs(f.friction);
@@ -182,7 +170,8 @@ void Saltation::change_friction(const Instant& at, Eigen::MatrixXd& tangents) {
             }
             const double delay = friction.limit > friction.kinetic ? -guard.d[k] / guard.d[kFlow] : 0;
             for (int i = 0; i < n_; ++i)
-                tangents(n_ + i, first + k) += units_[n_ + i] * (acceleration[i].v - flow[n_ + i]) * delay;
+                tangents(n_ + i, first + k) +=
+                    units_[n_ + i] * (acceleration[static_cast<std::size_t>(i)].v - flow[n_ + i]) * delay;
             bristle = friction.lags ? bristle + units_[2 * n_] * (bristle_rate.v - flow[2 * n_]) * delay : 0;
         }
     }

@@ -40,7 +40,6 @@ TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& 
       ladder_(kHighestLevel - kLowestLevel + 1),
       flight_level_(kFirstFlightLevel),
       touch_level_(kFirstTouchLevel),
-      state_(n_),
       y_(probe.size) {
     const auto& model = dynamic_cast<const ModalModel&>(probe.model());
     const std::vector<double> damping = model.damping_matrix();
@@ -81,25 +80,20 @@ void TangentStep::differentiate(const Segment& motion, double t0, double h) {
         if (phase_.touching) near = probe_.contact(t, y_.data(), false);
         derivative_[k].setZero(forced_, columns);
         for (int first = 0; first < used; first += kDirections) {
-            for (int i = 0; i < n_; ++i) {
-                state_.xi[i] = y_[i];
-                state_.rate[i] = y_[n_ + i];
-            }
-            state_.t = t;
-            state_.bristle = probe_.has_bristle() ? y_[2 * n_] : 0;
-            state_.approach = phase_.approach;
+            JetState state(probe_, t, y_.data(), phase_);
             const int count = std::min(kDirections, used - first);
             for (int d = 0; d < count; ++d) {
                 const int row = first + d;
-                Jet& seeded = row < n_        ? state_.xi[row]
-                              : row < 2 * n_  ? state_.rate[row - n_]
-                              : row == 2 * n_ ? state_.bristle
-                                              : state_.approach;
+                Jet& seeded = row < n_        ? state.xi[static_cast<std::size_t>(row)]
+                              : row < 2 * n_  ? state.rate[static_cast<std::size_t>(row - n_)]
+                              : row == 2 * n_ ? state.bristle
+                                              : state.approach;
                 seeded.d[d] = 1;
             }
-            jets_.flow(state_, phase_, near, acceleration_, bristle_rate);
+            jets_.flow(state, phase_, near, acceleration_, bristle_rate);
             for (int d = 0; d < count; ++d) {
-                for (int i = 0; i < n_; ++i) derivative_[k](i, first + d) = acceleration_[i].d[d];
+                for (int i = 0; i < n_; ++i)
+                    derivative_[k](i, first + d) = acceleration_[static_cast<std::size_t>(i)].d[d];
                 if (forced_ > n_) derivative_[k](n_, first + d) = bristle_rate.d[d];
             }
         }

@@ -45,8 +45,7 @@ class TangentStep {
     StepTable other_;
     int flight_level_, touch_level_;
 
-    JetState state_;
-    JetVector acceleration_;
+    std::vector<Jet> acceleration_;
     Eigen::VectorXd y_;
     NodalDerivative derivative_[kNodes];
     Eigen::MatrixXd unforced_, matrix_, forcing_, next_;
