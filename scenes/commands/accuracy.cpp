@@ -95,7 +95,7 @@ int act(const AccuracyArguments& args) {
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
     progress.begin("accuracy", 100, "%");
-    const sim::Accuracy found = sim::assess(scene.problem, request, [&](const std::string&, double share) {
+    const sim::Accuracy found = sim::assess(scene.problem, request, [&](double share) {
         progress.reach(100 * share);
         return !output::interrupted();
     });

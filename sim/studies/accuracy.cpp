@@ -16,7 +16,6 @@ namespace beamcam::sim {
 namespace {
 
 constexpr const char* kLeftOut = "left out";
-constexpr int kModesLadder[] = {1, 2, 3, 4, 6, 8, 12, 16, 20};
 
 // One simulation with samples of the compared angle.
 struct TrialRun {
@@ -25,27 +24,24 @@ struct TrialRun {
     double seconds = 0;
 };
 
-struct TooLong {};
-
 // Simulates variants of a problem within limits of time, and compares them.
 class Trials {
   public:
-    using Report = std::function<bool(const std::string&, double)>;
+    using Report = std::function<bool(double share)>;
 
-    Trials(const Problem& problem, const AccuracyRequest& request, const Report& report)
-        : angle_(compared_angle(problem)), target_(request.target), repeats_(request.repeats), report_(report) {}
+    Trials(const Problem& problem, double target, const Report& report)
+        : angle_(compared_angle(problem)), target_(target), report_(report) {}
 
     bool of_tip() const { return angle_.of_tip(); }
 
-    // Description of the next trials, and the completed fraction of the whole before them.
-    void begin(std::string what, double share) {
-        what_ = std::move(what);
+    // The completed fraction of the whole before the next trials.
+    void begin(double share) {
         share_ = share;
         if (!report()) throw Interrupted();
     }
 
-    // With samples of the angle if `sampled`. Throws the exceptions of simulate, and TooLong after `limit` seconds.
-    TrialRun simulate_until(const Problem& problem, double end, double limit, bool sampled) {
+    // With samples of the angle if `sampled`. Nothing after `limit` seconds. Throws the exceptions of simulate.
+    std::optional<TrialRun> simulate_until(const Problem& problem, double end, double limit, bool sampled) {
         Request request;
         request.end_time = end;
         if (sampled) {
@@ -64,7 +60,7 @@ class Trials {
             });
         } catch (const Interrupted&) {
             if (stopped) throw;
-            throw TooLong();
+            return std::nullopt;
         }
         run.seconds = seconds_since(start);
         if (!sampled) return run;
@@ -76,9 +72,8 @@ class Trials {
     // The same for a variant that may be impossible: `note` states the reason.
     std::optional<TrialRun> try_until(const Problem& variant, double end, double limit, std::string& note) {
         try {
-            return simulate_until(variant, end, limit, true);
-        } catch (const TooLong&) {
-            note = fmt::format("{}: longer than {:g} s", kLeftOut, limit);
+            if (auto run = simulate_until(variant, end, limit, true)) return run;
+            note = too_long(limit);
         } catch (const SolverError& failure) {
             note = fmt::format("failed: {}", failure.what());
         } catch (const std::invalid_argument& rejected) {
@@ -88,35 +83,35 @@ class Trials {
     }
 
     // Compares a variant of the problem with `truth` over [0, end]. Timed without samples.
-    void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit) {
-        measure(row, variant, truth, end, limit, repeats_);
-    }
     void measure(AccuracyRow& row, const Problem& variant, const TrialRun& truth, double end, double limit,
                  int repeats) {
         const std::optional<TrialRun> run = try_until(variant, end, limit, row.note);
         if (!run) return;
         compare(row, *run, truth, end);
-        try {
-            row.time = time(variant, end, 2 * limit, repeats, kAllRuns * limit * (1 + share_));
-        } catch (const TooLong&) {
+        if (const auto timing = time(variant, end, 2 * limit, repeats, kAllRuns * limit * (1 + share_))) {
+            row.time = *timing;
+        } else {
             row.error.reset();
-            row.note = fmt::format("{}: longer than {:g} s", kLeftOut, limit);
+            row.note = too_long(limit);
         }
     }
 
     // Of `repeats` runs, or fewer once `enough` seconds have passed since the first trial.
-    Timing time(const Problem& variant, double end, double limit, int repeats, double enough) {
+    std::optional<Timing> time(const Problem& variant, double end, double limit, int repeats, double enough) {
         std::vector<double> seconds;
         for (int k = 0; k < repeats; ++k) {
-            seconds.push_back(simulate_until(variant, end, limit, false).seconds);
+            const std::optional<TrialRun> run = simulate_until(variant, end, limit, false);
+            if (!run) return std::nullopt;
+            seconds.push_back(run->seconds);
             if (seconds_since(started_) > enough) break;
         }
         std::sort(seconds.begin(), seconds.end());
-        return {seconds[seconds.size() / 2], seconds.front(), seconds.back(), static_cast<int>(seconds.size())};
+        return Timing{seconds[seconds.size() / 2], seconds.front(), seconds.back(), static_cast<int>(seconds.size())};
     }
 
   private:
-    bool report() { return !report_ || report_(what_, share_); }  // false: interrupted by the user
+    static std::string too_long(double limit) { return fmt::format("{}: longer than {:g} s", kLeftOut, limit); }
+    bool report() { return !report_ || report_(share_); }  // false: interrupted by the user
 
     void compare(AccuracyRow& row, const TrialRun& run, const TrialRun& truth, double end) const {
         double worst = 0;
@@ -141,9 +136,7 @@ class Trials {
 
     const ComparedAngle angle_;
     const double target_;  // [rad]
-    const int repeats_;
     const Report& report_;
-    std::string what_;
     double share_ = 0;
     Clock::time_point started_ = Clock::now();
 };
@@ -151,25 +144,20 @@ class Trials {
 class Assessment {
   public:
     Assessment(const Problem& problem, const AccuracyRequest& request, const Trials::Report& report)
-        : problem_(problem), request_(request), trials_(problem, request, report) {
+        : problem_(problem), request_(request), trials_(problem, request.target, report) {
         out_.of_tip = trials_.of_tip();
         out_.end_time = request.end_time;
         out_.target = request.target;
-        if (request_.rtols.empty())
-            for (int digits = 3; digits <= 12; ++digits) request_.rtols.push_back(std::pow(10.0, -digits));
-        if (request_.methods.empty())
-            request_.methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf,
-                                Method::arkode_erk};
-        if (request_.modes.empty()) request_.modes.assign(std::begin(kModesLadder), std::end(kModesLadder));
-        if (problem.beam.model == ModelKind::rigid) request_.modes.clear();
     }
 
     Accuracy assess() {
         compute_reference();
         compare_methods();
-        compare_modes();
-        compare_models();
-        compare_contacts();
+        if (problem_.beam.model != ModelKind::rigid) {
+            compare_modes();
+            compare_models();
+        }
+        if (problem_.cam) compare_contacts();
         recommend();
         return std::move(out_);
     }
@@ -189,10 +177,9 @@ class Assessment {
     // The reference is rk8 at the tightest tolerance; its own error is estimated by a tenfold tolerance. All
     // comparisons end where the scene's own settings no longer reproduce the motion.
     void compute_reference() {
-        trials_.begin("reference", 0);
-        const double limit = kReferenceRuns * request_.longest_run;
-        const TrialRun mine = simulate_reference(problem_, limit);
-        const TrialRun truth = simulate_reference(with(kReferenceRtol, Method::rk8), limit);
+        trials_.begin(0);
+        const TrialRun mine = simulate_reference(problem_, request_.end_time);
+        const TrialRun truth = simulate_reference(with(kReferenceRtol, Method::rk8), request_.end_time);
         double until = request_.end_time;
         for (std::size_t k = 0; k < truth.angle.size(); ++k) {
             if (std::fabs(mine.angle[k] - truth.angle[k]) <= kReproducible * std::max(1.0, std::fabs(truth.angle[k])))
@@ -201,8 +188,8 @@ class Assessment {
             break;
         }
         out_.until = until;
-        reference_ = trials_.simulate_until(with(kReferenceRtol, Method::rk8), until, limit, true);
-        const TrialRun check = trials_.simulate_until(with(kCheckRtol, Method::rk8), until, limit, true);
+        reference_ = simulate_reference(with(kReferenceRtol, Method::rk8), until);
+        const TrialRun check = simulate_reference(with(kCheckRtol, Method::rk8), until);
         for (std::size_t k = 0; k < check.angle.size(); ++k)
             out_.reference_error = std::max(out_.reference_error, std::fabs(check.angle[k] - reference_.angle[k]));
         // Rounding of the angle itself.
@@ -211,17 +198,14 @@ class Assessment {
         out_.reference_error = std::max(out_.reference_error, std::numeric_limits<double>::epsilon() * size);
     }
 
-    TrialRun simulate_reference(const Problem& problem, double limit) {
-        try {
-            return trials_.simulate_until(problem, request_.end_time, limit, true);
-        } catch (const TooLong&) {
-            throw SolverError(
-                fmt::format(
-                    "the reference (rtol {:g}) of {:g} s of motion takes longer than {:g} s; give an earlier end "
-                    "with --until, or more time with --longest",
-                    problem.solver.rtol, request_.end_time, limit),
-                0, {});
-        }
+    TrialRun simulate_reference(const Problem& problem, double end) {
+        const double limit = kReferenceRuns * request_.longest_run;
+        if (auto run = trials_.simulate_until(problem, end, limit, true)) return std::move(*run);
+        throw SolverError(
+            fmt::format("the reference (rtol {:g}) of {:g} s of motion takes longer than {:g} s; give an earlier end "
+                        "with --until, or more time with --longest",
+                        problem.solver.rtol, end, limit),
+            0, {});
     }
 
     void compare_methods() {
@@ -230,100 +214,93 @@ class Assessment {
         for (const Method method : request_.methods) {
             bool too_long = false;
             for (const double rtol : request_.rtols) {
-                trials_.begin(fmt::format("{} at rtol {:g}", name(method), rtol), 0.1 + 0.5 * done++ / all);
+                trials_.begin(0.1 + 0.5 * done++ / all);
                 WorkRow row;
                 row.method = method;
                 row.rtol = rtol;
                 if (too_long)
                     row.note = "left out: a looser tolerance took too long already";
                 else
-                    trials_.measure(row, with(rtol, method), reference_, out_.until, request_.longest_run);
+                    trials_.measure(row, with(rtol, method), reference_, out_.until, request_.longest_run,
+                                    request_.repeats);
                 too_long = too_long || row.note.starts_with(kLeftOut);
                 out_.work.push_back(std::move(row));
             }
         }
     }
 
+    // Rows are in descending order of accuracy. Compares the variant of each with the first one that runs, which is
+    // returned; over [0, until], or if that is affordable only for a part, over the longest one, at least `shortest`.
+    template <class Row, class VariantOf>
+    const Row* compare_with_first(std::vector<Row>& rows, const VariantOf& variant_of, double share, double runs,
+                                  double shortest, double& until) {
+        const double limit = runs * request_.longest_run;
+        const Row* first = nullptr;
+        TrialRun truth;
+        for (Row& row : rows) {
+            trials_.begin(share);
+            share += 0.15 / static_cast<double>(rows.size());
+            const Problem variant = variant_of(row);
+            bool affordable = first != nullptr;
+            for (double part = 1; !first && !affordable && part >= shortest; part /= 2) {
+                row.note.clear();
+                if (auto run = trials_.try_until(variant, part * out_.until, limit, row.note)) {
+                    truth = std::move(*run);
+                    until = part * out_.until;
+                    first = &row;
+                }
+                affordable = !row.note.starts_with(kLeftOut);
+            }
+            // Timings of the expensive models are not repeated.
+            const int repeats = variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats;
+            if (first && row.note.empty()) trials_.measure(row, variant, truth, until, limit, repeats);
+        }
+        return first;
+    }
+
     // At the scene's tolerance, whose error is far below the effect of one shape.
     void compare_modes() {
         std::vector<int> ladder = request_.modes;
-        if (ladder.empty()) return;
-        if (std::find(ladder.begin(), ladder.end(), problem_.beam.modes) == ladder.end())
-            ladder.push_back(problem_.beam.modes);
-        std::sort(ladder.begin(), ladder.end(), std::greater<>());
-        std::optional<TrialRun> truth;
-        for (std::size_t i = 0; i < ladder.size(); ++i) {
-            trials_.begin(fmt::format("{} shapes", ladder[i]),
-                          0.6 + 0.15 * static_cast<double>(i) / static_cast<double>(ladder.size()));
+        if (std::ranges::find(ladder, problem_.beam.modes) == ladder.end()) ladder.push_back(problem_.beam.modes);
+        std::ranges::sort(ladder, std::greater<>());
+        for (const int modes : ladder) out_.modes.emplace_back().modes = modes;
+        const auto variant_of = [&](const ModesRow& row) {
             Problem variant = problem_;
-            set_shapes(variant, variant.beam.model, variant.beam.basis, ladder[i]);
-            ModesRow row;
-            row.modes = ladder[i];
-            const double limit = kModesRuns * request_.longest_run;
-            if (!truth) {
-                truth = trials_.try_until(variant, out_.until, limit, row.note);
-                if (truth) out_.most_modes = ladder[i];
-            }
-            if (truth) trials_.measure(row, variant, *truth, out_.until, limit);
-            out_.modes.push_back(std::move(row));
-        }
-        std::reverse(out_.modes.begin(), out_.modes.end());
+            set_shapes(variant, variant.beam.model, variant.beam.basis, row.modes);
+            return variant;
+        };
+        double until = 0;
+        if (const ModesRow* first = compare_with_first(out_.modes, variant_of, 0.6, kModesRuns, 1, until))
+            out_.most_modes = first->modes;
+        std::ranges::reverse(out_.modes);
     }
 
     // All models with so many shapes that their different bases do not matter, against the most accurate one that the
     // time allows; over a shorter motion if `exact` is affordable only for that.
     void compare_models() {
-        if (request_.models.empty())
-            request_.models = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
-                               ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
-        const std::vector<ModelKind>& descending = request_.models;
-        if (problem_.beam.model == ModelKind::rigid) return;
-        std::optional<TrialRun> truth;
-        out_.models_until = out_.until;
-        for (std::size_t i = 0; i < descending.size(); ++i) {
-            trials_.begin(fmt::format("model {}", name(descending[i])),
-                          0.75 + 0.15 * static_cast<double>(i) / static_cast<double>(descending.size()));
+        for (const ModelKind model : request_.models) out_.models.emplace_back().model = model;
+        const auto variant_of = [&](const ModelRow& row) {
             Problem variant = problem_;
-            set_shapes(variant, descending[i], variant.beam.basis, std::max(problem_.beam.modes, kModelShapes));
-            if (descending[i] == ModelKind::exact || descending[i] == ModelKind::second_order)
+            set_shapes(variant, row.model, variant.beam.basis, std::max(problem_.beam.modes, kModelShapes));
+            if (row.model == ModelKind::exact || row.model == ModelKind::second_order)
                 variant.solver.rtol = std::max(variant.solver.rtol, std::min(1e-8, 1e-3 * request_.target));
-            ModelRow row;
-            row.model = descending[i];
-            const double limit = kModelRuns * request_.longest_run;
-            if (!truth) {
-                truth = longest(variant, limit, row);
-                if (truth) out_.best_model = descending[i];
-            }
-            if (truth && row.note.empty())
-                trials_.measure(row, variant, *truth, out_.models_until, limit,
-                                variant.beam.model >= ModelKind::second_order ? 1 : request_.repeats);
-            out_.models.push_back(std::move(row));
-        }
-        std::reverse(out_.models.begin(), out_.models.end());
-    }
-
-    // The longest part of [0, until] that is affordable, at least a sixteenth.
-    std::optional<TrialRun> longest(const Problem& variant, double limit, AccuracyRow& row) {
-        for (const double share : {1.0, 0.5, 0.25, 0.125, 0.0625}) {
-            std::string note;
-            std::optional<TrialRun> run = trials_.try_until(variant, share * out_.until, limit, note);
-            row.note = note;
-            if (run) out_.models_until = share * out_.until;
-            if (run || !note.starts_with(kLeftOut)) return run;
-        }
-        return std::nullopt;
+            return variant;
+        };
+        out_.models_until = out_.until;
+        if (const ModelRow* first =
+                compare_with_first(out_.models, variant_of, 0.75, kModelRuns, kShortestPart, out_.models_until))
+            out_.best_model = first->model;
+        std::ranges::reverse(out_.models);
     }
 
     void compare_contacts() {
-        if (!problem_.cam) return;
+        const double limit = kReferenceRuns * request_.longest_run;
+        const TrialRun truth = simulate_reference(problem_, out_.until);
         const auto add = [&](std::string change, const Problem& variant) {
-            trials_.begin("contact " + change, 0.92);
-            ContactRow row;
+            trials_.begin(0.92);
+            ContactRow& row = out_.contact.emplace_back();
             row.change = std::move(change);
-            const double limit = kReferenceRuns * request_.longest_run;
-            const TrialRun truth = trials_.simulate_until(problem_, out_.until, limit, true);
             trials_.measure(row, variant, truth, out_.until, limit, 1);
-            out_.contact.push_back(std::move(row));
         };
         Problem variant = problem_;
         if (problem_.contact.model == ContactModel::compliant) {
@@ -375,12 +352,12 @@ class Assessment {
         if (r.rtol == 0 || r.until <= 0) return;
         Problem chosen = with(r.rtol);
         set_shapes(chosen, chosen.beam.model, chosen.beam.basis, r.modes);
-        trials_.begin("recommendation", 0.97);
+        trials_.begin(0.97);
         const double limit = kReferenceRuns * request_.longest_run;
         try {
-            r.seconds = trials_.time(chosen, r.until, limit, request_.repeats, limit * request_.repeats).median;
-        } catch (const TooLong&) {
-            return;
+            const auto timing = trials_.time(chosen, r.until, limit, request_.repeats, limit * request_.repeats);
+            if (!timing) return;
+            r.seconds = timing->median;
         } catch (const SolverError&) {
             return;
         }
@@ -392,7 +369,7 @@ class Assessment {
     }
 
     const Problem& problem_;
-    AccuracyRequest request_;
+    const AccuracyRequest& request_;
     Trials trials_;
     Accuracy out_;
     TrialRun reference_;
@@ -401,7 +378,7 @@ class Assessment {
 }  // namespace
 
 Accuracy assess(const Problem& problem, const AccuracyRequest& request,
-                const std::function<bool(const std::string& what, double share)>& progress) {
+                const std::function<bool(double share)>& progress) {
     return Assessment(problem, request, progress).assess();
 }
 

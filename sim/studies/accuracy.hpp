@@ -15,14 +15,18 @@
 namespace beamcam::sim {
 
 struct AccuracyRequest {
-    double end_time = 0;            // [s], > 0
-    double target = 1e-4;           // largest error of the recommended settings [rad], > 0
-    int repeats = 5;                // of each timing, >= 1
-    double longest_run = 2;         // slower simulations are left out [s]
-    std::vector<double> rtols;      // of the work–precision diagram; empty: 1e-3 … 1e-12
-    std::vector<Method> methods;    // empty: all
-    std::vector<int> modes;         // empty: a ladder up to 20
-    std::vector<ModelKind> models;  // in descending order of accuracy; empty: all
+    double end_time = 0;     // [s], > 0
+    double target = 1e-4;    // largest error of the recommended settings [rad], > 0
+    int repeats = 5;         // of each timing, >= 1
+    double longest_run = 2;  // slower simulations are left out [s]
+    // Of the work–precision diagram.
+    std::vector<double> rtols = {1e-3, 1e-4, 1e-5, 1e-6, 1e-7, 1e-8, 1e-9, 1e-10, 1e-11, 1e-12};
+    std::vector<Method> methods = {Method::automatic, Method::rk8, Method::cvode_adams, Method::cvode_bdf,
+                                   Method::arkode_erk};
+    std::vector<int> modes = {1, 2, 3, 4, 6, 8, 12, 16, 20};  // and the number of the problem itself
+    // In descending order of accuracy.
+    std::vector<ModelKind> models = {ModelKind::exact, ModelKind::second_order, ModelKind::first_order,
+                                     ModelKind::paper, ModelKind::zeroth_order, ModelKind::rigid};
 };
 
 struct Timing {                            // [s]
@@ -79,9 +83,9 @@ struct Accuracy {
     std::optional<Recommendation> recommendation;
 };
 
-// `progress` receives a description of the present run and the completed fraction, 0…1; if it returns false,
-// Interrupted is thrown. Throws the exceptions of `simulate` for the problem's own settings.
+// `progress` receives the completed fraction, 0…1; if it returns false, Interrupted is thrown. Throws the exceptions of
+// `simulate` for the problem's own settings.
 Accuracy assess(const Problem& problem, const AccuracyRequest& request,
-                const std::function<bool(const std::string& what, double share)>& progress = {});
+                const std::function<bool(double share)>& progress = {});
 
 }  // namespace beamcam::sim

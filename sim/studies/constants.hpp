@@ -11,8 +11,9 @@ inline constexpr double kReferenceRuns = 50;     // time limit of the reference 
 inline constexpr double kModesRuns = 5;          // the same of each number of shapes
 inline constexpr double kModelRuns = 10;         // the same of each model
 inline constexpr double kAllRuns = 20;           // after this time, in limits of one run, timings are not repeated
-inline constexpr int kModelShapes = 6;           // least number of shapes in the comparison of models
-inline constexpr double kAsFar = 0.98;           // of the longest time within the target: as good
+inline constexpr double kShortestPart = 1.0 / 16;  // of the motion: least part over which models are compared
+inline constexpr int kModelShapes = 6;             // least number of shapes in the comparison of models
+inline constexpr double kAsFar = 0.98;             // of the longest time within the target: as good
 
 // ---- stress campaign ----
 inline constexpr double kCaseLimit = 120;  // [s] of CPU time: a case that takes longer hangs

@@ -142,8 +142,7 @@ TEST(Accuracy, HorizonOfADrivenHubIsTheTips) {
 }
 
 TEST(Accuracy, StopsWhenAsked) {
-    EXPECT_THROW(assess(falling(), quick(0.1), [](const std::string&, double share) { return share < 0.2; }),
-                 Interrupted);
+    EXPECT_THROW(assess(falling(), quick(0.1), [](double share) { return share < 0.2; }), Interrupted);
 }
 
 }  // namespace
