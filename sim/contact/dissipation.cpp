@@ -8,7 +8,7 @@
 #include "sim/base/assert.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/contact/constants.hpp"
-#include "sim/problem/keys.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 namespace {

@@ -236,26 +236,6 @@ std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, c
 
 }  // namespace
 
-const char* name(OrbitChange change) {
-    switch (change) {
-        case OrbitChange::fold:
-            return "fold";
-        case OrbitChange::period_doubling:
-            return "period-doubling";
-        case OrbitChange::neimark_sacker:
-            return "neimark-sacker";
-        case OrbitChange::branching:
-            return "branching";
-        case OrbitChange::grazing:
-            return "grazing";
-        case OrbitChange::corner:
-            return "corner";
-        case OrbitChange::release:
-            return "release";
-    }
-    return "";
-}
-
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress) {
     const SectionScale scale = section_scale(for_orbits(family(start.parameter)), start.orbit);

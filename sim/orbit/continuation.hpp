@@ -19,7 +19,17 @@ struct BranchPoint {
 };
 
 enum class OrbitChange { fold, period_doubling, neimark_sacker, branching, grazing, corner, release };
-const char* name(OrbitChange change);
+inline std::span<const Named<OrbitChange>> names(OrbitChange) {
+    using enum OrbitChange;
+    static constexpr Named<OrbitChange> all[] = {{fold, "fold"},
+                                                 {period_doubling, "period-doubling"},
+                                                 {neimark_sacker, "neimark-sacker"},
+                                                 {branching, "branching"},
+                                                 {grazing, "grazing"},
+                                                 {corner, "corner"},
+                                                 {release, "release"}};
+    return all;
+}
 
 struct SpecialPoint {
     OrbitChange change = OrbitChange::fold;

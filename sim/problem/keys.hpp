@@ -67,21 +67,6 @@ inline constexpr Range kAny{};
 inline constexpr Range kPositive{0, Range::kInfinity, true, false, "must be positive"};
 inline constexpr Range kNotNegative{0, Range::kInfinity, false, false, "must not be negative"};
 
-template <class Enum>
-struct Named {
-    Enum value;
-    const char* name;
-};
-// The names of an enumeration, in the order of its documentation.
-std::span<const Named<ModelKind>> names(ModelKind);
-std::span<const Named<Basis>> names(Basis);
-std::span<const Named<DampingLaw>> names(DampingLaw);
-std::span<const Named<ImpactLaw>> names(ImpactLaw);
-std::span<const Named<ContactModel>> names(ContactModel);
-std::span<const Named<ApproachFloorPolicy>> names(ApproachFloorPolicy);
-std::span<const Named<InitialShape>> names(InitialShape);
-std::span<const Named<Method>> names(Method);
-
 class Visitor;
 
 // One of the shapes that an object may have. Tags are keys with a fixed value that select the shape.

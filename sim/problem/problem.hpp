@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "sim/base/named.hpp"
 #include "sim/base/vec2.hpp"
 
 namespace beamcam::sim {
@@ -51,7 +52,20 @@ struct Hub {
 // ---- beam ------------------------------------------------------------------------------------
 
 enum class ModelKind { rigid, zeroth_order, first_order, paper, second_order, exact };
+inline std::span<const Named<ModelKind>> names(ModelKind) {
+    using enum ModelKind;
+    static constexpr Named<ModelKind> all[] = {
+        {rigid, "rigid"}, {zeroth_order, "zeroth-order"}, {first_order, "first-order"},
+        {paper, "paper"}, {second_order, "second-order"}, {exact, "exact"}};
+    return all;
+}
+
 enum class Basis { automatic, cantilever, hub_beam };
+inline std::span<const Named<Basis>> names(Basis) {
+    using enum Basis;
+    static constexpr Named<Basis> all[] = {{automatic, "auto"}, {cantilever, "cantilever"}, {hub_beam, "hub-beam"}};
+    return all;
+}
 
 struct Beam {
     double length = 1;                  // L [m], > 0
@@ -86,6 +100,13 @@ struct Cam {
 // ---- contact ---------------------------------------------------------------------------------
 
 enum class ContactModel { compliant, restitution };
+inline std::span<const Named<ContactModel>> names(ContactModel) {
+    using enum ContactModel;
+    static constexpr Named<ContactModel> all[] = {{compliant, "compliant"}, {restitution, "restitution"}};
+    return all;
+}
+
+// The names are beside the formulas, in contact/dissipation.cpp.
 enum class DampingLaw {
     none,
     hunt_crossley,
@@ -97,7 +118,14 @@ enum class DampingLaw {
     hu_guo,
     zhang_sharf
 };
+std::span<const Named<DampingLaw>> names(DampingLaw);
+
 enum class ImpactLaw { newton, poisson, stronge };
+inline std::span<const Named<ImpactLaw>> names(ImpactLaw) {
+    using enum ImpactLaw;
+    static constexpr Named<ImpactLaw> all[] = {{newton, "newton"}, {poisson, "poisson"}, {stronge, "stronge"}};
+    return all;
+}
 
 struct NoFriction {};
 struct CoulombFriction {
@@ -113,6 +141,11 @@ struct StickSlipFriction {
 using Friction = std::variant<NoFriction, CoulombFriction, StickSlipFriction>;
 
 enum class ApproachFloorPolicy { value, first_touch };
+inline std::span<const Named<ApproachFloorPolicy>> names(ApproachFloorPolicy) {
+    using enum ApproachFloorPolicy;
+    static constexpr Named<ApproachFloorPolicy> all[] = {{value, "value"}, {first_touch, "first-touch"}};
+    return all;
+}
 struct ApproachFloor {
     ApproachFloorPolicy policy = ApproachFloorPolicy::value;
     double value = 1e-3;  // [m/s], > 0
@@ -135,6 +168,12 @@ struct Contact {
 // ---- initial state, solver -------------------------------------------------------------------
 
 enum class InitialShape { straight, static_equilibrium, resting };
+inline std::span<const Named<InitialShape>> names(InitialShape) {
+    using enum InitialShape;
+    static constexpr Named<InitialShape> all[] = {
+        {straight, "straight"}, {static_equilibrium, "static"}, {resting, "resting"}};
+    return all;
+}
 struct Initial {
     double angle = 0.78539816339744830962;  // θ(0) [rad], of the hub
     double angular_velocity = 0;            // of the hub, θ̇(0) [rad/s]
@@ -144,6 +183,13 @@ struct Initial {
 };
 
 enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
+inline std::span<const Named<Method>> names(Method) {
+    using enum Method;
+    static constexpr Named<Method> all[] = {
+        {automatic, "auto"},          {exponential, "exponential"}, {rk8, "rk8"},
+        {cvode_adams, "cvode-adams"}, {cvode_bdf, "cvode-bdf"},     {arkode_erk, "arkode-erk"}};
+    return all;
+}
 struct Solver {
     Method method = Method::automatic;
     double rtol = 1e-8;           // 1e-13…1e-2
@@ -192,15 +238,6 @@ double effective_restitution(double damping_factor);
 // Changes model, basis and number of shapes. Added shapes take the last damping ratio; initial coordinates are kept as
 // far as they mean the same.
 void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes);
-
-// Names as scenes spell them ("first-order", "hub-beam", "lankarani-nikravesh", …).
-const char* name(ModelKind);
-const char* name(Basis);
-const char* name(DampingLaw);
-const char* name(ImpactLaw);
-const char* name(ContactModel);
-const char* name(InitialShape);
-const char* name(Method);
 
 struct Issue {
     std::string path;     // scene key, "cam.eccentricity"

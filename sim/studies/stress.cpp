@@ -66,22 +66,6 @@ void record(const StressCase& one, const Result& r, const Request& request, Stre
 
 }  // namespace
 
-const char* name(Outcome outcome) {
-    switch (outcome) {
-        case Outcome::closed:
-            return "closed";
-        case Outcome::open:
-            return "open";
-        case Outcome::refused:
-            return "refused";
-        case Outcome::stopped:
-            return "stopped";
-        case Outcome::failed:
-            return "failed";
-    }
-    return "";
-}
-
 StressResult run_case(const StressCase& one) {
     StressResult out;
     out.closure = std::numeric_limits<double>::quiet_NaN();

@@ -20,7 +20,12 @@ enum class Outcome {
     stopped,  // SolverError with last good time, cause and remedy
     failed    // anything else
 };
-const char* name(Outcome outcome);
+inline std::span<const Named<Outcome>> names(Outcome) {
+    using enum Outcome;
+    static constexpr Named<Outcome> all[] = {
+        {closed, "closed"}, {open, "open"}, {refused, "refused"}, {stopped, "stopped"}, {failed, "failed"}};
+    return all;
+}
 
 struct StressCase {
     std::size_t grid = 0, row = 0, column = 0;  // indices into Campaign::grids, CaseGrid::rows, CaseGrid::columns

@@ -6,7 +6,6 @@
 #include <numbers>
 #include <random>
 
-#include "sim/problem/keys.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/studies/stress.hpp"
 

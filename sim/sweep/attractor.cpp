@@ -127,21 +127,6 @@ bool nothing_moves(const Problem& problem, const Scale& scale, Strobes s) {
 
 }  // namespace
 
-std::span<const Named<AttractorClass>> names(AttractorClass) {
-    using enum AttractorClass;
-    static constexpr Named<AttractorClass> all[] = {{rest, "rest"},
-                                                    {following, "following"},
-                                                    {periodic, "periodic"},
-                                                    {quasi_periodic, "quasi-periodic"},
-                                                    {chaotic, "chaotic"},
-                                                    {aperiodic, "aperiodic"},
-                                                    {over_the_top, "over-the-top"},
-                                                    {unsettled, "unsettled"}};
-    return all;
-}
-
-const char* name(AttractorClass kind) { return names(kind)[static_cast<std::size_t>(kind)].name; }
-
 bool has_section(AttractorClass kind) {
     return kind == AttractorClass::periodic || kind == AttractorClass::quasi_periodic ||
            kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;

@@ -3,7 +3,6 @@
 
 #include <span>
 
-#include "sim/problem/keys.hpp"
 #include "sim/sweep/sampling.hpp"
 
 namespace beamcam::sim {
@@ -18,8 +17,19 @@ enum class AttractorClass {
     over_the_top,    // the beam leaves the half plane of the cam
     unsettled        // the transient is not over, or the integration failed
 };
-std::span<const Named<AttractorClass>> names(AttractorClass);
-const char* name(AttractorClass);
+inline std::span<const Named<AttractorClass>> names(AttractorClass) {
+    using enum AttractorClass;
+    static constexpr Named<AttractorClass> all[] = {{rest, "rest"},
+                                                    {following, "following"},
+                                                    {periodic, "periodic"},
+                                                    {quasi_periodic, "quasi-periodic"},
+                                                    {chaotic, "chaotic"},
+                                                    {aperiodic, "aperiodic"},
+                                                    {over_the_top, "over-the-top"},
+                                                    {unsettled, "unsettled"}};
+    return all;
+}
+
 // True if samples of a motion of this class form a section of its attractor.
 bool has_section(AttractorClass kind);
 
