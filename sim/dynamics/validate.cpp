@@ -4,15 +4,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <vector>
 
 #include "sim/base/counted.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
+#include "sim/problem/constants.hpp"
 #include "sim/problem/keys.hpp"
-#include "sim/problem/number_range.hpp"
-#include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -231,6 +231,87 @@ void check_given_shapes(Issues& out, const Problem& p) {
     }
 }
 
+// ---- products of the numbers ----
+// Each number may be valid, and yet their products (mass, inertia, frequency, penetration, speeds) overflow, vanish or
+// lose their digits.
+
+struct Factor {
+    const char* path;
+    double value;
+};
+
+// Reports a product outside [low, high] at its most extreme factor. Only the first: the others follow from it.
+void check_product(Issues& out, double low, double high, const char* what, double value, const char* unit,
+                   std::initializer_list<Factor> factors) {
+    if (!out.list.empty() || (value >= low && value <= high)) return;
+    const auto decades = [](const Factor& f) { return f.value == 0 ? 0 : std::fabs(std::log10(std::fabs(f.value))); };
+    const Factor& worst = *std::ranges::max_element(factors, {}, decades);
+    out.error(worst.path,
+              fmt::format("{:g} makes {} {} than {:g} {}, which the equations cannot be computed with", worst.value,
+                          what, value < 1 ? "smaller" : "larger", value < 1 ? low : high, unit));
+}
+
+void check_speed(Issues& out, const char* path, const char* what, double rate, double arm) {
+    const double speed = std::fabs(rate) * arm;
+    if (speed <= kSpeedOfLight) return;
+    out.error(path, fmt::format("{:g} rad/s would move {} at {:.3g} m/s, faster than light ({:.3g} m/s)", rate, what,
+                                speed, kSpeedOfLight));
+}
+
+void check_size(Issues& out, const char* path, double size, double length, double most, const char* what) {
+    if (std::fabs(size) <= most * length) return;
+    out.error(path,
+              fmt::format("{:g} m is more than {:g} times the beam's length of {:g} m: {} would be lost in rounding",
+                          size, most, length, what));
+}
+
+double final_speed(const Drive& drive) {
+    if (const auto* d = std::get_if<ConstantSpeed>(&drive)) return d->speed;
+    if (const auto* d = std::get_if<SpinUp>(&drive)) return d->speed;
+    return 0;
+}
+
+void check_beam_scales(Issues& out, const Problem& p) {
+    const Beam& b = p.beam;
+    const double mass = b.density * b.area * b.length;
+    check_product(out, kSmallestInertia, kLargestInertia, "the beam's mass", mass, "kg",
+                  {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
+    check_product(out, kSmallestInertia, kLargestInertia, "the beam's moment of inertia",
+                  mass * b.length * b.length / 3, "kg m^2",
+                  {{"beam.length", b.length}, {"beam.area", b.area}, {"beam.density", b.density}});
+    if (b.model == ModelKind::rigid) return;
+    check_product(out, kSmallestScale, kLargestScale, "the beam's first bending frequency", first_clamped_frequency(b),
+                  "rad/s",
+                  {{"beam.youngs_modulus", b.youngs_modulus},
+                   {"beam.length", b.length},
+                   {"beam.second_moment", b.second_moment},
+                   {"beam.area", b.area},
+                   {"beam.density", b.density}});
+}
+
+void check_contact_scales(Issues& out, const Problem& p) {
+    if (!p.cam || p.contact.model != ContactModel::compliant) return;
+    const double n = p.contact.exponent, k = contact_stiffness(p);
+    const double mass = p.beam.density * p.beam.area * p.beam.length;
+    const double depth = impact_depth(n, k, mass, 1);
+    const char* path = p.contact.stiffness || !p.cam->youngs_modulus ? "contact.stiffness" : "cam.youngs_modulus";
+    check_product(out, kSmallestScale, kLargestScale, "the depth of a touch at 1 m/s", depth, "m",
+                  {{path, p.contact.stiffness.value_or(k)}});
+}
+
+void check_products(Issues& out, const Problem& p) {
+    check_beam_scales(out, p);
+    check_contact_scales(out, p);
+    if (!out.list.empty()) return;
+    const double length = p.beam.length, reach = std::fabs(p.hub.radius) + length;
+    check_size(out, "hub.radius", p.hub.radius, length, kMaxHubRadius, "positions along the beam");
+    check_speed(out, "initial.angular_velocity", "the tip", p.initial.angular_velocity, reach);
+    check_speed(out, "hub.drive.speed", "the tip", final_speed(p.hub.drive), reach);
+    if (!p.cam) return;
+    check_size(out, "cam.radius", p.cam->radius, length, kMaxCamSize, "the gap");
+    check_speed(out, "cam.speed", "the rim", p.cam->speed, p.cam->radius + p.cam->eccentricity);
+}
+
 }  // namespace
 
 std::vector<Issue> validate(const Problem& problem) {
@@ -252,11 +333,8 @@ std::vector<Issue> validate(const Problem& problem) {
                       "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
     }
     check_given_shapes(out, problem);
-    bool sane = out.list.empty();
-    if (sane) {
-        out.list = number_range_issues(problem);
-        sane = out.list.empty();
-    }
+    if (out.list.empty()) check_products(out, problem);
+    const bool sane = out.list.empty();
     if (sane && problem.cam) check_geometry(out, problem);
     if (sane && problem.beam.model == ModelKind::paper)
         out.warning("beam.model",
