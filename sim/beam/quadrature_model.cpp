@@ -10,7 +10,7 @@
 #include "sim/base/numerics.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/beam/constants.hpp"
-#include "sim/beam/shapes.hpp"
+#include "sim/beam/modal_model.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -115,7 +115,7 @@ class QuadratureModel : public Model {
         root_weight_ = (line_density_ * rule_.w).cwiseSqrt();
         columns_ = Eigen::MatrixXd::Zero(2 * nodes, size_);
         bias_.resize(2 * nodes);
-        for (Eigen::VectorXd* v : {&y_, &vx_, &vy_, &scratch_, &weights_}) v->resize(nodes);
+        for (Eigen::VectorXd* v : {&y_, &vx_, &vy_, &scratch_}) v->resize(nodes);
         inertia_.resize(size_, size_);
     }
     QuadratureModel(const QuadratureModel&) = default;
@@ -140,13 +140,6 @@ class QuadratureModel : public Model {
     // y_ ← height; vx_, vy_ ← velocity, at the nodes.
     virtual void node_kinematics() const = 0;
 
-    // weights_ ← quadrature weights of ∫₀ˣ.
-    void weigh(double x) const {
-        if (x == weighed_) return;
-        weighed_ = x;
-        integral_.weights(x, weights_.data());
-    }
-
     Quadrature rule_;
     SpectralIntegral integral_;
     Eigen::MatrixXd primitive_;    // ∫₀ to each node
@@ -155,33 +148,29 @@ class QuadratureModel : public Model {
     Eigen::VectorXd root_weight_;  // √(ρAw)
     Eigen::MatrixXd columns_;
     Eigen::VectorXd bias_;
-    mutable Eigen::VectorXd y_, vx_, vy_, scratch_, weights_;
-    mutable double weighed_ = -1;  // x of weights_
+    mutable Eigen::VectorXd y_, vx_, vy_, scratch_;
     Small inertia_;
     Eigen::LDLT<Small> factor_;
     std::vector<double> frequencies_;  // [rad/s], ascending
 };
 
-// Frame coordinates: r = (a + x + u, v), u = −½∫v′² − ½aα²                                  (S5), (S13)
+// Frame coordinates: r = (a + x + u, v), u = −½∫v′² − ½aα² (S5), (S13), so the kinematics are those of `first-order`.
 class SecondOrderModel final : public QuadratureModel {
   public:
     explicit SecondOrderModel(const Problem& problem)
-        : QuadratureModel(problem, second_order_nodes(problem)), shapes_(Shapes::of(problem)) {
+        : QuadratureModel(problem, second_order_nodes(problem)), line_(first_order(problem)) {
         const Eigen::Index nodes = rule_.x.size();
         phi_.resize(nodes, modes_);
         phi1_.resize(nodes, modes_);
         bending_ = Eigen::MatrixXd::Zero(modes_, modes_);
         Eigen::VectorXd y(modes_), y1(modes_), y2(modes_);
         for (Eigen::Index k = 0; k < nodes; ++k) {
-            shapes_.evaluate(rule_.x[k], y.data(), y1.data(), y2.data());
+            line_.shapes().evaluate(rule_.x[k], y.data(), y1.data(), y2.data());
             phi_.row(k) = y.transpose();
             phi1_.row(k) = y1.transpose();
             bending_.noalias() += stiffness_ * rule_.w[k] * y2 * y2.transpose();
         }
-        if (resolved_basis(problem) == Basis::hub_beam) {
-            shapes_.evaluate(0, nullptr, y1.data(), nullptr);
-            for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = y1[i];
-        }
+        std::copy_n(line_.hub_row(), size_, hub_row_);
         for (Eigen::VectorXd* v : {&v_, &v1_, &dv_, &dv1_, &u_, &du_}) v->resize(nodes);
         shortening_.resize(nodes * modes_, modes_);
         for (int i = 0; i < modes_; ++i)
@@ -193,70 +182,22 @@ class SecondOrderModel final : public QuadratureModel {
     }
     std::unique_ptr<Model> clone() const override { return std::make_unique<SecondOrderModel>(*this); }
 
-    void point(double x, BeamPoint& p) const override {
-        double y[kMaxModes], y1[kMaxModes], y2[kMaxModes];
-        shapes_.evaluate(x, y, y1, y2);
-        double v = 0, v1 = 0, v2 = 0, dv = 0, dv1 = 0;
-        for (int i = 0; i < modes_; ++i) {
-            v += y[i] * xi_[1 + i];
-            v1 += y1[i] * xi_[1 + i];
-            v2 += y2[i] * xi_[1 + i];
-            dv += y[i] * rate_[1 + i];
-            dv1 += y1[i] * rate_[1 + i];
-        }
-        weigh(x);
-        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * alpha_ * alpha_;
-        const double du = -weights_.dot(v1_.cwiseProduct(dv1_)) - radius_ * alpha_ * alpha_dot_;
-        const double u1 = -0.5 * v1 * v1, rx = radius_ + x + u, Theta_dot = rate_[0];
-        const Vec2 along{cos_, sin_}, across{-sin_, cos_};
-        p.r = rx * along + v * across;
-        p.r1 = (1 + u1) * along + v1 * across;
-        p.r2 = -v1 * v2 * along + v2 * across;
-        p.v = (du - v * Theta_dot) * along + (dv + rx * Theta_dot) * across;
-        p.v1 = (-v1 * dv1 - v1 * Theta_dot) * along + (dv1 + (1 + u1) * Theta_dot) * across;
-    }
-
-    void jacobian(double x, double* jx, double* jy, double* jchi) const override {
-        double y[kMaxModes], y1[kMaxModes];
-        shapes_.evaluate(x, y, y1, nullptr);
-        double v = 0, v1 = 0;
-        for (int i = 0; i < modes_; ++i) {
-            v += y[i] * xi_[1 + i];
-            v1 += y1[i] * xi_[1 + i];
-        }
-        weigh(x);
-        const double u = -0.5 * weights_.dot(v1_.cwiseAbs2()) - 0.5 * radius_ * alpha_ * alpha_;
-        const double rx = radius_ + x + u, t1 = 1 - 0.5 * v1 * v1, speed2 = t1 * t1 + v1 * v1;
-        jx[0] = -rx * sin_ - v * cos_;
-        jy[0] = rx * cos_ - v * sin_;
-        jchi[0] = 1;
-        for (int i = 0; i < modes_; ++i) {
-            double ui = -radius_ * alpha_ * hub_row_[1 + i];
-            for (Eigen::Index k = 0; k < v1_.size(); ++k) ui -= weights_[k] * v1_[k] * phi1_(k, i);
-            jx[1 + i] = ui * cos_ - y[i] * sin_;
-            jy[1 + i] = ui * sin_ + y[i] * cos_;
-            jchi[1 + i] = (t1 * y1[i] + v1 * v1 * y1[i]) / speed2;
-        }
-    }
-
-    Vec2 convective(double x) const override {
-        BeamPoint p;
-        point(x, p);
-        const double Theta_dot = rate_[0], bend = -weights_.dot(dv1_.cwiseAbs2()) - radius_ * alpha_dot_ * alpha_dot_;
-        const Vec2 relative = p.v - Theta_dot * perp(p.r);
-        return -Theta_dot * Theta_dot * p.r + 2 * Theta_dot * perp(relative) + bend * Vec2{cos_, sin_};  // (S17)
-    }
-
-    double bending_moment(double x) const override {
-        double y2[kMaxModes];
-        shapes_.evaluate(x, nullptr, nullptr, y2);
-        double v2 = 0;
-        for (int i = 0; i < modes_; ++i) v2 += y2[i] * xi_[1 + i];
-        return stiffness_ * v2;
-    }
+    void point(double x, BeamPoint& p) const override { line_.point(x, p); }
+    void jacobian(double x, double* jx, double* jy, double* jchi) const override { line_.jacobian(x, jx, jy, jchi); }
+    Vec2 convective(double x) const override { return line_.convective(x); }
+    double bending_moment(double x) const override { return line_.bending_moment(x); }
 
   private:
+    static Problem first_order(Problem problem) {
+        problem.beam.basis = resolved_basis(problem);
+        problem.beam.model = ModelKind::first_order;
+        problem.beam.damping_ratio.clear();
+        problem.beam.kelvin_voigt.reset();
+        return problem;
+    }
+
     void state_changed() override {
+        line_.set(xi_, rate_);
         sin_ = std::sin(xi_[0]);
         cos_ = std::cos(xi_[0]);
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
@@ -317,7 +258,7 @@ class SecondOrderModel final : public QuadratureModel {
         }
     }
 
-    Shapes shapes_;
+    ModalModel line_;  // the shapes, and the centre line in the set state
     Eigen::MatrixXd phi_, phi1_;
     Eigen::MatrixXd shortening_;  // −∫₀ˣφ_i′φ_j′: rows by i, then node
     mutable Eigen::MatrixXd shortened_;
@@ -335,16 +276,16 @@ class ExactModel final : public QuadratureModel {
         angular_ = true;
         const Eigen::Index nodes = rule_.x.size();
         eta_.resize(nodes, modes_);
-        double value[kMaxModes], slope[kMaxModes];
         bending_ = Eigen::MatrixXd::Zero(modes_, modes_);
         for (Eigen::Index k = 0; k < nodes; ++k) {
-            shape(rule_.x[k], value, slope);
+            const ShapesAt shapes(*this, rule_.x[k]);
             for (int i = 0; i < modes_; ++i) {
-                eta_(k, i) = value[i];
-                for (int j = 0; j < modes_; ++j) bending_(i, j) += stiffness_ * rule_.w[k] * slope[i] * slope[j];
+                eta_(k, i) = shapes.value[i];
+                for (int j = 0; j < modes_; ++j)
+                    bending_(i, j) += stiffness_ * rule_.w[k] * shapes.slope[i] * shapes.slope[j];
             }
         }
-        for (Eigen::VectorXd* v : {&cos_, &sin_, &psi_dot_}) v->resize(nodes);
+        for (Eigen::VectorXd* v : {&cos_, &sin_, &psi_dot_, &weights_}) v->resize(nodes);
         turned_.resize(nodes, 2 * (size_ + 1));
         integrated_.resize(nodes, 2 * (size_ + 1));
         weighted_primitive_ = root_weight_.asDiagonal() * primitive_;
@@ -353,13 +294,12 @@ class ExactModel final : public QuadratureModel {
     std::unique_ptr<Model> clone() const override { return std::make_unique<ExactModel>(*this); }
 
     void point(double x, BeamPoint& p) const override {
-        double value[kMaxModes], slope[kMaxModes];
-        shape(x, value, slope);
+        const ShapesAt shapes(*this, x);
         double psi = xi_[0], psi_rate = rate_[0], curvature = 0;
         for (int i = 0; i < modes_; ++i) {
-            psi += value[i] * xi_[1 + i];
-            psi_rate += value[i] * rate_[1 + i];
-            curvature += slope[i] * xi_[1 + i];
+            psi += shapes.value[i] * xi_[1 + i];
+            psi_rate += shapes.value[i] * rate_[1 + i];
+            curvature += shapes.slope[i] * xi_[1 + i];
         }
         weigh(x);
         const Vec2 e = unit(psi), root = unit(xi_[0]);
@@ -372,8 +312,7 @@ class ExactModel final : public QuadratureModel {
     }
 
     void jacobian(double x, double* jx, double* jy, double* jchi) const override {
-        double value[kMaxModes], slope[kMaxModes];
-        shape(x, value, slope);
+        const ShapesAt shapes(*this, x);
         weigh(x);
         const Vec2 root = perp(unit(xi_[0]));
         jx[0] = radius_ * root.x - weights_.dot(sin_);
@@ -387,7 +326,7 @@ class ExactModel final : public QuadratureModel {
             }
             jx[1 + i] = sx;
             jy[1 + i] = sy;
-            jchi[1 + i] = value[i];
+            jchi[1 + i] = shapes.value[i];
         }
     }
 
@@ -399,28 +338,28 @@ class ExactModel final : public QuadratureModel {
     }
 
     double bending_moment(double x) const override {
-        double value[kMaxModes], slope[kMaxModes];
-        shape(x, value, slope);
+        const ShapesAt shapes(*this, x);
         double curvature = 0;
-        for (int i = 0; i < modes_; ++i) curvature += slope[i] * xi_[1 + i];
+        for (int i = 0; i < modes_; ++i) curvature += shapes.slope[i] * xi_[1 + i];
         return stiffness_ * curvature;
     }
 
   private:
-    // η_j and dη_j/dx, j = 1…N.
-    void shape(double x, double* value, double* slope) const {
-        double p[kMaxModes + 1];
-        const double z = 2 * x / length_ - 1;
-        legendre(z, modes_ + 1, p);
-        double before = 0, here = 1;  // P′_{j−1}, P′_j from P′_{j+1} = P′_{j−1} + (2j+1)P_j
-        for (int j = 1; j <= modes_; ++j) {
-            value[j - 1] = p[j] - (j % 2 ? -1.0 : 1.0);
-            slope[j - 1] = here * 2 / length_;
-            const double after = before + (2 * j + 1) * p[j];
-            before = here;
-            here = after;
-        }
+    // weights_ ← quadrature weights of ∫₀ˣ.
+    void weigh(double x) const {
+        if (x == weighed_) return;
+        weighed_ = x;
+        integral_.weights(x, weights_.data());
     }
+
+    // The shapes η_j and their slopes at x, j = 1…N.
+    struct ShapesAt {
+        ShapesAt(const ExactModel& of, double x) : slope(value + of.modes_) {
+            section_angle_shapes(x, of.length_, of.modes_, 1, value);
+        }
+        double value[2 * kMaxModes];
+        const double* slope;
+    };
 
     void state_changed() override {
         const Eigen::Map<const Eigen::VectorXd> q(xi_ + 1, modes_), dq(rate_ + 1, modes_);
@@ -469,6 +408,8 @@ class ExactModel final : public QuadratureModel {
     }
 
     Eigen::MatrixXd eta_;
+    mutable Eigen::VectorXd weights_;
+    mutable double weighed_ = -1;                               // x of weights_
     Eigen::MatrixXd weighted_primitive_, turned_, integrated_;  // columns and bias of x, then of y
     Eigen::VectorXd cos_, sin_, psi_dot_;
 };
