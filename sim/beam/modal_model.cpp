@@ -174,10 +174,13 @@ const ModalModel::Local& ModalModel::at(double x) const {
 
 void ModalModel::shorten(Local& here) const {
     here.shortened = true;
-    if (here.x == 0) return;  // no shortening at the root
-    antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, xi_ + 1, here.shortening);
+    if (here.x != 0) shorten(here, xi_ + 1, here.shortening);  // no shortening at the root
+}
+
+void ModalModel::shorten(const Local& here, const double* q, double* hq) const {
+    antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, q, hq);
     for (int j = 0; j < modes_; ++j)
-        for (int i = 0; i < modes_; ++i) here.shortening[i] -= tables_->root(i, j) * xi_[1 + j];
+        for (int i = 0; i < modes_; ++i) hq[i] -= tables_->root(i, j) * q[j];
 }
 
 // first-order (S14), zeroth-order: D = G = 0, paper (S15):
@@ -309,9 +312,7 @@ Vec2 ModalModel::convective(double x) const {
     double bend = 0;
     if (tables_->foreshortening) {
         double h_rate[kMaxModes] = {};
-        antiderivative(*tables_, x, here.y, here.y1, here.y2, here.y3, rate_ + 1, h_rate);
-        for (int j = 0; j < modes_; ++j)
-            for (int i = 0; i < modes_; ++i) h_rate[i] -= tables_->root(i, j) * rate_[1 + j];
+        shorten(here, rate_ + 1, h_rate);
         for (int i = 0; i < modes_; ++i) bend -= rate_[1 + i] * h_rate[i];
         bend -= radius_ * alpha_dot_ * alpha_dot_;
     }

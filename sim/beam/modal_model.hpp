@@ -62,6 +62,7 @@ class ModalModel final : public Model {
     void state_changed() override;
     const Local& at(double x) const;
     void shorten(Local& here) const;
+    void shorten(const Local& here, const double* q, double* hq) const;  // hq ← H(x) q
 
     ModelKind kind_;
     std::shared_ptr<const Tables> tables_;

@@ -52,26 +52,23 @@ void SwingSeries::expand(const Swing& from, bool tangent) {
               std::min({reaches(kOrder), reaches(kOrder - 1), 1 / std::sqrt(std::fabs(k_) + std::fabs(alpha_))});
 }
 
-double SwingSeries::theta(double dt) const {
-    if (dt == 0) return a_[0];
-    double sum = a_[kOrder];
-    for (int j = kOrder - 1; j >= 0; --j) sum = sum * dt + a_[j];
+double SwingSeries::value(const double* a, double dt) {
+    if (dt == 0) return a[0];
+    double sum = a[kOrder];
+    for (int j = kOrder - 1; j >= 0; --j) sum = sum * dt + a[j];
     return sum;
 }
 
-double SwingSeries::rate(double dt) const {
-    if (dt == 0) return a_[1];
-    double sum = kOrder * a_[kOrder];
-    for (int j = kOrder - 1; j >= 1; --j) sum = sum * dt + j * a_[j];
+double SwingSeries::slope(const double* a, double dt) {
+    if (dt == 0) return a[1];
+    double sum = kOrder * a[kOrder];
+    for (int j = kOrder - 1; j >= 1; --j) sum = sum * dt + j * a[j];
     return sum;
 }
 
 Swing SwingSeries::at(double dt) const {
-    Swing out{theta(dt), rate(dt), 0, 0};
-    if (!tangent_) return out;
-    for (int j = kOrder; j >= 0; --j) out.d_theta = out.d_theta * dt + d_[j];
-    for (int j = kOrder; j >= 1; --j) out.d_rate = out.d_rate * dt + j * d_[j];
-    return out;
+    if (!tangent_) return {theta(dt), rate(dt), 0, 0};
+    return {theta(dt), rate(dt), value(d_, dt), slope(d_, dt)};
 }
 
 double SwingSeries::acceleration(double theta) const { return alpha_ - k_ * std::cos(theta); }

@@ -18,13 +18,15 @@ class SwingSeries {
     // Expands the motion from a state; `tangent`: also that of the tangent.
     void expand(const Swing& from, bool tangent);
     double length() const { return length_; }  // [s]
-    double theta(double dt) const;
-    double rate(double dt) const;
+    double theta(double dt) const { return value(a_, dt); }
+    double rate(double dt) const { return slope(a_, dt); }
     Swing at(double dt) const;
     double acceleration(double theta) const;
 
   private:
     static constexpr int kOrder = 18;
+    static double value(const double* a, double dt);  // Σ a_j dtʲ
+    static double slope(const double* a, double dt);
 
     double k_, alpha_;
     double a_[kOrder + 1], d_[kOrder + 1];
