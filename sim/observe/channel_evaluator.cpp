@@ -13,14 +13,19 @@ ChannelEvaluator::ChannelEvaluator(const System& system)
 void ChannelEvaluator::set(double t, const double* y) {
     t_ = t;
     std::copy_n(y, y_.size(), y_.begin());
-    balance_known_ = energies_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
-    system_.set_state(t, y_.data());
+    placed_ = balance_known_ = energies_known_ = contact_known_ = forces_known_ = acceleration_known_ = false;
+}
+
+Model& ChannelEvaluator::model() {
+    if (!placed_) system_.set_state(t_, y_.data());
+    placed_ = true;
+    return system_.model();
 }
 
 const ContactState& ChannelEvaluator::contact() {
     if (!contact_known_) {
         contact_ = system_.contact(t_, y_.data(), !system_.phase().touching);
-        contact_known_ = true;
+        contact_known_ = placed_ = true;
     }
     return contact_;
 }
@@ -28,7 +33,7 @@ const ContactState& ChannelEvaluator::contact() {
 const System::EnergyBalance& ChannelEvaluator::energy_balance() {
     if (!balance_known_) {
         balance_ = system_.energy_balance(t_, y_.data());
-        balance_known_ = true;
+        balance_known_ = placed_ = true;
     }
     return balance_;
 }
@@ -36,7 +41,7 @@ const System::EnergyBalance& ChannelEvaluator::energy_balance() {
 // In contact the whole balance needs the gap.
 const Energies& ChannelEvaluator::energies() {
     if (balance_known_ || !system_.phase().touching) return energy_balance().energies;
-    if (!energies_known_) energies_ = system_.model().energies();
+    if (!energies_known_) energies_ = model().energies();
     energies_known_ = true;
     return energies_;
 }
@@ -52,17 +57,19 @@ void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) 
     balance_known_ = true;
 }
 
-void ChannelEvaluator::set_gap(double gap) { set_energy_balance(system_.energy_balance(t_, y_.data(), gap)); }
+void ChannelEvaluator::set_gap(double gap) {
+    set_energy_balance(system_.energy_balance(t_, y_.data(), gap));
+    placed_ = true;
+}
 
 double ChannelEvaluator::value(Channel channel) {
-    const Model& model = system_.model();
     switch (channel.kind) {
         case ChannelKind::t:
             return t_;
         case ChannelKind::theta:
-            return model.hub_angle();
+            return model().hub_angle();
         case ChannelKind::theta_dot:
-            return model.hub_rate();
+            return model().hub_rate();
         case ChannelKind::tip_deflection:
         case ChannelKind::tip_rate:
             return tip(channel.kind);
@@ -99,13 +106,13 @@ double ChannelEvaluator::value(Channel channel) {
 
 // Across the tangent at the root, which is the hub's direction (S6).
 double ChannelEvaluator::tip(ChannelKind kind) {
-    const Model& model = system_.model();
+    const Model& beam = model();
     BeamPoint tip, root;
-    model.point(model.length(), tip);
-    model.point(0, root);
-    const Vec2 along = unit(model.hub_angle()), across = perp(along), span = tip.r - root.r;
+    beam.point(beam.length(), tip);
+    beam.point(0, root);
+    const Vec2 along = unit(beam.hub_angle()), across = perp(along), span = tip.r - root.r;
     if (kind == ChannelKind::tip_deflection) return dot(span, across);
-    return dot(tip.v - root.v, across) - model.hub_rate() * dot(span, along);
+    return dot(tip.v - root.v, across) - beam.hub_rate() * dot(span, along);
 }
 
 double ChannelEvaluator::value_with_cam(ChannelKind kind) {
@@ -140,15 +147,15 @@ double ChannelEvaluator::value_with_cam(ChannelKind kind) {
 
 // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).
 double ChannelEvaluator::separation(ChannelKind kind) {
-    const Model& model = system_.model();
+    const Model& beam = model();
     const ContactState c = contact();
     find_hub_acceleration(c);
     BeamPoint p, root;
-    model.point(c.x, p);
-    model.point(0, root);
-    const Vec2 along = unit(model.hub_angle()), span = p.r - root.r;
+    beam.point(c.x, p);
+    beam.point(0, root);
+    const Vec2 along = unit(beam.hub_angle()), span = p.r - root.r;
     const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
-    const double pull = 3 * c.x * system_.problem().gravity * std::cos(model.hub_angle()) / (2 * model.length());
+    const double pull = 3 * c.x * system_.problem().gravity * std::cos(beam.hub_angle()) / (2 * beam.length());
     return hub_acceleration_ * arm + (kind == ChannelKind::separation ? pull : -pull);
 }
 
@@ -168,19 +175,19 @@ void ChannelEvaluator::find_hub_acceleration(const ContactState& c) {
 }
 
 Pose ChannelEvaluator::pose(int stations) {
-    const Model& model = system_.model();
+    const Model& beam = model();
     Pose pose;
     pose.t = t_;
-    pose.theta = model.hub_angle();
-    pose.theta_dot = model.hub_rate();
+    pose.theta = beam.hub_angle();
+    pose.theta_dot = beam.hub_rate();
     pose.centreline.reserve(static_cast<std::size_t>(stations));
     pose.moment.reserve(static_cast<std::size_t>(stations));
     for (int i = 0; i < stations; ++i) {
-        const double x = model.length() * i / (stations - 1);
+        const double x = beam.length() * i / (stations - 1);
         BeamPoint p;
-        model.point(x, p);
+        beam.point(x, p);
         pose.centreline.push_back(p.r);
-        pose.moment.push_back(model.bending_moment(x));
+        pose.moment.push_back(beam.bending_moment(x));
     }
     if (!system_.has_cam()) return pose;
     const Cam& cam = *system_.problem().cam;

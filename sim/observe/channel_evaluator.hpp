@@ -9,7 +9,8 @@
 
 namespace beamcam::sim {
 
-// Channel values at one instant; energies, contact and accelerations are computed once.
+// Channel values at one instant; the state of the model, energies, contact and accelerations are computed once, when
+// first needed.
 class ChannelEvaluator {
   public:
     explicit ChannelEvaluator(const System& system);
@@ -19,6 +20,7 @@ class ChannelEvaluator {
     double value(Channel channel);
     Pose pose(int stations);
     System& system() { return system_; }
+    Model& model();  // in that state
     const System::EnergyBalance& energy_balance();
     // Each of these spares a computation whose result at this instant is available.
     void set_energy_balance(const System::EnergyBalance& balance);
@@ -37,6 +39,7 @@ class ChannelEvaluator {
     System system_;
     double t_ = 0, start_total_ = 0;
     std::vector<double> y_;
+    bool placed_ = false;  // the model is in that state
     bool balance_known_ = false, energies_known_ = false, contact_known_ = false, acceleration_known_ = false;
     bool forces_known_ = false;  // of the contact set by `set_contact`
     System::EnergyBalance balance_;

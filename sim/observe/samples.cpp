@@ -67,7 +67,7 @@ void SampleRecorder::step(const SegmentInterval& s) {
         const PointRequest& points = request_.points[i];
         sweep(points.times, point_cursors_[i], s, [&](std::size_t row) {
             BeamPoint p;
-            evaluator_.system().model().point(points.x, p);
+            evaluator_.model().point(points.x, p);
             result_.points[i][row] = p.r;
         });
     }

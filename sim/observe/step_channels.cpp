@@ -129,7 +129,9 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
     }
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (!modal_ || !is_estimated(channels[c].kind))
+        if (modal_ && is_of_hub(channels[c].kind))
+            out[c] = modal_channels_.hub(channels[c].kind, y_.data());
+        else if (!modal_ || !is_estimated(channels[c].kind))
             out[c] = evaluator_.value(channels[c]);
         else if (!is_separation(channels[c].kind))
             out[c] = modal_channels_.tip(channels[c].kind, y_.data());
