@@ -32,8 +32,6 @@ class SegmentProbe {
         return gap_.evaluate(t, state(segment, t), search);
     }
 
-    ContactState gap_here(double t, bool search) { return gap_.evaluate(t, y_.data(), search); }  // in `state()`
-
     int pieces(const Segment& segment) const;
     // Bounds of the coordinates in a segment: middle ± spread.
     struct Range {

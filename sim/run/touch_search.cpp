@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "sim/base/assert.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -90,12 +92,13 @@ double TouchSearch::gap_acceleration_bound(const MotionBounds& b, double far) co
 std::optional<double> TouchSearch::by_advancement(const Segment& segment, const MotionBounds& bounds) {
     const double h = segment.t1 - segment.t0;
     const double no_spread[kMaxSize] = {};
-    const double speed =
-        bounds.theta_dot * reach() + bounds.deflection_speed + problem().cam->eccentricity * std::fabs(problem().cam->speed);
-    if (lower_bound(segment.t0, 0, probe_.state(segment, segment.t0), no_spread) > h * speed) return {};
+    const double speed = bounds.theta_dot * reach() + bounds.deflection_speed +
+                         problem().cam->eccentricity * std::fabs(problem().cam->speed);
+    BEAMCAM_ASSERT(state_.t == segment.t0);
+    if (lower_bound(segment.t0, 0, state_.y.data(), no_spread) > h * speed) return {};
 
     double t = segment.t0;
-    ContactState c = probe_.gap_here(t, true);
+    ContactState c = probe_.gap(segment, t, true);
     const double far = problem().cam->radius + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
     const double most = gap_acceleration_bound(bounds, far);
     if (!std::isfinite(most)) return by_resolving(segment);
