@@ -154,7 +154,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     ExponentialSegment& s = step_.segment;
     step_.propagate(table);
     step_.propagate_rates(table);
-    step_.place_coordinates();
+    step_.place_coordinates(true);
     place_contact(corrections);
     contact_theta_ = step_.theta;
     contact_theta_dot_ = s.theta_dot;

@@ -43,7 +43,7 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
         step.propagate(table);
         if (!step.form->by_arrays()) step.propagate_rates(table);
-        step.place_coordinates();
+        step.place_coordinates(false);
         status = iteration.add(step.update_forcing(table, nullptr));
     }
     if (status != FixedPoint::Status::settled) return kNoSolution;

@@ -28,8 +28,8 @@ class LaneMatrix {
 };
 
 Lanes dot(std::size_t n, const double* a, const Lanes* x) {
-    Lanes total{};
-    for (std::size_t i = 0; i < n; ++i) total += a[i] * x[i];
+    Lanes total;
+    lane_kernels().multiply(1, n, a, x, &total);
     return total;
 }
 Lanes dot(std::size_t n, const Lanes* a, const Lanes* x) {
@@ -38,62 +38,70 @@ Lanes dot(std::size_t n, const Lanes* a, const Lanes* x) {
     return total;
 }
 
-// The left side of (S14) and (S15) without stiffness and damping.
+// The left side of (S14) and (S15) without stiffness and damping, in natural modes: Θ = z₀ + r·z, q = Φz. Their inertia
+// is diagonal but for g = qᵀBq about the hub.
 class ModalInertia final : public InertiaForces {
   public:
-    ModalInertia(const ModalModel& model, const Problem& problem)
-        : m_(model.matrices()),
-          n_(static_cast<std::size_t>(model.size()) - 1),
+    ModalInertia(const ModalModel& model, const Problem& problem, const Eigen::MatrixXd& natural)
+        : n_(static_cast<std::size_t>(model.size()) - 1),
           mass_(model.mass()),
           gravity_(problem.gravity),
           radius_(problem.hub.radius),
           length_(model.length()),
           paper_(model.kind() == ModelKind::paper),
-          inertia_(model.inertia_matrix()),
+          shortens_(model.kind() == ModelKind::first_order),
           bq_(n_),
           rq_(n_),
           gq_(n_) {
-        if (paper_) {
-            spinning_ = LaneMatrix(m_.M + radius_ * m_.P1 + 0.5 * m_.P2);
-            second_ = LaneMatrix(m_.P0);
-        } else if (model.kind() == ModelKind::first_order) {
-            second_ = LaneMatrix(m_.G);
-        }
-        second_order_gravity_ = model.kind() == ModelKind::first_order;
+        const ModalMatrices& m = model.matrices();
+        const Eigen::Index n = model.size() - 1;
+        const Eigen::MatrixXd shapes = natural.bottomRightCorner(n, n);
+        const auto in_modes = [&](const Eigen::MatrixXd& by) { return LaneMatrix(shapes.transpose() * by * shapes); };
+        J_ = m.J;
+        S_ = m.S;
+        turn_ = natural.topRightCorner(1, n).transpose();
+        weight_ = shapes.transpose() * m.W;
+        inertia_ = in_modes(model.inertia_matrix());
+        if (paper_) spinning_ = in_modes(m.M + radius_ * m.P1 + 0.5 * m.P2);
+        if (paper_ || shortens_) second_ = in_modes(paper_ ? m.P0 : m.G);
     }
 
+    bool in_modes() const override { return true; }
+
     void evaluate(const NodalMotion& s, Lanes* out) override {
-        const Lanes *q = s.position + 1, *rate = s.rate + 1, *acceleration = s.acceleration + 1;
-        const Lanes& theta_dot = s.rate[0];
-        const Lanes theta_dot2 = theta_dot * theta_dot;
-        inertia_.times(q, bq_.data());
+        const Lanes* z = s.position;
+        const Lanes theta_dot = s.turn_rate + dot(n_, turn_.data(), s.rate), theta_dot2 = theta_dot * theta_dot,
+                    theta_ddot = s.turn_acceleration + dot(n_, turn_.data(), s.acceleration);
+        inertia_.times(z, bq_.data());
         Lanes second = gravity_ * s.sin, fall{};
         const Lanes* turned = bq_.data();
         if (paper_) {
             const Lanes l = length_ * s.cos;
             second = -theta_dot2 * (radius_ * l + 0.5 * l * l);
-            spinning_.times(q, rq_.data());
+            spinning_.times(z, rq_.data());
             turned = rq_.data();
         }
-        if (paper_ || second_order_gravity_) second_.times(q, gq_.data());
-        if (second_order_gravity_) fall = dot(n_, gq_.data(), q);
-        const Lanes pull = gravity_ * s.cos;
-        for (std::size_t i = 0; i < n_; ++i)
-            out[1 + i] = m_.U[static_cast<Eigen::Index>(i)] * s.acceleration[0] + mass_ * acceleration[i] -
-                         theta_dot2 * turned[i] - second * gq_[i] + m_.W[static_cast<Eigen::Index>(i)] * pull;
-        gain_ = dot(n_, bq_.data(), q);
-        out[0] = (m_.J + gain_) * s.acceleration[0] + dot(n_, m_.U.data(), acceleration) +
-                 2.0 * theta_dot * dot(n_, bq_.data(), rate) +
-                 gravity_ * (m_.S * s.cos - dot(n_, m_.W.data(), q) * s.sin - 0.5 * s.cos * fall);
+        if (paper_ || shortens_) second_.times(z, gq_.data());
+        if (shortens_) fall = dot(n_, gq_.data(), z);
+        gain_ = dot(n_, bq_.data(), z);
+        const Lanes pull = gravity_ * s.cos,
+                    bent = gain_ * theta_ddot + 2.0 * theta_dot * dot(n_, bq_.data(), s.rate) +
+                           gravity_ * (S_ * s.cos - dot(n_, weight_.data(), z) * s.sin - 0.5 * s.cos * fall);
+        out[0] = J_ * s.turn_acceleration + bent;
+        for (std::size_t i = 0; i < n_; ++i) {
+            const auto j = static_cast<Eigen::Index>(i);
+            out[1 + i] = mass_ * s.acceleration[i] + turn_[j] * bent - theta_dot2 * turned[i] - second * gq_[i] +
+                         weight_[j] * pull;
+        }
     }
 
     Lanes hub_inertia_gain() const override { return gain_; }
 
   private:
-    const ModalMatrices& m_;  // of the model, which shares them with its copies
     std::size_t n_;
-    double mass_, gravity_, radius_, length_;
-    bool paper_, second_order_gravity_ = false;
+    double mass_, gravity_, radius_, length_, J_ = 0, S_ = 0;
+    bool paper_, shortens_;
+    Eigen::VectorXd turn_, weight_;  // r, ΦᵀW
     LaneMatrix inertia_, spinning_, second_;
     Lanes gain_{};
     std::vector<Lanes> bq_, rq_, gq_;
@@ -153,8 +161,8 @@ class SecondOrderInertia final : public InertiaForces {
     }
 
     void evaluate(const NodalMotion& m, Lanes* out) override {
-        const Lanes *q = m.position + 1, *dq = m.rate + 1, *ddq = m.acceleration + 1;
-        const Lanes &theta_dot = m.rate[0], &theta_ddot = m.acceleration[0];
+        const Lanes *q = m.position, *dq = m.rate, *ddq = m.acceleration;
+        const Lanes &theta_dot = m.turn_rate, &theta_ddot = m.turn_acceleration;
         const Lanes theta_dot2 = theta_dot * theta_dot;
         shorten(q, dq, ddq);
         // −½aα² and its rates.
@@ -260,11 +268,11 @@ class ExactInertia final : public InertiaForces {
     }
 
     void evaluate(const NodalMotion& m, Lanes* out) override {
-        const Lanes &theta_dot = m.rate[0], &theta_ddot = m.acceleration[0];
-        shapes_.times(m.position + 1, bend_.data());
+        const Lanes &theta_dot = m.turn_rate, &theta_ddot = m.turn_acceleration;
+        shapes_.times(m.position, bend_.data());
         for (std::size_t k = 0; k < at_.count; ++k) sine_and_cosine(bend_[k], sin_[k], cos_[k]);
-        shapes_.times(m.rate + 1, rate_.data());
-        shapes_.times(m.acceleration + 1, bend_.data());
+        shapes_.times(m.rate, rate_.data());
+        shapes_.times(m.acceleration, bend_.data());
         for (std::size_t k = 0; k < at_.count; ++k) {
             const Lanes rate = rate_[k] + theta_dot, square = rate * rate, bend = bend_[k] + theta_ddot;
             rate_[k] = -bend * sin_[k] - square * cos_[k];
@@ -295,7 +303,8 @@ class ExactInertia final : public InertiaForces {
 
 }  // namespace
 
-std::unique_ptr<InertiaForces> InertiaForces::of(const Model& model, const Problem& problem) {
+std::unique_ptr<InertiaForces> InertiaForces::of(const Model& model, const Problem& problem,
+                                                 const Eigen::MatrixXd& natural) {
     switch (problem.beam.model) {
         case ModelKind::second_order:
             return std::make_unique<SecondOrderInertia>(problem);
@@ -307,7 +316,7 @@ std::unique_ptr<InertiaForces> InertiaForces::of(const Model& model, const Probl
         case ModelKind::paper:
             break;
     }
-    return std::make_unique<ModalInertia>(dynamic_cast<const ModalModel&>(model), problem);
+    return std::make_unique<ModalInertia>(dynamic_cast<const ModalModel&>(model), problem, natural);
 }
 
 }  // namespace beamcam::sim

@@ -3,6 +3,7 @@
 // MODEL.md §§4–5, §12.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 
 #include "sim/base/lanes.hpp"
@@ -10,17 +11,23 @@
 
 namespace beamcam::sim {
 
-// ξ, ξ̇, ξ̈ of all coordinates, and sine and cosine of ξ₀ = Θ.
+// Either ξ, ξ̇, ξ̈ of the coordinates or z, ż, z̈ of the natural modes: the first rate and acceleration, and all others;
+// and sine and cosine of Θ.
 struct NodalMotion {
+    Lanes turn_rate, turn_acceleration;
     const Lanes *position, *rate, *acceleration;
     Lanes sin, cos;
 };
 
 class InertiaForces {
   public:
-    static std::unique_ptr<InertiaForces> of(const Model& model, const Problem& problem);
+    // `natural`: the modes of the straight beam with its hub in columns, ξ = natural z.
+    static std::unique_ptr<InertiaForces> of(const Model& model, const Problem& problem,
+                                             const Eigen::MatrixXd& natural);
     virtual ~InertiaForces() = default;
-    // out ← d(∂T/∂ξ̇)/dt − ∂T/∂ξ + ∂V_g/∂ξ, one entry a coordinate.
+    // Motion and forces are those of the natural modes, not of the coordinates.
+    virtual bool in_modes() const { return false; }
+    // out ← d(∂T/∂ξ̇)/dt − ∂T/∂ξ + ∂V_g/∂ξ, one entry a coordinate or mode.
     virtual void evaluate(const NodalMotion& motion, Lanes* out) = 0;
     // By how much bending changes the inertia about the hub, ∂²T/∂Θ̇², if the model has it: where the coupling with the
     // shapes leaves little of that inertia, the fixed-point iteration of the accelerations diverges without it.

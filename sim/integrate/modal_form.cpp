@@ -111,7 +111,7 @@ void ModalForm::transform(const Eigen::MatrixXd& by, double* state) const {
     double result[kMaxSize];
     Eigen::Map<Eigen::VectorXd> out(result, size);
     for (double* part : {state, state + size}) {
-        out.noalias() = by.lazyProduct(Eigen::Map<const Eigen::VectorXd>(part, size));
+        out.noalias() = by * Eigen::Map<const Eigen::VectorXd>(part, size);
         std::copy_n(result, size, part);
     }
 }

@@ -43,8 +43,9 @@ struct NodalStep {
     // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates. Returns the largest change in
     // units of the tolerance. `load`: null in flight.
     double update_forcing(const StepTable& table, const ContactLoad* load);
-    // Where the modes are not the coordinates: coordinates and rates at the nodes from the modes.
-    void place_coordinates();
+    // Where the modes are not the coordinates: angle and rate of the frame at the nodes from the modes, and in contact
+    // or if the forces of inertia need them, all coordinates and rates.
+    void place_coordinates(bool in_contact);
     const Lanes* deflection() const { return inertia_ ? position_.data() + 1 : segment.q.data(); }
     const Lanes* deflection_rate() const { return inertia_ ? rate_.data() + 1 : segment.v.data(); }
     const Lanes& frame_rate() const { return inertia_ ? rate_[0] : segment.theta_dot; }
@@ -74,7 +75,7 @@ struct NodalStep {
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
-    void share_by_bent_inertia(Lanes& hub);
+    Lanes moment_of_bent_inertia(const Lanes& turn) const;
     double turn_hub(double h, const Lanes& inertia);
     double update_by_arrays(const StepTable& table, const ContactLoad* load);
     double update_by_inertia(const StepTable& table, const ContactLoad* load);
