@@ -49,9 +49,10 @@ inline constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a 
 inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
 inline constexpr double kDepthRounding = 4e-16;  // of the beam's length: two roundings of a gap
 // Where the damping of a contact decays by more than kFastDecay within a step, an error of a rate becomes a force that
-// no polynomial follows: the iteration may leave only a share of kContactShare. Contractions vary from sweep to sweep;
-// kSlowestContraction is the poorest after a good one.
-inline constexpr double kFastDecay = 5, kSlowestContraction = 0.03;
+// no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay on where the
+// force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary from sweep to
+// sweep; kSlowestContraction is the poorest after a good one.
+inline constexpr double kFastDecay = 5, kSteadyDecay = 2, kSteadyForce = 1e-2, kSlowestContraction = 0.03;
 inline constexpr double kStalled = 0.9, kContactGrowth = 2;
 inline constexpr int kContactPatience = 5;
 inline constexpr int kFootCorrections = 3;      // of the foot by Newton's method, from a foot nearby

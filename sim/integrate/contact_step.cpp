@@ -39,6 +39,11 @@ bool solve_dense(std::array<Lanes, kNodes>& a, Lanes& b) {
     return true;
 }
 
+bool is_steady(const Lanes& force) {
+    const double most = largest(force);
+    return largest(most - force) < kSteadyForce * most;
+}
+
 }  // namespace
 
 ContactStep::ContactStep(NodalStep& step)
@@ -105,7 +110,8 @@ double ContactStep::solve(const StepTable& table) {
     const int most = form_.by_arrays() ? kMostNewton : kMostNewtonCoupled;
     for (int sweep = 0; sweep < most && status == FixedPoint::Status::going; ++sweep) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
-        if (decays_ > kFastDecay) iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
+        if (decays_ > (is_steady(load.force) ? kSteadyDecay : kFastDecay))
+            iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
         status = iteration.add(step_.update_forcing(table, &load));
     }
     if (status != FixedPoint::Status::settled && !iteration.enough()) return kNoSolution;

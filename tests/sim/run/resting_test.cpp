@@ -151,6 +151,21 @@ TEST(Resting, LastingContactIsSteppedOverAtEveryTolerance) {
         }
 }
 
+// The same after impacts, whose δ̇₋ makes the contact's damping weaker.
+TEST(Resting, LastingContactAfterImpactsIsSteppedOver) {
+    const auto tried = [](int modes, double rtol) {
+        Problem p;
+        p.beam.modes = modes;
+        p.solver.rtol = rtol;
+        const Counters counters = run(p, 40).counters;
+        return counters.steps + counters.rejected;
+    };
+    for (const int modes : {3, 4}) {
+        const long few = tried(modes, 1e-10);
+        for (const double rtol : {1e-7, 1e-8, 1e-9}) EXPECT_LT(tried(modes, rtol), 1.3 * few) << modes << " " << rtol;
+    }
+}
+
 // A step whose iteration loses the contact is tried again, shorter, from where the contact is.
 TEST(Resting, ALostContactIsFoundAgainByShorterSteps) {
     Problem p;
