@@ -12,6 +12,7 @@
 #include "render/film/page.hpp"
 #include "render/film/panel.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/mechanism/mesh.hpp"
 #include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
@@ -24,58 +25,6 @@ constexpr int kSides = 96;           // of a disc
 constexpr double kLargestTurn =
     1;  // rotation of the cam between two keys [rad]; beyond π interpolation would go backwards
 constexpr double kThinnest = 0.008, kWide = 0.06;  // depth and width of the drawn beam relative to its length
-
-struct Shape {
-    std::vector<float> places, normals;
-    std::vector<std::uint8_t> joints;  // four per vertex, only for the beam
-    std::vector<float> weights;
-    std::vector<std::uint32_t> corners;
-
-    std::uint32_t vertex(double x, double y, double z, double nx, double ny, double nz) {
-        for (const double v : {x, y, z}) places.push_back(static_cast<float>(v));
-        for (const double v : {nx, ny, nz}) normals.push_back(static_cast<float>(v));
-        return static_cast<std::uint32_t>(places.size() / 3 - 1);
-    }
-    void quad(std::uint32_t a, std::uint32_t b, std::uint32_t c, std::uint32_t d) {
-        corners.insert(corners.end(), {a, b, c, a, c, d});
-    }
-    void disc(Vec2 centre, double radius, double back, double front) {
-        const auto ring = [&](double z, double nz) {
-            const auto first = static_cast<std::uint32_t>(places.size() / 3);
-            for (int i = 0; i < kSides; ++i) {
-                const Vec2 n = sim::unit(2 * std::numbers::pi * i / kSides);
-                vertex(centre.x + radius * n.x, centre.y + radius * n.y, z, nz == 0 ? n.x : 0, nz == 0 ? n.y : 0, nz);
-            }
-            return first;
-        };
-        const std::uint32_t low = ring(back, 0), high = ring(front, 0), under = ring(back, -1), over = ring(front, 1);
-        for (std::uint32_t i = 0; i < kSides; ++i) {
-            const std::uint32_t next = (i + 1) % kSides;
-            quad(low + i, low + next, high + next, high + i);
-            if (i == 0 || next == 0) continue;
-            corners.insert(corners.end(), {over, over + i, over + next});
-            corners.insert(corners.end(), {under, under + next, under + i});
-        }
-    }
-    void box(double x0, double x1, double y0, double y1, double z0, double z1) {
-        const double at[2][3] = {{x0, y0, z0}, {x1, y1, z1}};
-        for (int axis = 0; axis < 3; ++axis)
-            for (int side = 0; side < 2; ++side) {
-                std::array<std::uint32_t, 4> face{};
-                for (int k = 0; k < 4; ++k) {
-                    int which[3] = {0, 0, 0};
-                    which[axis] = side;
-                    which[(axis + 1) % 3] = (k == 1 || k == 2) ? 1 : 0;
-                    which[(axis + 2) % 3] = k >= 2 ? 1 : 0;
-                    double n[3] = {0, 0, 0};
-                    n[axis] = side == 1 ? 1 : -1;
-                    face[static_cast<std::size_t>(k)] =
-                        vertex(at[which[0]][0], at[which[1]][1], at[which[2]][2], n[0], n[1], n[2]);
-                }
-                side == 1 ? quad(face[0], face[1], face[2], face[3]) : quad(face[3], face[2], face[1], face[0]);
-            }
-    }
-};
 
 // The binary arrays of the file and their JSON descriptions.
 class Arrays {
@@ -180,19 +129,36 @@ class Model {
         return index;
     }
 
-    int add_mesh(const Shape& shape, Material material) {
+    // `joints`: of each vertex; empty for rigid bodies.
+    int add_mesh(const Mesh& mesh, Material material, const std::vector<std::size_t>& joints = {}) {
         constexpr int kVertices = 34962, kIndices = 34963, kByte = 5121, kWord = 5125;
+        std::vector<float> places, normals, weights;
+        for (const MeshVertex& v : mesh.vertices) {
+            places.insert(places.end(), v.place.begin(), v.place.end());
+            normals.insert(normals.end(), v.normal.begin(), v.normal.end());
+        }
         std::string attributes =
-            fmt::format(R"("POSITION":{},"NORMAL":{})", arrays_.floats(shape.places, "VEC3", 3, true, kVertices),
-                        arrays_.floats(shape.normals, "VEC3", 3, false, kVertices));
-        if (!shape.joints.empty())
-            attributes += fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{})",
-                                      arrays_.add(shape.joints, "VEC4", kByte, 4, false, kVertices),
-                                      arrays_.floats(shape.weights, "VEC4", 4, false, kVertices));
+            fmt::format(R"("POSITION":{},"NORMAL":{})", arrays_.floats(places, "VEC3", 3, true, kVertices),
+                        arrays_.floats(normals, "VEC3", 3, false, kVertices));
+        if (!joints.empty()) {
+            std::vector<std::uint8_t> owners;
+            for (const std::size_t joint : joints) {
+                owners.insert(owners.end(), {static_cast<std::uint8_t>(joint), 0, 0, 0});
+                weights.insert(weights.end(), {1, 0, 0, 0});
+            }
+            attributes +=
+                fmt::format(R"(,"JOINTS_0":{},"WEIGHTS_0":{})", arrays_.add(owners, "VEC4", kByte, 4, false, kVertices),
+                            arrays_.floats(weights, "VEC4", 4, false, kVertices));
+        }
         meshes_.push_back(fmt::format(R"({{"primitives":[{{"attributes":{{{}}},"indices":{},"material":{}}}]}})",
-                                      attributes, arrays_.add(shape.corners, "SCALAR", kWord, 1, false, kIndices),
+                                      attributes, arrays_.add(mesh.corners, "SCALAR", kWord, 1, false, kIndices),
                                       static_cast<int>(material)));
         return static_cast<int>(meshes_.size()) - 1;
+    }
+
+    void add_cylinder(Mesh& mesh, Vec2 centre, double radius, double back, double front) const {
+        mesh.cylinder(
+            {.centre = centre, .radius = radius, .back = back, .front = front, .sides = kSides, .closed = true}, {});
     }
 
     void add_track(int node, const char* path, int keys, const std::vector<float>& values) {
@@ -219,19 +185,20 @@ class Model {
 
     void add_fixed() {
         const double hub = hub_size(), foot = hub + 0.04 * length_;
-        Shape support;
-        support.box(-0.8 * hub, 0.8 * hub, -foot, 0, -1.5 * wide_, -0.75 * wide_);
-        support.box(-1.5 * hub, 1.5 * hub, -foot - 0.012 * length_, -foot, -1.5 * wide_, 0.75 * wide_);
+        Mesh support;
+        support.box({-0.8 * hub, -foot, -1.5 * wide_}, {0.8 * hub, 0, -0.75 * wide_}, {});
+        support.box({-1.5 * hub, -foot - 0.012 * length_, -1.5 * wide_}, {1.5 * hub, -foot, 0.75 * wide_}, {});
         add_node("support", fmt::format(R"(,"mesh":{})", add_mesh(support, steel)));
-        Shape pins;
-        pins.disc({0, 0}, 0.35 * hub, -1.5 * wide_, 0.75 * wide_);
-        if (problem_.cam) pins.disc(problem_.cam->centre, 0.1 * problem_.cam->radius, -1.5 * wide_, 0.68 * wide_);
+        Mesh pins;
+        add_cylinder(pins, {0, 0}, 0.35 * hub, -1.5 * wide_, 0.75 * wide_);
+        if (problem_.cam)
+            add_cylinder(pins, problem_.cam->centre, 0.1 * problem_.cam->radius, -1.5 * wide_, 0.68 * wide_);
         add_node("axes", fmt::format(R"(,"mesh":{})", add_mesh(pins, dark)));
     }
 
     void add_hub() {
-        Shape shape;
-        shape.disc({0, 0}, hub_size(), -0.7 * wide_, 0.7 * wide_);
+        Mesh shape;
+        add_cylinder(shape, {0, 0}, hub_size(), -0.7 * wide_, 0.7 * wide_);
         const int node = add_node("hub", fmt::format(R"(,"mesh":{})", add_mesh(shape, steel)));
         std::vector<float> turns;
         for (const sim::Pose& pose : poses_) add_turn(turns, pose.theta);
@@ -240,9 +207,9 @@ class Model {
 
     void add_cam() {
         const sim::Cam& cam = *problem_.cam;
-        Shape shape, mark;
-        shape.disc({cam.eccentricity, 0}, cam.radius, -0.62 * wide_, 0.62 * wide_);
-        mark.disc({cam.eccentricity + 0.85 * cam.radius, 0}, 0.05 * cam.radius, 0.62 * wide_, 0.63 * wide_);
+        Mesh shape, mark;
+        add_cylinder(shape, {cam.eccentricity, 0}, cam.radius, -0.62 * wide_, 0.62 * wide_);
+        add_cylinder(mark, {cam.eccentricity + 0.85 * cam.radius, 0}, 0.05 * cam.radius, 0.62 * wide_, 0.63 * wide_);
         const int on = add_node("cam mark", fmt::format(R"(,"mesh":{})", add_mesh(mark, dark)), false);
         const int node = add_node("cam", fmt::format(R"(,"mesh":{},"children":[{}],"translation":[{:.9g},{:.9g},0])",
                                                      add_mesh(shape, steel), on, cam.centre.x, cam.centre.y));
@@ -256,35 +223,21 @@ class Model {
         add_track(node, "rotation", arrays_.floats(times, "SCALAR", 1, true), turns);
     }
 
-    // Rings of four corners, with two or three normals each; every ring belongs to one joint.
+    // A bar at rest; every station belongs to one joint.
     void add_beam() {
         const std::size_t last = beams_.front().line.size() - 1, count = std::min(kJoints, last + 1);
         const DrawnBeam& beam = beams_.front();
-        Shape shape;
-        const auto add = [&](std::size_t joint, double x, double y, double z, Vec2 n, double nz) {
-            shape.joints.insert(shape.joints.end(), {static_cast<std::uint8_t>(joint), 0, 0, 0});
-            shape.weights.insert(shape.weights.end(), {1, 0, 0, 0});
-            return shape.vertex(x, y, z, n.x, n.y, nz);
-        };
-        const double half = wide_ / 2;
-        std::vector<std::array<std::uint32_t, 8>> rings;
+        std::vector<Vec2> low, high;
         for (std::size_t i = 0; i < count; ++i) {
             const double x = length_ * static_cast<double>(i) / static_cast<double>(count - 1);
-            rings.push_back({add(i, x, beam.low, -half, {0, -1}, 0), add(i, x, beam.low, half, {0, -1}, 0),
-                             add(i, x, beam.low, half, {}, 1), add(i, x, beam.high, half, {}, 1),
-                             add(i, x, beam.high, half, {0, 1}, 0), add(i, x, beam.high, -half, {0, 1}, 0),
-                             add(i, x, beam.high, -half, {}, -1), add(i, x, beam.low, -half, {}, -1)});
+            low.push_back({x, beam.low}), high.push_back({x, beam.high});
         }
-        for (std::size_t i = 0; i + 1 < count; ++i)
-            for (std::size_t k = 0; k < 8; k += 2)
-                shape.quad(rings[i][k], rings[i + 1][k], rings[i + 1][k + 1], rings[i][k + 1]);
-        for (const std::size_t i : {std::size_t{0}, count - 1}) {
-            const double x = i == 0 ? 0 : length_, n = i == 0 ? -1 : 1;
-            const std::uint32_t a = add(i, x, beam.low, -half, {n, 0}, 0), b = add(i, x, beam.high, -half, {n, 0}, 0),
-                                c = add(i, x, beam.high, half, {n, 0}, 0), d = add(i, x, beam.low, half, {n, 0}, 0);
-            i == 0 ? shape.quad(a, d, c, b) : shape.quad(a, b, c, d);
-        }
-        const int mesh = add_mesh(shape, blue);
+        Mesh bar;
+        bar.bar(low, high, std::vector<Color>(count), wide_ / 2);
+        std::vector<std::size_t> owners;
+        for (std::size_t k = 0; k < bar.vertices.size(); ++k)
+            owners.push_back(k < Mesh::kRing * count ? k / Mesh::kRing : k < Mesh::kRing * count + 4 ? 0 : count - 1);
+        const int mesh = add_mesh(bar, blue, owners);
         std::vector<int> joints;
         std::vector<float> inverse;
         for (std::size_t i = 0; i < count; ++i) {

@@ -6,17 +6,16 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <vector>
 
 #include "render/draw/color.hpp"
+#include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/mechanism/mechanism.hpp"
+#include "render/mechanism/mesh.hpp"
 
 namespace beamcam::render {
-
-struct Vec3 {
-    double x = 0, y = 0, z = 0;
-};
 
 // A camera that looks at the origin, rotated by yaw about the vertical (positive: from the right) and by pitch
 // (positive: from above).
@@ -27,11 +26,8 @@ struct Perspective {
 
     static Perspective looking(Vec2 centre, double distance, double zoom, double yaw, double pitch);
     Vec2 to_pixels(Vec3 p) const;
-};
-
-struct SolidVertex {
-    std::array<float, 3> place{}, normal{};
-    std::array<float, 4> color{};  // alpha 0: the wall, which shows only shadows
+    bool is_before(Vec3 p) const;                          // clearly in front of the camera
+    std::optional<Vec3> seen_at(Vec2 px, double z) const;  // the point of the plane z = const. at this pixel
 };
 
 // Axes of the light, at the upper left and in front as in the lit view: towards it, to its right, up.
@@ -40,12 +36,11 @@ inline constexpr Vec3 kLightNear{-0.4096, 0.5898, 0.6962}, kLightRight{0.8619, 0
 
 struct SolidScene {
     Perspective view;
-    std::vector<SolidVertex> triangles;  // three vertices each, in either orientation: both sides are lit
-    std::size_t wall = 0;                // the first vertices: parts of the wall on which shadows may fall
-    std::size_t front = 0;               // end of the triangles that face the camera; the rest only casts shadows
-    double reach = 1;                    // everything is within this distance of the origin [px]
-    double shadow = 0.3;                 // opacity
-    Box seen;                            // the picture is transparent outside this box [px]
+    Mesh mesh;             // the nearest bodies come first among the bodies, so that hidden pixels are not shaded
+    std::size_t wall = 0;  // the first corners: parts of the wall on which shadows may fall
+    double reach = 1;      // everything is within this distance of the origin [px]
+    double shadow = 0.3;   // opacity
+    DirtyTiles seen;       // the rest of the picture is transparent
 };
 
 // `wide`: width of the beam across the plane of motion [px]. `rim`: colours around the disc, counter-clockwise from its

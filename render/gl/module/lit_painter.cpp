@@ -50,22 +50,6 @@ StripMesh strip_mesh(const LitStrip& strip, double margin) {
     return mesh;
 }
 
-struct Band {
-    int left, top, right, bottom;  // [px]
-};
-
-// Bands of a few rows of tiles: reading one band has a fixed cost of about ten thousand pixels.
-std::vector<Band> bands(const DirtyTiles& tiles) {
-    constexpr int kRows = 4 * DirtyTiles::kHeight;
-    std::vector<Band> out;
-    tiles.for_each_run([&](int left, int top, int right, int bottom) {
-        if (out.empty() || out.back().top / kRows != top / kRows) out.push_back({left, top, right, bottom});
-        Band& b = out.back();
-        b = {std::min(b.left, left), b.top, std::max(b.right, right), bottom};
-    });
-    return out;
-}
-
 int finish_code(Finish finish) {
     switch (finish) {
         case Finish::turned:

@@ -1,8 +1,9 @@
 #include "render/gl/module/solid_painter.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <vector>
 
 #include "render/gl/module/shaders.hpp"
 
@@ -18,9 +19,17 @@ void set_light(GLuint program, double reach) {
     set(program, "reach", float(reach));
 }
 
-// Draws the vertices from `first` to before `end`.
+// Draws the triangles of the corners from `first` to before `end`.
 void draw_triangles(std::size_t first, std::size_t end) {
-    glDrawArrays(GL_TRIANGLES, static_cast<GLint>(first), static_cast<GLsizei>(end - first));
+    glDrawElements(GL_TRIANGLES, static_cast<GLsizei>(end - first), GL_UNSIGNED_INT,
+                   reinterpret_cast<const void*>(  // NOLINT(performance-no-int-to-ptr): required by OpenGL
+                       first * sizeof(std::uint32_t)));
+}
+
+template <class T>
+void upload(GLenum kind, GLuint buffer, const std::vector<T>& data) {
+    glBindBuffer(kind, buffer);
+    glBufferData(kind, static_cast<GLsizeiptr>(data.size() * sizeof(T)), data.data(), GL_STREAM_DRAW);
 }
 
 }  // namespace
@@ -32,6 +41,7 @@ SolidPainter::SolidPainter(int width, int height) : width_(width), height_(heigh
     depths_ = link_program({kDepthVertex}, {kDepthFragment});
     glGenVertexArrays(1, &vertices_);
     glGenBuffers(1, &buffer_);
+    glGenBuffers(1, &corners_);
     glBindVertexArray(vertices_);
     glBindBuffer(GL_ARRAY_BUFFER, buffer_);
     describe_vertices({3, 3, 4});
@@ -72,24 +82,16 @@ void SolidPainter::make_shadow_target() {
 
 void SolidPainter::draw(const SolidScene& scene, Image& out) {
     glBindVertexArray(vertices_);
-    glBindBuffer(GL_ARRAY_BUFFER, buffer_);
-    glBufferData(GL_ARRAY_BUFFER, static_cast<GLsizeiptr>(scene.triangles.size() * sizeof(SolidVertex)),
-                 scene.triangles.data(), GL_STREAM_DRAW);
-    const Part part = part_of(scene);
+    upload(GL_ARRAY_BUFFER, buffer_, scene.mesh.vertices);
+    upload(GL_ELEMENT_ARRAY_BUFFER, corners_, scene.mesh.corners);
     glEnable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     draw_depths(scene);
     draw_scene(scene);
     glDisable(GL_DEPTH_TEST);
     glEnable(GL_BLEND);
-    read(part, out);
+    read(scene.seen, out);
     require_no_error();
-}
-
-SolidPainter::Part SolidPainter::part_of(const SolidScene& scene) const {
-    const auto whole = [](double at, int most) { return static_cast<int>(std::clamp<double>(at, 0, most)); };
-    return {whole(std::floor(scene.seen.x), width_), whole(std::floor(scene.seen.y), height_),
-            whole(std::ceil(scene.seen.right()), width_), whole(std::ceil(scene.seen.bottom()), height_)};
 }
 
 // The shadow map. The wall casts no shadow.
@@ -99,7 +101,7 @@ void SolidPainter::draw_depths(const SolidScene& scene) {
     glClear(GL_DEPTH_BUFFER_BIT);
     glUseProgram(depths_);
     set_light(depths_, scene.reach);
-    draw_triangles(scene.wall, scene.triangles.size());
+    draw_triangles(scene.wall, scene.mesh.corners.size());
 }
 
 // The picture.
@@ -108,7 +110,10 @@ void SolidPainter::draw_scene(const SolidScene& scene) {
     glViewport(0, 0, width_, height_);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     use_program(bodies_, scene);
-    draw_triangles(scene.wall, scene.front);
+    glEnable(GL_CULL_FACE);
+    glFrontFace(GL_CW);  // the picture's rows run from top to bottom
+    draw_triangles(scene.wall, scene.mesh.corners.size());
+    glDisable(GL_CULL_FACE);
     use_program(wall_, scene);
     set(wall_, "opacity", float(scene.shadow));
     draw_triangles(0, scene.wall);  // after the bodies, so that hidden pixels are not shaded
@@ -130,17 +135,19 @@ void SolidPainter::use_program(GLuint program, const SolidScene& scene) {
 }
 
 // Resolves the samples and reads the pixels.
-void SolidPainter::read(const Part& part, Image& out) const {
+void SolidPainter::read(const DirtyTiles& seen, Image& out) const {
     std::ranges::fill(out.pixels, 0);
-    if (part.left >= part.right || part.top >= part.bottom) return;
+    const std::vector<Band> parts = bands(seen);
     glBindFramebuffer(GL_READ_FRAMEBUFFER, target_);
     glBindFramebuffer(GL_DRAW_FRAMEBUFFER, resolved_);
-    glBlitFramebuffer(part.left, part.top, part.right, part.bottom, part.left, part.top, part.right, part.bottom,
-                      GL_COLOR_BUFFER_BIT, GL_NEAREST);
+    for (const Band& b : parts)
+        glBlitFramebuffer(b.left, b.top, b.right, b.bottom, b.left, b.top, b.right, b.bottom, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
     glBindFramebuffer(GL_FRAMEBUFFER, resolved_);
     glPixelStorei(GL_PACK_ROW_LENGTH, width_);
-    glReadPixels(part.left, part.top, part.right - part.left, part.bottom - part.top, GL_RGBA, GL_UNSIGNED_BYTE,
-                 out.pixels.data() + std::ptrdiff_t(part.top) * width_ + part.left);
+    for (const Band& b : parts)
+        glReadPixels(b.left, b.top, b.right - b.left, b.bottom - b.top, GL_RGBA, GL_UNSIGNED_BYTE,
+                     out.pixels.data() + std::ptrdiff_t(b.top) * width_ + b.left);
 }
 
 }  // namespace beamcam::render

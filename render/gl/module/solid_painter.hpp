@@ -12,19 +12,15 @@ class SolidPainter {
     void draw(const SolidScene& scene, Image& out);
 
   private:
-    struct Part {  // of the frame buffer, half open [px]
-        int left = 0, top = 0, right = 0, bottom = 0;
-    };
     void make_shadow_target();
-    Part part_of(const SolidScene& scene) const;
     void draw_depths(const SolidScene& scene);
     void draw_scene(const SolidScene& scene);
     void use_program(GLuint program, const SolidScene& scene);
-    void read(const Part& part, Image& out) const;
+    void read(const DirtyTiles& seen, Image& out) const;
 
     int width_, height_;
     GLuint bodies_ = 0, wall_ = 0, depths_ = 0;  // programs
-    GLuint vertices_ = 0, buffer_ = 0, target_ = 0, resolved_ = 0, shadow_target_ = 0;
+    GLuint vertices_ = 0, buffer_ = 0, corners_ = 0, target_ = 0, resolved_ = 0, shadow_target_ = 0;
 };
 
 }  // namespace beamcam::render

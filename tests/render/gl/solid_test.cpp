@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "render/gl/lit.hpp"
 #include "tests/render/drawing.hpp"
@@ -33,45 +34,64 @@ Vec2 shadow(const std::array<float, 3>& place, double wall) {
     return {double(place[0]) - fall * kLightNear.x, double(place[1]) - fall * kLightNear.y};
 }
 
-bool covers(const SolidScene& scene, Vec2 at) {
+const std::array<float, 3>& place(const SolidScene& scene, std::size_t corner) {
+    return scene.mesh.vertices[scene.mesh.corners[corner]].place;
+}
+Vec2 pixel(const SolidScene& scene, const std::array<float, 3>& at) {
+    return scene.view.to_pixels({at[0], at[1], at[2]});
+}
+
+// The parts of the wall, in pixels. Each is two triangles.
+std::vector<Box> wall_of(const SolidScene& scene) {
+    std::vector<Box> out;
     for (std::size_t i = 0; i < scene.wall; i += 6) {
-        const auto &low = scene.triangles[i].place, &high = scene.triangles[i + 2].place;
-        if (at.x >= low[0] && at.x <= high[0] && at.y >= low[1] && at.y <= high[1]) return true;
+        Bounds part;
+        for (std::size_t k = i; k < i + 6; ++k) part.add(pixel(scene, place(scene, k)));
+        out.push_back(part.box());
     }
-    return false;
+    return out;
 }
 
 TEST(SolidScene, TheWallIsWhereverAShadowFallsAndNotMuchMore) {
     const SolidScene scene = example();
     ASSERT_GT(scene.wall, 0U);
     ASSERT_EQ(scene.wall % 6, 0U);
-    const double wall = scene.triangles.front().place[2], blur = 0.0056 * scene.reach;
-    for (std::size_t i = scene.wall; i < scene.triangles.size(); ++i) {
-        const Vec2 at = shadow(scene.triangles[i].place, wall);
-        for (const Vec2 edge : {Vec2{0, 0}, Vec2{blur, 0}, Vec2{-blur, 0}, Vec2{0, blur}, Vec2{0, -blur}})
-            ASSERT_TRUE(covers(scene, at + edge)) << at.x << " " << at.y;
-        EXPECT_GE(scene.triangles[i].place[2], wall);  // the wall is drawn behind all
+    const std::vector<Box> parts = wall_of(scene);
+    const double wall = place(scene, 0)[2], blur = 0.0056 * scene.reach;
+    for (std::size_t i = scene.wall; i < scene.mesh.corners.size(); ++i) {
+        const Vec2 at = shadow(place(scene, i), wall);
+        for (const Vec2 edge : {Vec2{0, 0}, Vec2{blur, 0}, Vec2{-blur, 0}, Vec2{0, blur}, Vec2{0, -blur}}) {
+            const Vec2 px = scene.view.to_pixels({at.x + edge.x, at.y + edge.y, wall});
+            ASSERT_TRUE(std::ranges::any_of(parts,
+                                            [&](const Box& b) {
+                                                return b.contains({px.x, px.y, 0, 0}, 1e-3);
+                                            }))
+                << px.x << " " << px.y;
+        }
+        EXPECT_GE(place(scene, i)[2], wall);  // the wall is drawn behind all
     }
     double area = 0;
-    for (std::size_t i = 0; i < scene.wall; i += 6) {
-        const auto &low = scene.triangles[i].place, &high = scene.triangles[i + 2].place;
-        area += double(high[0] - low[0]) * double(high[1] - low[1]);
-    }
+    for (const Box& part : parts) area += part.w * part.h;
     EXPECT_LT(area, 0.25 * 960 * 720);
 }
 
-// Triangles that face away are drawn only in the shadow map; the picture is empty outside `seen`.
-TEST(SolidScene, WhatFacesTheEyeComesFirstAndLiesWithinThePartThatIsSeen) {
+// The edges of its parts are those of pixels, far from all samples: no gap, and no sample belongs to two parts.
+TEST(SolidScene, ThePartsOfTheWallMeetAtThePixelsEdges) {
     const SolidScene scene = example();
-    ASSERT_GT(scene.front, scene.wall);
-    ASSERT_LT(scene.front, scene.triangles.size());
-    ASSERT_EQ((scene.front - scene.wall) % 3, 0U);
-    const double share = double(scene.front - scene.wall) / double(scene.triangles.size() - scene.wall);
-    EXPECT_LT(share, 0.8);
-    for (const SolidVertex& vertex : scene.triangles) {
-        const Vec2 at = scene.view.to_pixels({vertex.place[0], vertex.place[1], vertex.place[2]});
-        ASSERT_TRUE(at.x > scene.seen.x && at.x < scene.seen.right() && at.y > scene.seen.y &&
-                    at.y < scene.seen.bottom());
+    for (const Box& part : wall_of(scene))
+        for (const double edge : {part.x, part.y, part.right(), part.bottom()})
+            ASSERT_NEAR(edge, std::round(edge), 1e-2);
+}
+
+TEST(SolidScene, TheSceneLiesWithinTheTilesThatAreSeen) {
+    const SolidScene scene = example();
+    for (const MeshVertex& vertex : scene.mesh.vertices) {
+        const Vec2 at = pixel(scene, vertex.place);
+        bool seen = false;
+        scene.seen.for_each_run([&](double left, double top, double right, double bottom) {
+            seen = seen || (at.x > left && at.x < right && at.y > top && at.y < bottom);
+        });
+        ASSERT_TRUE(seen) << at.x << " " << at.y;
     }
 }
 
@@ -84,36 +104,25 @@ TEST(SolidScene, ABodyAtTheEyeIsSeenEverywhere) {
     shape.hinge = {100, 200}, shape.hub = 20, shape.pin = 6;
     const Box box{0, 0, 400, 400};
     const Perspective near = Perspective::looking(box.centre(), 30, 1, 0, 0);
-    EXPECT_EQ(solid_scene(shape, palette(Theme::light), box, near, 60, 1, {}).seen.w, 400);
+    double area = 0;
+    solid_scene(shape, palette(Theme::light), box, near, 60, 1, {})
+        .seen.for_each_run([&](int left, int top, int right, int bottom) { area += (right - left) * (bottom - top); });
+    EXPECT_EQ(area, 400 * 400);
 }
 
 // A renderer clears the previous scene.
 TEST(GlSolid, ASmallSceneAfterALargeOneLeavesNothingOfIt) {
     SKIP_WITHOUT_GL();
     SolidScene large = example(), small = example();
-    small.triangles.resize(small.wall + 3);
-    small.front = small.wall + 3;
-    small.seen = {400, 300, 10, 10};
+    small.mesh.corners.resize(small.wall + 3);
+    small.seen.clear();
+    small.seen.add({400, 300, 10, 10});
     const auto renderer = make_lit_renderer(960, 720), fresh = make_lit_renderer(960, 720);
     Image after, alone;
     renderer->draw(large, after);
     renderer->draw(small, after);
     fresh->draw(small, alone);
     EXPECT_TRUE(after == alone);
-}
-
-// Drawing the backs as well changes only pixels at the silhouette.
-TEST(GlSolid, TheBacksOfBodiesAreNotMissed) {
-    SKIP_WITHOUT_GL();
-    SolidScene scene = example();
-    const auto renderer = make_lit_renderer(960, 720);
-    Image fronts, all;
-    renderer->draw(scene, fronts);
-    scene.front = scene.triangles.size();
-    renderer->draw(scene, all);
-    std::size_t differ = 0;
-    for (std::size_t i = 0; i < all.pixels.size(); ++i) differ += all.pixels[i] != fronts.pixels[i] ? 1 : 0;
-    EXPECT_LE(differ, 20U);  // of samples on the silhouette, where front and back meet
 }
 
 // The silhouette of a disc towards the light: normals that point away must not darken single pixels.
