@@ -1,0 +1,64 @@
+#!/usr/bin/env python3
+"""A browser (Chromium) shows the page that plays the motion: the beam has the direction that the still of the same instant shows, and the
+clock and the angle are those of the motion.
+
+page.py PROGRAM
+
+Exit code 77 (skipped) without chromium or ffmpeg.
+"""
+import collections
+import json
+import math
+import shutil
+import subprocess
+import sys
+import tempfile
+
+INSTANTS = [0.1, 0.25, 0.4]
+WIDTH, HEIGHT = 960, 540
+if not shutil.which("chromium") or not shutil.which("ffmpeg"):
+    sys.exit(77)
+
+
+def browser(folder, instant, *more):
+    command = ["chromium", "--headless", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking",
+               "--disable-component-update", "--disable-sync", f"--user-data-dir={folder}/profile", f"--window-size={WIDTH},{HEIGHT}",
+               "--virtual-time-budget=1000", *more, f"file://{folder}/s.html#t={instant}"]
+    return subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
+
+
+def direction(picture):
+    """Direction of the axis of the beam, counter-clockwise [rad]: the most frequent colour, beside the paper's, that is in many rows."""
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", picture, "-f", "rawvideo", "-pix_fmt", "rgb24", "-vf", f"crop={WIDTH}:{HEIGHT - 220}:0:70", "-"], check=True, capture_output=True).stdout
+    pixels = [raw[i:i + 3] for i in range(0, len(raw), 3)]
+    for color, count in collections.Counter(pixels).most_common(8)[1:]:
+        places = [(i % WIDTH, -(i // WIDTH)) for i, pixel in enumerate(pixels) if pixel == color]
+        if count >= 300 and len({y for _, y in places}) > 50:
+            break
+    else:
+        sys.exit(f"{picture} shows no beam")
+    x, y = (sum(p[k] for p in places) / len(places) for k in range(2))
+    xx, xy, yy = (sum((p[a] - m) * (p[b] - n) for p in places) for a, b, m, n in ((0, 0, x, x), (0, 1, x, y), (1, 1, y, y)))
+    return math.atan2(2 * xy, xx - yy) / 2
+
+
+with tempfile.TemporaryDirectory() as folder:
+    stills = [{"type": "still", "file": f"{i}.png", "at": t, "size": [WIDTH, HEIGHT], "layout": "mechanism", "view": {"style": "flat"}}
+              for i, t in enumerate(INSTANTS)]
+    scene = {"title": "Fall", "cam": None, "beam": {"model": "rigid"}, "time": {"end": 0.5}, "outputs": [{"type": "page"}, *stills]}
+    with open(f"{folder}/s.json", "w") as file:
+        json.dump(scene, file)
+    subprocess.run([sys.argv[1], "run", "s.json", "-q"], cwd=folder, check=True)
+    table = subprocess.run([sys.argv[1], "simulate", "s.json", "--times", ",".join(map(str, INSTANTS)), "--channels", "theta", "--trajectory", "-"],
+                           cwd=folder, check=True, capture_output=True, text=True).stdout.split()[1:]
+    for i, (instant, row) in enumerate(zip(INSTANTS, table)):
+        theta = float(row.split(",")[-1])
+        browser(folder, instant, f"--screenshot={folder}/page.png")
+        seen = {"page": direction(f"{folder}/page.png"), "still": direction(f"{folder}/{i}.png")}
+        document = browser(folder, instant, "--dump-dom")
+        print(instant, theta, seen)
+        for name, angle in seen.items():
+            if abs(angle - theta) > 0.004:
+                sys.exit(f"the beam of the {name} at {instant} s has the direction {angle}, not {theta}")
+        if f"t = {instant:.3f} s" not in document or f"θ = {theta:.3f} rad" not in document:
+            sys.exit(f"the page does not state t = {instant:.3f} s and θ = {theta:.3f} rad")
