@@ -136,9 +136,9 @@ struct FilmSetup : Motion {
     int width = 1920, height = 1080;  // [px], 1…16384
     View view;
     Units units;
-    int digits = 3;                    // significant digits of the cam's speed
-    std::optional<LayoutNode> layout;  // absent: the standard arrangement
-    std::vector<Motion> others;        // motions to compare with, poses at the same instants
+    std::optional<int> speed_decimals;  // of the cam's speed; absent: three significant digits
+    std::optional<LayoutNode> layout;   // absent: the standard arrangement
+    std::vector<Motion> others;         // motions to compare with, poses at the same instants
     Comparison comparison = Comparison::panels;
     double fps = 60;                // frames per second, > 0: fades have durations in seconds
     std::vector<double> speeds;     // playback speed at each frame, 1 = real time; empty: always 1

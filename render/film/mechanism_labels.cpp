@@ -32,7 +32,7 @@ double angle_letter(const MechanismView& at) { return std::max(at.marks, least_l
 
 std::string speed_label(const MechanismView& at) {
     return math("ω") + "\u2009=\u2009" +
-           turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->digits);
+           turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->speed_decimals);
 }
 
 std::string force_label(const MechanismView& at, const ForceArrow& arrow) {

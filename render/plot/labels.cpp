@@ -57,13 +57,17 @@ struct DrivePiece {
 
 }  // namespace
 
-std::string turning_speed(double speed, bool rpm, int digits) {
+std::string turning_speed(double speed, bool rpm, std::optional<int> decimals) {
     const double value = std::abs(rpm ? speed * 30 / std::numbers::pi : speed);
+    const auto with_unit = [&](const std::string& number) {
+        return (speed < 0 ? "−" : "") + number + (rpm ? "\u00A0rpm" : "\u00A0rad/s");
+    };
+    if (decimals) return with_unit(fmt::format("{:.{}f}", value, *decimals));
     // Ordinary numbers need no prefix.
     if (!rpm && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
-    std::string number = fmt::format("{:.{}g}", value, digits);
+    std::string number = fmt::format("{:.3g}", value);
     if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", value);
-    return (speed < 0 ? "−" : "") + number + (rpm ? "\u00A0rpm" : "\u00A0rad/s");
+    return with_unit(number);
 }
 
 std::string pango_power_of_ten(int exponent) {

@@ -1,6 +1,7 @@
 // Texts of films: parameter line, speed, clock. Pango markup for Canvas::text.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,8 +14,8 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm 
 // The pieces that all problems share.
 std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm = false);
 
-// "0.5 rad/s", "−300 rpm": without SI prefixes. `speed` in rad/s.
-std::string turning_speed(double speed, bool rpm, int digits = 3);
+// "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits, or with this number of decimals. `speed` in rad/s.
+std::string turning_speed(double speed, bool rpm, std::optional<int> decimals = {});
 
 // Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at real time. `steady`: of a film at one speed;
 // otherwise changing speeds are rounded to simple fractions.

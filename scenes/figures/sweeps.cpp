@@ -238,12 +238,14 @@ std::vector<std::string> diagram_values(std::string_view diagram, const Scene& s
     return known;
 }
 
-std::string point_text(const Swept& swept, std::uint64_t point, Lang lang) {
+std::string point_text(const Swept& swept, std::uint64_t point, std::optional<int> decimals, Lang lang) {
     const SweptPoints points(swept, lang);
     const output::StoredPoint p = points.data.read(point);
     const output::SweepAxis& axis = points.axis(0);
-    std::string text = fmt::format("{} = {:.{}g}{}", render::to_plain(symbol_of(axis.name)),
-                                   points.data.place(point)[0], kValueDigits, axis.unit == "1" ? "" : " " + axis.unit);
+    const double value = points.data.place(point)[0];
+    const std::string number = decimals ? fmt::format("{:.{}f}", value, *decimals) : fmt::format("{:.6g}", value);
+    std::string text = fmt::format("{} = {}{}", render::to_plain(symbol_of(axis.name)), number,
+                                   axis.unit == "1" ? "" : " " + axis.unit);
     text += lang == Lang::en ? ": " : "：";
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
     if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);

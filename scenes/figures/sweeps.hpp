@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,8 +19,7 @@ std::string usual_diagram(const Scene& scene);
 // The values of the key "value" for this diagram and the scene's sweep.
 std::vector<std::string> diagram_values(std::string_view diagram, const Scene& scene);
 
-constexpr int kValueDigits = 6;  // of the swept key's value in the text of films
-// "ω = 45.2 rad/s: period 2, 3 impacts", without markup.
-std::string point_text(const Swept& swept, std::uint64_t point, Lang lang);
+// "ω = 45.2 rad/s: period 2, 3 impacts", without markup. `decimals`: of the value; absent: six significant digits.
+std::string point_text(const Swept& swept, std::uint64_t point, std::optional<int> decimals, Lang lang);
 
 }  // namespace beamcam::scenes

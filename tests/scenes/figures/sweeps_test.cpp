@@ -129,8 +129,8 @@ TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
     // Whatever is shown, the points are all there, so that limits and dots stay.
     EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[0].x, (std::vector<double>{1, 1, 2, 2, 3, 3}));
     EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[1].x, (std::vector<double>{3, 3, 2, 2, 1, 1}));
-    EXPECT_EQ(point_text(swept, 2, Lang::en), "ω = 3 rad/s: period 1 turn, 2 impacts");
-    EXPECT_EQ(point_text(swept, 2, Lang::zh), "ω = 3 rad/s：周期 1 圈，碰撞 2 次");
+    EXPECT_EQ(point_text(swept, 2, {}, Lang::en), "ω = 3 rad/s: period 1 turn, 2 impacts");
+    EXPECT_EQ(point_text(swept, 2, 2, Lang::zh), "ω = 3.00 rad/s：周期 1 圈，碰撞 2 次");
 }
 
 TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
