@@ -174,7 +174,7 @@ Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& styl
         pango_cairo_layout_path(cr_, layout);
         add_to_key('t', {x, baseline.y}, face_of(style).key(markup));
         extend_path_box({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
-        stroke({*halo, wide});
+        uncased([&] { stroke({*halo, wide}); });
         cairo_move_to(cr_, x, baseline.y - m.baseline);
     }
     set_source(style.color);

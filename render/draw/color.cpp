@@ -56,9 +56,6 @@ const Palette kPrint{.paper = rgb(0xFFFFFF),
                      .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)},
                      .shadow = 0.22};
 
-// Text colour of the light theme without paper: contrast 4 : 1 against white and black.
-constexpr Color kInkAnywhere = rgb(0x757B88);
-
 template <std::size_t N>
 Color along(const std::array<Color, N>& stops, double share) {
     const double at = std::clamp(share, 0.0, 1.0) * (N - 1);
@@ -157,7 +154,7 @@ Palette Palette::without_paper() const {
     ink_of(out.grid, ink);
     ink_of(out.motion_faint, motion);
     ink_of(out.contact_faint, contact);
-    if (ink == kLight.ink) out.ink = kInkAnywhere, out.motion = mix(motion, Color{1, 1, 1, 1}, 0.08);
+    out.muted = mix(muted, ink, 0.6);  // small letters are thinner than their outlines
     return out;
 }
 

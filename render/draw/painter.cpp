@@ -208,18 +208,26 @@ void Painter::new_path() {
     open_ = false;
 }
 void Painter::stroke(const Pen& pen) {
+    constexpr double kFaint = 0.5;
+    if (casing && pen.color.a > kFaint && pen.color.faded(0) != casing->color.faded(0))
+        stroke_path(
+            {casing->color.faded((pen.color.a - kFaint) / (1 - kFaint)), pen.width + casing->width, pen.dash, pen.cap},
+            "");
     if (!key_.empty()) {
         add_to_key(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
         for (double length : pen.dash) add_to_key('d', {length});
     }
-    paint_path(pen.color, key_, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
+    stroke_path(pen, key_);
+    new_path();
+}
+void Painter::stroke_path(const Pen& pen, const std::string& name) {
+    paint_path(pen.color, name, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
         cairo_set_line_width(cr, pen.width);
         cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
         cairo_stroke_preserve(cr);
     });
     mark_path_painted(pen.width / 2, false);  // joins are round
-    new_path();
 }
 void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     move_to(from);
@@ -237,6 +245,12 @@ void Painter::clip(const Box& b, const std::function<void()>& draw) {
     draw();
     limit_ = before;
     cairo_restore(cr_);
+}
+
+void Painter::uncased(const std::function<void()>& draw) {
+    const std::optional<Casing> before = std::exchange(casing, std::nullopt);
+    draw();
+    casing = before;
 }
 
 void Painter::place(const Image& image, const Box& into, bool smooth) {

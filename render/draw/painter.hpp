@@ -5,6 +5,7 @@
 #include <functional>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -39,6 +40,12 @@ struct Image;
 struct SetLabel;
 struct SetRun;
 
+// A wider line under every line that is not faint, for pictures without paper.
+struct Casing {
+    Color color;
+    double width = 0;  // added to that of the line
+};
+
 class Painter {
   public:
     Painter(const Painter&) = delete;
@@ -58,11 +65,14 @@ class Painter {
     void line(Vec2 from, Vec2 to, const Pen& pen);
     // Clips everything that `draw` draws to the box.
     void clip(const Box& box, const std::function<void()>& draw);
+    // Draws without casings.
+    void uncased(const std::function<void()>& draw);
     // Draws the image into the box, each pixel a rectangle.
     void pixels(const Image& image, const Box& into);
     // Draws the image into the box with smooth scaling.
     void image_fitted(const Image& image, const Box& into);
 
+    std::optional<Casing> casing = {};
     // If set, collects the painted tiles (a superset of the changed pixels).
     DirtyTiles* touched = nullptr;
     // If this and `touched` are set, paths unchanged since the last picture reuse their coverage.
@@ -79,6 +89,7 @@ class Painter {
     void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
     void extend_path_box(const Box& box);
     void new_path();
+    void stroke_path(const Pen& pen, const std::string& name);  // keeps the path
     // Appends to the key that identifies the path in the coverage cache.
     void add_to_key(char what, std::initializer_list<double> numbers, std::string_view words = {});
     // Paints the path, or its cached coverage `name`.

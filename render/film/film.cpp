@@ -84,7 +84,7 @@ struct Film::FrameRenderer {
             grown.add_all();
         }
         Canvas canvas(kept, fonts);
-        canvas.outline = p.context.outline();
+        p.context.outline(canvas);
         canvas.touched = &grown;
         for (std::size_t i = 0; i < p.panels.size(); ++i)
             p.panels[i]->accumulate(canvas, p.background, target, restart, states[i].get());
@@ -111,7 +111,7 @@ void Film::Prepared::draw_background() {
     const FilmSetup& setup = *context.setup;
     background = Image(setup.width, setup.height);
     Canvas canvas(background, *context.fonts);
-    canvas.outline = context.outline();
+    context.outline(canvas);
     canvas.record = &background_texts;
     if (!setup.view.transparent) canvas.paint(context.palette->paper);
     if (shows(LayerOf::charts)) draw_header(canvas);
@@ -317,7 +317,7 @@ const Image& Film::draw(int frame) {
     t.grown.clear();
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
-    canvas.outline = prepared_->context.outline();
+    prepared_->context.outline(canvas);
     canvas.touched = &t.moved;
     if (CoverageCache::exact()) canvas.coverage_cache = &t.coverage_cache;
     prepared_->draw_moving(canvas, frame, prepared_->context.setup->view.style, t.states);
@@ -341,7 +341,7 @@ FrameGeometry Film::geometry(int frame) {
     t.accumulate_to(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);
-    canvas.outline = p.context.outline();
+    p.context.outline(canvas);
     canvas.record = &out.texts;
     p.draw_moving(canvas, frame, Style::flat, t.states);
     if (p.mechanism) {

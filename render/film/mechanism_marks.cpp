@@ -35,23 +35,25 @@ LabelPlace beside_arrow(const MechanismScene& s, const ForceArrow& arrow, Vec2 f
     return is_clear() ? label : usual;
 }
 
-// Draws a label, with a leader line if its owner is far. A moving camera shows labels whose base is in view.
-void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 owner,
-                Vec2 base, double far = kFarLabel) {
+// Draws the leader line of a label whose owner is far.
+void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base,
+                 double far = kFarLabel) {
+    const Box box = s.at.label_box(label, s.view, base);
+    const Vec2 edge{std::clamp(owner.x, box.x, box.right()), std::clamp(owner.y, box.y, box.bottom())};
+    const double way = norm(owner - edge), opacity = label.opacity_at(s.frame);
+    if (opacity <= 0 || !s.at.shows(s.px(base)) || way <= far * s.at.unit) return;
+    const Vec2 gap = (owner - edge) * (6 * s.at.unit / way);
+    s.canvas.line(edge + gap, owner - gap, {color.faded(0.6 * opacity), 1.2 * s.at.unit});
+}
+
+// A moving camera shows labels whose base is in view.
+void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base) {
     const double opacity = label.opacity_at(s.frame);
     const Box box = s.at.label_box(label, s.view, base);
     if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
     // In the solid view a halo over soft shadows would glow; a near camera needs it, where labels are over bodies.
     if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
-    const Vec2 to = owner;
-    const Vec2 edge{std::clamp(to.x, box.x, box.right()), std::clamp(to.y, box.y, box.bottom())};
-    if (const double way = norm(to - edge); way > far * s.at.unit) {
-        const Vec2 gap = (to - edge) * (6 * s.at.unit / way);
-        s.canvas.move_to(edge + gap);
-        s.canvas.line_to(to - gap);
-        s.canvas.stroke({style.color.faded(0.6), 1.2 * s.at.unit});
-    }
     const double left = style.align == HAlign::centre ? box.centre().x : box.x;
     s.canvas.text({left, box.centre().y + 0.32 * style.size}, text, style);
     if (s.labels) s.labels->push_back(box);
@@ -109,9 +111,10 @@ void draw_angle_arc(const MechanismScene& s) {
     const double sense = angle < 0 ? -1 : 1, way = std::atan2(-letter.y, letter.x) * sense;
     const double turned = way < 0 ? way + 2 * pi : way;
     const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
-    draw_label(s, *s.at.labels->angle, math("θ"),
-               {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
-               s.on(o + down(foot) * radius), s.at.labels->angle->base, kFarLetter);
+    const LabelPlace& label = *s.at.labels->angle;
+    draw_leader(s, label, s.at.palette.muted, s.on(o + down(foot) * radius), label.base, kFarLetter);
+    draw_label(s, label, math("θ"),
+               {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre}, label.base);
 }
 
 // Outside the circle that the disc sweeps, on a side away from the beam. Positive speed is clockwise.
@@ -130,8 +133,9 @@ void draw_cam_speed(const MechanismScene& s) {
         s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
                        {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
-    draw_label(s, *s.at.labels->speed, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted},
-               s.on(axis + down(middle) * radius), s.at.labels->speed->base);
+    const LabelPlace& label = *s.at.labels->speed;
+    draw_leader(s, label, s.at.palette.muted, s.on(axis + down(middle) * radius), label.base);
+    draw_label(s, label, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted}, label.base);
 }
 
 // The base line of the exaggerated deflection.
@@ -245,19 +249,32 @@ std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam&
     return ForceArrow{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
 }
 
+static bool names_force(const MechanismScene& s, Vec2 foot) {
+    return s.at.labelled() && s.at.shows(foot) && s.at.labels->force;
+}
+
+static Vec2 tip_of(const MechanismScene& s, const ForceArrow& arrow) {
+    return s.on(s.at.px(arrow.foot) + Vec2{arrow.normal.x, -arrow.normal.y} * arrow_length(s.at, arrow));
+}
+
+void draw_force_leader(const MechanismScene& s) {
+    if (!s.arrow || !names_force(s, s.px(s.arrow->foot))) return;
+    const Vec2 foot = s.px(s.arrow->foot), tip = tip_of(s, *s.arrow);
+    draw_leader(s, beside_arrow(s, *s.arrow, foot, tip), s.at.palette.contact, tip, s.arrow->foot);
+}
+
 void draw_force(const MechanismScene& s) {
     if (!s.arrow) return;
     const ForceArrow& arrow = *s.arrow;
-    const Vec2 flat = s.at.px(arrow.foot), foot = s.on(flat), n{arrow.normal.x, -arrow.normal.y};
+    const Vec2 foot = s.px(arrow.foot), tip = tip_of(s, arrow);
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
     // A force too small for an arrow is shown by the dot and the number.
     const double length = arrow_length(s.at, arrow);
-    const Vec2 tip = s.on(flat + n * length);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (s.at.labelled() && s.at.shows(foot) && s.at.labels->force)
-        draw_label(s, beside_arrow(s, arrow, foot, tip), force_label(s.at, arrow), force_style(s.at), tip, arrow.foot);
+    if (names_force(s, foot))
+        draw_label(s, beside_arrow(s, arrow, foot, tip), force_label(s.at, arrow), force_style(s.at), arrow.foot);
 }
 
 }  // namespace beamcam::render

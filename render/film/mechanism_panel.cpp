@@ -225,9 +225,12 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
     const auto bodies = [&] {
-        if (several) draw_exposures(s, style, threads);
-        if (one) draw_bodies(s, style, threads);
+        canvas.uncased([&] {
+            if (several) draw_exposures(s, style, threads);
+            if (one) draw_bodies(s, style, threads);
+        });
     };
+    draw_force_leader(s);  // behind the bodies, so that it crosses no letter
     if (style == Style::solid) {
         bodies();
     } else {
@@ -236,7 +239,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     }
     draw_cam_speed(s);
     if (style != Style::solid) bodies();
-    if (!s.view && one) draw_beam_trace(s, threads.trace);
+    if (!s.view && one) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);

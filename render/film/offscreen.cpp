@@ -21,6 +21,7 @@ void Offscreen::fill(const Canvas& like, const Box& box, const Draw& draw) {
     each_byte(box, [](std::uint8_t& byte, std::size_t) { byte = 0; });
     Canvas canvas(image_, like.fonts());
     canvas.outline = like.outline;
+    canvas.casing = like.casing;
     canvas.record = like.record;
     draw(canvas);
 }

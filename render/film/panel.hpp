@@ -60,10 +60,8 @@ struct FilmContext {
     std::string shown_unit(sim::Channel channel) const;
     // Colour of a motion: the first one has the palette's colour of motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
-    // Films without paper outline their text in the paper's colour, so that it is readable on any background.
-    std::optional<Color> outline() const {
-        return setup->view.transparent ? std::optional(palette->paper.faded(0.8)) : std::nullopt;
-    }
+    // Sets the outlines of texts and lines in films without paper.
+    void outline(Canvas& canvas) const { outline_on(canvas, *palette, unit); }
     Color data_color(std::size_t k) const {
         return series_color(*palette, 7 - k % 3);
     }  // far from the colours of motions

@@ -145,11 +145,15 @@ void Chart::draw_line(Canvas& canvas, const ChartCurve& curve, const Segment& se
 
 void Chart::draw_dots_and_marks(Canvas& canvas, const Segment& segment) const {
     const auto within = [&](double t) { return t >= segment.rows.low && t <= segment.rows.high; };
+    const auto color = [&](const ChartDot& d) { return segment.past ? d.color : d.faint; };
+    const ChartDot* last = nullptr;  // in the path: translucent dots are filled together, or overlaps would be strong
     for (const ChartDot& d : c_.dots) {
         if (!within(d.t)) continue;
+        if (last && (color(d) != color(*last) || color(d).a == 1)) canvas.fill(color(*last));
         canvas.circle(place(segment, d.t, d.value), (segment.past ? kPastDot : kFutureDot) * style_.unit);
-        canvas.fill(segment.past ? d.color : d.faint);
+        last = &d;
     }
+    if (last) canvas.fill(color(*last));
     if (!segment.past) return;
     for (const ChartMark& mark : c_.marks) {
         if (!within(mark.t)) continue;
@@ -183,6 +187,7 @@ Image Chart::past(const Fonts& fonts) const {
     const Box box = past_box();
     Image image(static_cast<int>(box.w), static_cast<int>(box.h));
     Canvas canvas(image, fonts);
+    outline_on(canvas, style_.palette, style_.unit);
     draw_curves(canvas, {whole(), c_.time, true, {-box.x, -box.y}});
     return image;
 }

@@ -49,4 +49,9 @@ void draw_numbers_below(Canvas& canvas, const ChartStyle& style, const Box& plot
     canvas.text({right, baseline}, name, text);
 }
 
+void outline_on(Canvas& canvas, const Palette& palette, double unit) {
+    canvas.outline = palette.outline();
+    if (canvas.outline) canvas.casing = Casing{*canvas.outline, 3 * unit};
+}
+
 }  // namespace beamcam::render

@@ -37,4 +37,7 @@ void draw_numbers_below(Canvas& canvas, const ChartStyle& style, const Box& plot
                         const std::vector<NumberBelow>& numbers, const std::string& name, bool across,
                         bool moves = false);
 
+// Sets the outlines of texts and lines in pictures without paper.
+void outline_on(Canvas& canvas, const Palette& palette, double unit);
+
 }  // namespace beamcam::render

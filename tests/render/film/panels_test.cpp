@@ -532,11 +532,34 @@ TEST(Panels, ATransparentFilmHasNoPaper) {
 }
 
 TEST(Panels, WordsOfATransparentLightFilmAreReadOnDarkGroundsToo) {
-    const Color ink = palette(Theme::light).without_paper().ink;
-    for (const Theme ground : {Theme::light, Theme::dark}) EXPECT_GT(contrast(ink, palette(ground).paper), 4);
-    for (const Color& told : {palette(Theme::light).without_paper().motion, palette(Theme::light).contact})
-        for (const Theme ground : {Theme::light, Theme::dark}) EXPECT_GT(contrast(told, palette(ground).paper), 3.5);
-    EXPECT_EQ(palette(Theme::dark).without_paper().ink.g, palette(Theme::dark).ink.g);
+    for (const Theme theme : {Theme::light, Theme::dark, Theme::print}) {
+        const Palette p = palette(theme).without_paper();
+        for (const std::uint32_t ground : {0xFFFFFFU, 0x000000U, 0x3A6EA5U, 0x888888U}) {
+            const Color around = mix(rgb(ground), p.paper, p.outline()->a);
+            EXPECT_GT(contrast(p.ink, around), 10) << ground;
+            EXPECT_GT(contrast(p.muted, around), 4) << ground;
+        }
+    }
+}
+
+// On a ground of the curve's own colour, its outline shows it; the future stays fainter than the past.
+TEST(Panels, ThePastOfATransparentChartIsOutlinedAndTheFutureFaint) {
+    FilmSetup setup = test::flat_film({.duration = 1}, 960, 540);
+    setup.view.transparent = true;
+    setup.layout = leaf({.kind = PanelKind::strip, .channels = {{ChannelKind::theta, 0}}});
+    Film film(std::move(setup));
+    const Image image = drawn(film, film.frames() / 2);
+    const Box plot = film.geometry(0).layout.panels.front().box.inset(60);
+    const auto strongest = [&](double from, double to) {  // alpha, away from axes and cursor
+        std::uint32_t most = 0;
+        for (int y = int(plot.y); y < int(plot.bottom()); ++y)
+            for (int x = int(from); x < int(to); ++x)
+                most = std::max(most, image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] >> 24);
+        return most;
+    };
+    const double middle = plot.centre().x;
+    EXPECT_GT(strongest(plot.x + 60, middle - 40), 240U);
+    EXPECT_LT(strongest(middle + 60, plot.right() - 20), 130U);
 }
 
 // Opaque paper around letters would be visible on any background.
