@@ -24,8 +24,11 @@ LitScene lit_scene(const MechanismShape& shape, const MechanismLook& look, const
     const double u = look.unit;
     if (shape.disc) {
         const DiscShape& d = *shape.disc;
+        // A small disc has no visible chamfer, so it is darker.
+        const double small = std::clamp(1 - d.radius / (24 * u), 0.0, 1.0);
+        const Color steel = mix(palette.steel, palette.pin, 0.7 * small);
         scene.behind.push_back({d.centre - origin, d.radius, d.axis - origin, d.bore,
-                                std::min(4.5 * u, 0.06 * d.radius), palette.steel, Finish::turned, true});
+                                std::min(4.5 * u, 0.06 * d.radius), steel, Finish::turned, true});
         scene.behind.push_back(
             {d.mark - origin, d.mark_radius, {}, 0, 0, mix(palette.steel, rgb(0), 0.25), Finish::dimple, false});
     }

@@ -32,6 +32,11 @@ std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces,
     return out;
 }
 
+double usual_baseline(const Box& box, double u, std::size_t line, std::size_t count) {
+    const double first = count == 1 ? 38 : count == 2 ? 18 : 14, apart = count == 2 ? 28 : 17;
+    return box.y + (first + apart * static_cast<double>(line)) * u;
+}
+
 // Lines with tall formulas move up into the margin so that they overlap neither each other nor the line below; if that
 // is not enough, the letters shrink.
 void keep_apart(Canvas& canvas, const Box& box, double u, FittedTitle& title) {
@@ -41,9 +46,7 @@ void keep_apart(Canvas& canvas, const Box& box, double u, FittedTitle& title) {
         for (std::size_t i = title.lines.size(); i-- > 0;) {
             FittedTitle::Line& line = title.lines[i];
             const Box ink = canvas.measure(line.markup, title.style);
-            const double usual =
-                i + 1 == title.lines.size() ? box.y + (title.lines.size() == 1 ? 38 : 46) * u : box.y + 18 * u;
-            line.baseline.y = std::min(usual, lowest - ink.bottom());
+            line.baseline.y = std::min(usual_baseline(box, u, i, title.lines.size()), lowest - ink.bottom());
             top = line.baseline.y + ink.y;
             lowest = top - air;
         }
@@ -56,18 +59,20 @@ void keep_apart(Canvas& canvas, const Box& box, double u, FittedTitle& title) {
 TextStyle title_style(double u, Color color) { return {.size = 40 * u, .color = color, .weight = Weight::semibold}; }
 
 FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& box, double u, Color color) {
-    constexpr double kSmallest = 2.0 / 3, kOfTwo[] = {0.66, 0.6, 0.55, 0.48, 0.4};  // of the full size
+    constexpr double kSmallest = 2.0 / 3, kShares[] = {0.66, 0.6, 0.55, 0.48, 0.4, 0.36};  // of the full size
+    constexpr double kOfThree = 0.36;                                                      // the size of three lines
     FittedTitle out;
     out.style = title_style(u, color);
     const std::string whole = text_markup(canvas, title);
     const double natural = canvas.measure(whole, out.style).w, full = out.style.size;
     const auto set = [&](double share) {
+        const std::size_t most = share > kOfThree ? 2 : 3;
         out.style.size = share * full;
         out.style.max_width = 0;
         const auto width = [&](const std::string& line) { return canvas.measure(line, out.style).w; };
         TextStyle within = out.style;
         within.max_width = box.w;
-        std::vector<std::string> lines = wrapped_lines(canvas, title, within, 2);
+        std::vector<std::string> lines = wrapped_lines(canvas, title, within, most);
         // Lines of similar length are easier to read than a single word on the second line.
         while (lines.size() == 2 && width(lines[1]) < 0.6 * width(lines[0])) {
             within.max_width *= 0.95;
@@ -77,15 +82,15 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
         }
         out.lines.clear();
         for (std::size_t i = 0; i < lines.size(); ++i)
-            out.lines.push_back({lines[i], {box.x, box.y + (18 + 28 * static_cast<double>(i)) * u}});
+            out.lines.push_back({lines[i], {box.x, usual_baseline(box, u, i, lines.size())}});
         out.cut = std::ranges::any_of(lines, [&](const std::string& line) { return width(line) > box.w; }) ||
                   (lines.back().ends_with("…") && !title.ends_with("…"));
     };
     if (kSmallest * natural > box.w) {
-        for (const double share : kOfTwo)
+        for (const double share : kShares)
             if (set(share); !out.cut) break;
     } else {
-        out.lines = {{whole, {box.x, box.y + 38 * u}}};
+        out.lines = {{whole, {box.x, usual_baseline(box, u, 0, 1)}}};
         if (natural > box.w) out.style.size *= 0.999 * box.w / natural;
     }
     keep_apart(canvas, box, u, out);
@@ -116,12 +121,8 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
     choose(rows);
     if (out.pieces.size() < pieces.size() && places.title) {
         const Row above{b.x, b.right(), places.title->y + 38 * u};
-        if (title.empty()) {  // two lines in their order
-            rows.insert(rows.begin(), above);
-        } else {
-            rows.push_back(above);
-            rows.back().x += canvas.measure(text_markup(canvas, title), title_style(u)).w + 40 * u;
-        }
+        rows.insert(rows.begin(), above);  // beside the title
+        if (!title.empty()) rows.front().x += canvas.measure(text_markup(canvas, title), title_style(u)).w + 40 * u;
         choose(rows);
     }
     out.omitted.assign(pieces.begin() + static_cast<std::ptrdiff_t>(out.pieces.size()), pieces.end());

@@ -107,10 +107,12 @@ Range range_of(const FilmContext& context, const std::vector<ChartCurve>& curves
     const auto& [any, low, high] = all;
     if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
     if (!any) return {0, 1};
-    // The axis of a constant: ± a twentieth of it, or of one unit.
+    // The axis of a constant: ± a twentieth of it, of a radian, or of one unit.
     const double least = channel.kind == ChannelKind::theta ? 1e-9 : 1e-12 * std::max(std::abs(low), std::abs(high));
     if (high - low <= least) {
-        const double half = channel.kind == ChannelKind::theta || low == 0 ? 0.05 : 0.05 * std::abs(low);
+        const double share = 0.05, half = channel.kind == ChannelKind::theta ? share * context.shown_factor(channel)
+                                          : low == 0                         ? share
+                                                                             : share * std::abs(low);
         return {low - half, high + half};
     }
     return {low, high};

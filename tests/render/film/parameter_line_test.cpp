@@ -51,17 +51,19 @@ TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
     EXPECT_EQ(shown, 0U);
 }
 
-TEST(ParameterLine, TheRestStandsBesideAShortTitle) {
+TEST(ParameterLine, TheFirstPiecesStandBesideAShortTitle) {
     const ParameterLine alone = line_in(500), beside = line_in(500, "Fall");
     EXPECT_FALSE(alone.omitted.empty());
     EXPECT_GT(beside.pieces.size(), alone.pieces.size());
     Measuring with;
     const double title = with.canvas.measure("Fall", title_style(1)).w;
-    EXPECT_GT(beside.pieces.back().baseline.x, title + 30);
-    EXPECT_LT(beside.pieces.back().baseline.y, beside.pieces.front().baseline.y);
-    const double end =
-        beside.pieces.back().baseline.x + with.canvas.measure(beside.pieces.back().markup, {.size = beside.size}).w;
-    EXPECT_LE(end, 500);
+    EXPECT_GT(beside.pieces.front().baseline.x, title + 30);
+    EXPECT_LT(beside.pieces.front().baseline.y, beside.pieces.back().baseline.y);
+    for (std::size_t i = 0; i < beside.pieces.size(); ++i) {
+        const ParameterLine::Piece& piece = beside.pieces[i];
+        EXPECT_LE(piece.baseline.x + with.canvas.measure(piece.markup, {.size = beside.size}).w, 500);
+        if (i > 0) EXPECT_GE(piece.baseline.y, beside.pieces[i - 1].baseline.y);  // in reading order
+    }
 }
 
 TEST(ParameterLine, WithoutATitleThereAreTwoLinesInTheirOrder) {
@@ -94,6 +96,27 @@ TEST(ParameterLine, ALongTitleFillsTwoLinesInEveryScript) {
     EXPECT_EQ(fitted_title(canvas, "Fall", box, 1).lines.size(), 1u);
 }
 
+// 200 letters in the box of a title at 320×180.
+TEST(ParameterLine, AVeryLongTitleOfASmallPictureTakesThreeLinesThatDoNotTouch) {
+    Measuring with;
+    const std::string title =
+        "A very long title that a supervisor insisted upon: experimental and numerical investigation of the multiple "
+        "sub-impacts of a flexible Euler–Bernoulli beam falling onto a rotating eccentric cam under gravity";
+    const Box box{13, 10, 294, 27};
+    const FittedTitle fitted = fitted_title(with.canvas, title, box, 0.5);
+    EXPECT_FALSE(fitted.cut);
+    ASSERT_EQ(fitted.lines.size(), 3u);
+    double lowest = 0;
+    for (const FittedTitle::Line& line : fitted.lines) {
+        const Box ink = with.canvas.measure(line.markup, fitted.style);
+        EXPECT_GT(line.baseline.y + ink.y, lowest);
+        lowest = line.baseline.y + ink.bottom();
+        EXPECT_LE(ink.w, box.w);
+    }
+    EXPECT_LE(lowest, box.bottom());
+    EXPECT_GE(fitted.style.size, 7);
+}
+
 TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
     const sim::Problem problem;
     EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, "Fall", {&problem}).empty());
@@ -105,7 +128,9 @@ TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
         "A beam falls onto a cam that turns, strikes it, bounces, strikes again and follows it to the end";
     EXPECT_EQ(omitted_text(480, 270, {}, 1, essay, {&problem}).front(), "colour scales");          // on two lines
     EXPECT_EQ(omitted_text(480, 270, {}, 1, essay + essay, {&problem}).front(), "colour scales");  // in small letters
-    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay + essay + essay, {&problem}).front(), "the end of the title");
+    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay + essay + essay, {&problem}).front(), "colour scales");  // on three
+    EXPECT_EQ(omitted_text(480, 270, {}, 1, essay + essay + essay + essay + essay + essay, {&problem}).front(),
+              "the end of the title");
     EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, essay, {&problem}).empty());
     EXPECT_EQ(omitted_text(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
     EXPECT_EQ(plain(math("K") + "\u2009=\u2009" + power_text(1e8) + "\u00A0N\u2009m<sup>−1.5</sup>"),
