@@ -37,18 +37,17 @@ int act(const AcceptArguments& args) {
 }  // namespace
 
 void add_accept(Grammar& grammar) {
-    auto args = std::make_shared<AcceptArguments>();
-    Command& app = grammar.command("accept", "Accept the pictures and motions of a test report as references");
+    const auto [app, args] = grammar.command<AcceptArguments>(
+        "accept", "Accept the pictures and motions of a test report as references", act);
     app.examples = {"accept report", "accept downloads/report 'fall-*' --baselines tests/baselines.json"};
-    app.positional("REPORT", &args->report, "The folder that `beamcam test --report` wrote, here or in a CI run")
+    app.positional("REPORT", &args.report, "The folder that `beamcam test --report` wrote, here or in a CI run")
         .required();
-    app.positional("NAME", &args->options.entries,
+    app.positional("NAME", &args.options.entries,
                    "Only these entries; patterns such as 'fall-*' are allowed (default: all)");
-    app.option("--baselines", &args->options.baselines, "FILE",
+    app.option("--baselines", &args.options.baselines, "FILE",
                "File of baselines to change (default: the file that the report names)");
-    add_force(app, args->common);
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    add_force(app, args.common);
+    add_quiet(app, args.common);
 }
 
 }  // namespace beamcam::scenes

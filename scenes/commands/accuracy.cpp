@@ -46,12 +46,11 @@ std::string heading(const std::string& title, double target) {
 
 std::string accuracy_text(const sim::Accuracy& a) {
     const char* angle = a.of_tip ? "tip deflection over length" : "theta";
-    std::string text = a.until >= a.end_time
-                           ? fmt::format("{} over the whole {:.4g} s\n", angle, a.end_time)
-                           : fmt::format(
-                                 "{} over the first {:.4g} s of {:.4g} s: after that the motion is not "
-                                 "reproducible with these settings\n",
-                                 angle, a.until, a.end_time);
+    std::string text = a.until >= a.end_time ? fmt::format("{} over the whole {:.4g} s\n", angle, a.end_time)
+                                             : fmt::format(
+                                                   "{} over the first {:.4g} s of {:.4g} s: after that the motion is "
+                                                   "not reproducible with these settings\n",
+                                                   angle, a.until, a.end_time);
     text += fmt::format("error of the reference (rk8, rtol 1e-13): about {:.0e} rad\n", a.reference_error);
     text += heading("time integration: against the reference", a.target);
     for (const auto& row : a.work) text += row_text(fmt::format("{} {:.0e}", name(row.method), row.rtol), row);
@@ -88,7 +87,7 @@ sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scen
     return request;
 }
 
-int act(const AccuracyArguments& args) {
+void act(const AccuracyArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     const sim::AccuracyRequest request = request_of(args, scene);
     output::Manifest manifest(args.common.force);
@@ -103,26 +102,24 @@ int act(const AccuracyArguments& args) {
     write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
                   [&] { return accuracy_figure(found, scene.problem, args.files.lang()); }},
                  args.files, scene, args.common, manifest);
-    return 0;
 }
 
 }  // namespace
 
 void add_accuracy(Grammar& grammar) {
-    auto args = std::make_shared<AccuracyArguments>();
-    Command& app = grammar.command("accuracy", "Compute the error budget of a scene, and error against run time");
+    const auto [app, args] = grammar.command<AccuracyArguments>(
+        "accuracy", "Compute the error budget of a scene, and error against run time", act);
     app.examples = {"accuracy fall.json --target 1e-5 -o budget.pdf"};
-    add_scene(app, args->scene, args->common);
-    add_result_options(app, args->files, args->common,
+    add_scene(app, args.scene, args.common);
+    add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the diagram as .png, .svg or .pdf (repeatable)");
-    app.option("--until", &args->until, "T", "Assess the motion up to this time (default: the end of the scene)");
-    app.option("--target", &args->target, "RAD",
+    app.option("--until", &args.until, "T", "Assess the motion up to this time (default: the end of the scene)");
+    app.option("--target", &args.target, "RAD",
                "Error for which settings are recommended, in rad: of theta; of a driven hub, of the tip deflection "
                "over the length (default: 1e-4)");
-    app.option("--repeats", &args->repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
-    app.option("--longest", &args->longest, "S", "Leave out runs that take longer than this, in s (default: 2)")
+    app.option("--repeats", &args.repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
+    app.option("--longest", &args.longest, "S", "Leave out runs that take longer than this, in s (default: 2)")
         .positive();
-    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -8,11 +8,7 @@
 namespace beamcam::scenes {
 namespace {
 
-struct CacheArguments {
-    Common common;
-};
-
-Cache open_cache() {
+Cache user_cache() {
     const auto directory = cache_directory();
     if (!directory)
         throw UsageError("there is no cache directory: HOME is not set; set BEAMCAM_CACHE_DIR or XDG_CACHE_HOME");
@@ -23,8 +19,8 @@ std::string megabytes(std::uintmax_t bytes) {
     return fmt::format("{:.1f} MiB", static_cast<double>(bytes) / (1 << 20));
 }
 
-int list(const CacheArguments& args) {
-    const Cache cache = open_cache();
+void list(const Common& common) {
+    const Cache cache = user_cache();
     std::uintmax_t sum = 0;
     std::string text;
     for (const Cache::Kept& kept : cache.list()) {
@@ -34,15 +30,12 @@ int list(const CacheArguments& args) {
                             kept.about.empty() ? "damaged, or of another version" : kept.about);
     }
     print_text(text);
-    inform(args.common,
-           fmt::format("{} of {} in {}", megabytes(sum), megabytes(cache.limit()), cache.directory().string()));
-    return 0;
+    inform(common, fmt::format("{} of {} in {}", megabytes(sum), megabytes(cache.limit()), cache.directory().string()));
 }
 
-int clear(const CacheArguments& args) {
-    const auto [count, bytes] = open_cache().clear();
-    inform(args.common, fmt::format("removed {} trajector{}, {}", count, count == 1 ? "y" : "ies", megabytes(bytes)));
-    return 0;
+void clear(const Common& common) {
+    const auto [count, bytes] = user_cache().clear();
+    inform(common, fmt::format("removed {} trajector{}, {}", count, count == 1 ? "y" : "ies", megabytes(bytes)));
 }
 
 }  // namespace
@@ -53,14 +46,11 @@ void add_cache(Grammar& grammar) {
         "The cache is in $BEAMCAM_CACHE_DIR, or else in $XDG_CACHE_HOME/beamcam, or else in ~/.cache/beamcam. Its "
         "largest\n"
         "size is $BEAMCAM_CACHE_SIZE MiB (1024); the least recently used trajectories are removed first.";
-    auto args = std::make_shared<CacheArguments>();
-    Command& ls =
-        app.subcommand("ls", "List the trajectories, the most recently used first: size, duration, steps, model");
-    add_quiet(ls, args->common);
-    ls.bind(args, list);
-    Command& all = app.subcommand("clear", "Remove all trajectories");
-    add_quiet(all, args->common);
-    all.bind(args, clear);
+    const auto [ls, of_list] =
+        app.subcommand("ls", "List the trajectories, the most recently used first: size, duration, steps, model", list);
+    add_quiet(ls, of_list);
+    const auto [all, of_clear] = app.subcommand("clear", "Remove all trajectories", clear);
+    add_quiet(all, of_clear);
 }
 
 }  // namespace beamcam::scenes

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include "output/files/standard_output.hpp"
-#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
 
@@ -30,12 +29,10 @@ int act(const CheckArguments& args) {
 }  // namespace
 
 void add_check(Grammar& grammar) {
-    auto args = std::make_shared<CheckArguments>();
-    Command& app =
-        grammar.command("check", "Validate scenes: print all errors and warnings with line, column and remedy");
+    const auto [app, args] = grammar.command<CheckArguments>(
+        "check", "Validate scenes: print all errors and warnings with line, column and remedy", act);
     app.examples = {"check fall.json"};
-    add_scenes(app, args->scenes, args->common);
-    app.bind(args, act);
+    add_scenes(app, args.scenes, args.common);
 }
 
 }  // namespace beamcam::scenes

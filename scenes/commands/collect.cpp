@@ -16,7 +16,7 @@ struct CollectArguments {
     std::string file;
 };
 
-int act(const CollectArguments& args) {
+void act(const CollectArguments& args) {
     require_ending("-o", args.file, {".nc", ".csv", ".npz"});
     if (args.file == "-") throw UsageError("-o -: name a file that ends in .nc, .csv or .npz");
     output::Manifest manifest(args.common.force);
@@ -28,20 +28,18 @@ int act(const CollectArguments& args) {
     manifest.save();
     inform(args.common,
            fmt::format("wrote {} ({} points of {} parts)", args.file, all.data.points(), args.parts.size()));
-    return 0;
 }
 
 }  // namespace
 
 void add_collect(Grammar& grammar) {
-    auto args = std::make_shared<CollectArguments>();
-    Command& app = grammar.command("collect", "Join the parts of a sweep, made with `sweep --shard`");
+    const auto [app, args] =
+        grammar.command<CollectArguments>("collect", "Join the parts of a sweep, made with `sweep --shard`", act);
     app.examples = {"collect sweep.*of8.nc -o sweep.nc"};
-    app.positional("PART", &args->parts, "The parts, .nc files, in any order").required();
-    app.option("-o,--output", &args->file, "FILE", "Table to make: .nc, .csv or .npz").required();
-    add_force(app, args->common);
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    app.positional("PART", &args.parts, "The parts, .nc files, in any order").required();
+    app.option("-o,--output", &args.file, "FILE", "Table to make: .nc, .csv or .npz").required();
+    add_force(app, args.common);
+    add_quiet(app, args.common);
 }
 
 }  // namespace beamcam::scenes

@@ -92,7 +92,7 @@ Scene load_scene(const std::string& path, const Common& common);
 // The scene with the film that a scene without outputs yields.
 Scene with_default_output(Scene scene);
 // The look of new films of a scene: its first film, sequence or still picture, else the default film.
-VideoOutput film_template(const Scene& scene);
+PictureOutput film_template(const Scene& scene);
 RunOptions run_options(const Common& common, std::string directory);
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans
@@ -107,6 +107,5 @@ std::string ending_of(const std::string& file);  // ".png"
 // Throws UsageError unless `file` is "-" or ends in one of these.
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
 inline constexpr std::initializer_list<const char*> kCaptionEndings{".txt", ".md", ".tex"};
-void replace_all(std::string& text, std::string_view from, std::string_view to);
 
 }  // namespace beamcam::scenes

@@ -99,25 +99,17 @@ Scene with_default_output(Scene scene) {
     return scene;
 }
 
-VideoOutput film_template(const Scene& scene) {
-    VideoOutput film = default_film(scene);
+PictureOutput film_template(const Scene& scene) {
+    using enum PictureOutput::Kind;
     for (const Output& output : scene.outputs) {
-        if (const auto* video = std::get_if<VideoOutput>(&output)) {
-            film = *video;
-            film.span.poster.reset();  // one file only
-            return film;
-        }
-        if (const auto* frames = std::get_if<FramesOutput>(&output)) {
-            static_cast<Picture&>(film) = *frames;
-            film.span = frames->span;
-            return film;
-        }
-        if (const auto* still = std::get_if<StillOutput>(&output)) {
-            static_cast<Picture&>(film) = *still;
-            return film;
-        }
+        const auto* own = std::get_if<PictureOutput>(&output);
+        if (!own || own->kind == page || own->kind == model) continue;
+        PictureOutput film = *own;
+        if (own->kind != video) film.kind = video, film.file = default_film(scene).file;
+        film.span.poster.reset();  // one file only
+        return film;
     }
-    return film;
+    return default_film(scene);
 }
 
 RunOptions run_options(const Common& common, std::string directory) {
@@ -184,11 +176,6 @@ std::string ending_of(const std::string& file) { return std::filesystem::path(fi
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
     if (file == "-" || std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end()) return;
     throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
-}
-
-void replace_all(std::string& text, std::string_view from, std::string_view to) {
-    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
-        text.replace(at, from.size(), to);
 }
 
 }  // namespace beamcam::scenes

@@ -252,22 +252,20 @@ std::string fish_script(const Grammar& grammar) {
     return text;
 }
 
-int act(const CompletionArguments& args) {
+void act(const CompletionArguments& args) {
     print_data(args.shell == "bash"  ? bash_script(*args.grammar)
                : args.shell == "zsh" ? zsh_script(*args.grammar)
                                      : fish_script(*args.grammar));
-    return 0;
 }
 
 }  // namespace
 
 void add_completion(Grammar& grammar) {
-    auto args = std::make_shared<CompletionArguments>();
-    args->grammar = &grammar;
-    Command& app = grammar.command("completion", "Print the completion script for a shell");
+    const auto [app, args] =
+        grammar.command<CompletionArguments>("completion", "Print the completion script for a shell", act);
+    args.grammar = &grammar;
     app.examples = {"completion bash > ~/.local/share/bash-completion/completions/beamcam"};
-    app.positional("SHELL", &args->shell, "The shell").required().one_of({"bash", "zsh", "fish"});
-    app.bind(args, act);
+    app.positional("SHELL", &args.shell, "The shell").required().one_of({"bash", "zsh", "fish"});
 }
 
 }  // namespace beamcam::scenes

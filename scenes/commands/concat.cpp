@@ -14,7 +14,7 @@ struct ConcatArguments {
     std::string file;
 };
 
-int act(const ConcatArguments& args) {
+void act(const ConcatArguments& args) {
     if (args.file == "-") throw UsageError("-o -: films go to files; name one with the ending of the segments");
     const std::string ending = std::filesystem::path(args.file).extension().string();
     require_ending("-o", args.file, {".mp4", ".mov", ".webm", ".mkv"});
@@ -32,23 +32,20 @@ int act(const ConcatArguments& args) {
     const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, manifest.target(args.file));
     manifest.save();
     inform(args.common, fmt::format("wrote {} ({} frames of {} segments)", args.file, frames, args.segments.size()));
-    return 0;
 }
 
 }  // namespace
 
 void add_concat(Grammar& grammar) {
-    auto args = std::make_shared<ConcatArguments>();
-    Command& app = grammar.command(
-        "concat", "Join segments of a film, made with --shard or --frames, without encoding them again");
+    const auto [app, args] = grammar.command<ConcatArguments>(
+        "concat", "Join segments of a film, made with --shard or --frames, without encoding them again", act);
     app.examples = {"concat fall.1of2.mp4 fall.2of2.mp4 -o fall.mp4"};
-    app.positional("SEGMENT", &args->segments, "The segments, in order").required();
-    app.option("-o,--output", &args->file, "FILE",
+    app.positional("SEGMENT", &args.segments, "The segments, in order").required();
+    app.option("-o,--output", &args.file, "FILE",
                "Film to make, with the ending of the segments: .mp4, .mov, .webm or .mkv")
         .required();
-    add_force(app, args->common);
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    add_force(app, args.common);
+    add_quiet(app, args.common);
 }
 
 }  // namespace beamcam::scenes

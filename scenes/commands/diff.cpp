@@ -9,7 +9,6 @@
 #include "output/data/tables.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
-#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/outputs/run_context.hpp"
 #include "scenes/regression/comparison.hpp"
@@ -135,25 +134,23 @@ int act(const DiffArguments& args) {
 }  // namespace
 
 void add_diff(Grammar& grammar) {
-    auto args = std::make_shared<DiffArguments>();
-    Command& app =
-        grammar.command("diff", "Compare two pictures, sequences, films or tables; exit code 7 if they differ");
+    const auto [app, args] = grammar.command<DiffArguments>(
+        "diff", "Compare two pictures, sequences, films or tables; exit code 7 if they differ", act);
     app.examples = {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"};
-    app.positional("A", &args->a, "PNG file, directory or sequence (name-####.png), film, .csv or .npz table")
+    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), film, .csv or .npz table")
         .required();
-    app.positional("B", &args->b, "The same kind of file").required();
-    app.option("-o,--output", &args->picture, "FILE",
+    app.positional("B", &args.b, "The same kind of file").required();
+    app.option("-o,--output", &args.picture, "FILE",
                "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");
-    app.option("--tolerance", &args->tolerance, "X",
+    app.option("--tolerance", &args.tolerance, "X",
                "Differences up to this count as equivalent: of pictures, a difference of a colour channel, 0 … 255; of "
                "tables, a share of a column's range");
-    app.option("--ssim", &args->ssim, "X",
+    app.option("--ssim", &args.ssim, "X",
                "Pictures with at least this structural similarity (0 … 1) count as equivalent")
         .range(0, 1);
-    add_json(app, args->common);
-    add_force(app, args->common);
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    add_json(app, args.common);
+    add_force(app, args.common);
+    add_quiet(app, args.common);
 }
 
 }  // namespace beamcam::scenes

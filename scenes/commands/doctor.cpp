@@ -128,12 +128,11 @@ int act(const Common& common) {
 }  // namespace
 
 void add_doctor(Grammar& grammar) {
-    auto args = std::make_shared<Common>();
-    Command& app = grammar.command(
+    const auto [app, common] = grammar.command<Common>(
         "doctor",
-        "List libraries, fonts and encoders, and packages that contain missing ones; exit code 5 if any is missing");
-    add_json(app, *args);
-    app.bind(args, act);
+        "List libraries, fonts and encoders, and packages that contain missing ones; exit code 5 if any is missing",
+        act);
+    add_json(app, common);
 }
 
 }  // namespace beamcam::scenes

@@ -18,15 +18,15 @@ struct FigureArguments {
     Common common;
     std::string scene, figure, file;
     KeyOptions print{"figure"}, channels{"figure"}, axis{"figure"}, span{"figure"}, content{"figure"};
+    KeyOptions panel{"figure"};  // of the figure's only panel
     std::optional<std::string> data, caption;
     // Of "series".
-    std::vector<std::string> right, lines, compare, notes;
-    std::optional<std::string> low, high, title;
+    std::vector<std::string> compare, notes;
+    std::optional<std::string> title;
     bool impacts = false, residuals = false, logarithmic = false, apart = false;
 
     Lang lang() const { return lang_named(print.value("--lang")); }
-    // Options of the figure's only panel.
-    bool describes_panel() const { return !right.empty() || !lines.empty() || low || high || title; }
+    bool describes_panel() const { return panel.any() || title; }
     bool describes_series() const {
         return channels.any() || axis.any() || span.any() || describes_panel() || !compare.empty() || !notes.empty() ||
                impacts || residuals || logarithmic || apart;
@@ -50,8 +50,7 @@ std::string list(const Scene& scene, Lang lang) {
 Node compare_node(const FigureArguments& args) {
     Node compare = array_node();
     const auto add_motion = [&](const std::filesystem::path& file, bool other) {
-        Node motion = object_node();
-        add(motion, "label", text_node(file.stem().string()));
+        Node motion = object_node({{"label", text_node(file.stem().string())}});
         if (other) add(motion, "scene", text_node(std::filesystem::absolute(file).string()));
         compare.items.push_back(std::move(motion));
     };
@@ -60,40 +59,23 @@ Node compare_node(const FigureArguments& args) {
     return compare;
 }
 
-Node list_node(const std::vector<std::string>& words) {
-    Node list = array_node();
-    for (const std::string& word : words) list.items.push_back(text_node(word));
-    return list;
-}
-
+// The keys of a panel that the options of the panel do not set.
 Node panel_node(const FigureArguments& args) {
-    Node panel = object_node();
-    add(panel, "channels", list_node(args.channels.values("--channels")));
-    if (!args.right.empty()) add(panel, "right", list_node(args.right));
-    if (!args.lines.empty()) {
-        Node lines = array_node();
-        for (const std::string& value : args.lines) lines.items.push_back(value_node(value));
-        add(panel, "lines", std::move(lines));
-    }
-    if (args.low) add(panel, "low", value_node(*args.low));
-    if (args.high) add(panel, "high", value_node(*args.high));
+    Node panel = object_node({{"channels", texts_node(args.channels.values("--channels"))}});
     if (args.title) add(panel, "title", text_node(*args.title));
     return panel;
 }
 
 // "impact:1=first touch"
 Node note_node(const std::string& text) {
-    Node note = object_node();
     const std::size_t sign = text.find('=');
-    add(note, "at", value_node(text.substr(0, sign)));
+    Node note = object_node({{"at", value_node(text.substr(0, sign))}});
     if (sign != std::string::npos) add(note, "text", text_node(text.substr(sign + 1)));
     return note;
 }
 
 Node output_node(const FigureArguments& args) {
-    Node output = object_node();
-    add(output, "type", text_node(FigureOutput::kType));
-    add(output, "figure", text_node(args.figure));
+    Node output = object_node({{"type", text_node(FigureOutput::kType)}, {"figure", text_node(args.figure)}});
     if (args.describes_panel()) add(output, "panels", array_node({panel_node(args)}));
     if (!args.compare.empty()) add(output, "compare", compare_node(args));
     if (args.impacts) add(output, "impacts", boolean_node(true));
@@ -114,10 +96,11 @@ FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
     if (args.logarithmic && args.figure != "series") throw UsageError("--log belongs to the figure series");
     const KeyOptions no_channels{"figure"};  // they are in the panel
-    auto figure = std::get<FigureOutput>(read_output(
-        output_node(args),
-        {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.axis, &args.span, &args.content},
-        scene, args.scene, args.common));
+    auto figure =
+        std::get<FigureOutput>(read_output(output_node(args),
+                                           {&args.print, args.describes_panel() ? &no_channels : &args.channels,
+                                            &args.panel, &args.axis, &args.span, &args.content},
+                                           scene, args.scene, args.common));
     figure.file = args.file;
     if (SeriesKeys& keys = figure.series; !keys.compare.empty())
         keys.compare.front().problem = scene.problem;  // with the values of --set
@@ -135,7 +118,7 @@ FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
     return figure;
 }
 
-int act(const FigureArguments& given) {
+void act(const FigureArguments& given) {
     FigureArguments args = given;
     Scene scene = load_scene(args.scene, args.common);
     if (args.figure.empty() && args.describes_series()) args.figure = "series";
@@ -144,7 +127,7 @@ int act(const FigureArguments& given) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
         print_text(list(scene, args.lang()));
-        return 0;
+        return;
     }
     const Recipe* recipe = recipe_named(args.figure);
     if (!recipe)
@@ -157,7 +140,6 @@ int act(const FigureArguments& given) {
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
     scene.set_outputs({figure_output(args, scene)});
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
-    return 0;
 }
 
 // ---- options ---------------------------------------------------------------------------------------
@@ -189,16 +171,15 @@ void add_content_options(Command& app, FigureArguments& args) {
 }
 
 void add_series_options(Command& app, FigureArguments& args) {
-    app.option("--right", &args.right, "CHANNEL,...",
-               "Of \"series\": channels of another unit, on an axis at the right")
-        .separated_by(',');
+    args.panel.add_list(app, "--right", "panels.0.right", "CHANNEL,...")
+        .says("Of \"series\": channels of another unit, on an axis at the right");
     app.option("--compare", &args.compare, "SCENE,...", "Of \"series\": the same channels of these scenes, too")
         .separated_by(',');
-    app.option("--lines", &args.lines, "V,...",
-               "Of \"series\" with one panel: horizontal lines at these values of the left axis, in SI units")
-        .separated_by(',');
-    app.option("--low", &args.low, "V", "Of \"series\" with one panel: lower end of the left axis, in SI units");
-    app.option("--high", &args.high, "V", "Of \"series\" with one panel: upper end of the left axis, in SI units");
+    const std::string one_panel = "Of \"series\" with one panel: ";
+    args.panel.add_list(app, "--lines", "panels.0.lines", "V,...")
+        .says(one_panel + "horizontal lines at these values of the left axis, in SI units");
+    args.panel.add(app, "--low", "panels.0.low", "V").says(one_panel + "lower end of the left axis, in SI units");
+    args.panel.add(app, "--high", "panels.0.high", "V").says(one_panel + "upper end of the left axis, in SI units");
     app.option("--title", &args.title, "TEXT", "Of \"series\" with one panel: its title; $θ$ is mathematics");
     app.option("--note", &args.notes, "AT=TEXT",
                "Of \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");
@@ -212,19 +193,18 @@ void add_series_options(Command& app, FigureArguments& args) {
 }  // namespace
 
 void add_figure(Grammar& grammar) {
-    auto args = std::make_shared<FigureArguments>();
-    Command& app = grammar.command("figure", "Make a figure for print; without FIGURE, list the figures of the scene");
+    const auto [app, args] = grammar.command<FigureArguments>(
+        "figure", "Make a figure for print; without FIGURE, list the figures of the scene", act);
     app.examples = {"figure fall.json energy -o energy.pdf --column aps",
                     "figure fall.json --channels theta,contact_force --from impact:1 -o touch.svg"};
-    add_scene(app, args->scene, args->common);
-    app.positional("FIGURE", &args->figure,
+    add_scene(app, args.scene, args.common);
+    app.positional("FIGURE", &args.figure,
                    "Name of the figure; not needed with --channels (\"series\") and --at (\"strobe\")");
-    app.option("-o,--output", &args->file, "FILE", "File to make: .pdf, .svg, .eps, .png or .tif");
-    add_print_options(app, *args);
-    add_content_options(app, *args);
-    add_series_options(app, *args);
-    add_work(app, args->common);
-    app.bind(args, act);
+    app.option("-o,--output", &args.file, "FILE", "File to make: .pdf, .svg, .eps, .png or .tif");
+    add_print_options(app, args);
+    add_content_options(app, args);
+    add_series_options(app, args);
+    add_work(app, args.common);
 }
 
 }  // namespace beamcam::scenes

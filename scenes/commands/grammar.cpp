@@ -21,13 +21,6 @@ Parameter& add(std::deque<Parameter>& parameters, std::string names, Target targ
     return parameter;
 }
 
-Command& add(std::deque<Command>& commands, std::string name, std::string summary) {
-    Command& command = commands.emplace_back();
-    command.name = std::move(name);
-    command.summary = std::move(summary);
-    return command;
-}
-
 // Only help, completion and manual need the descriptions of keys; making them takes as long as the program's start.
 const DescribedKey& described_key(const Parameter& parameter) {
     static const std::vector<KeyRow> rows = key_rows();
@@ -53,11 +46,11 @@ Parameter& Command::option(std::string names, Target target, std::string value, 
 Parameter& Command::positional(std::string positional_name, Target target, std::string meaning) {
     return add(parameters, std::move(positional_name), target, "", std::move(meaning));
 }
-Command& Command::subcommand(std::string command, std::string text) {
-    return add(subcommands, std::move(command), std::move(text));
-}
-Command& Grammar::command(std::string name, std::string summary) {
-    return add(commands, std::move(name), std::move(summary));
+Command& add_command(std::deque<Command>& commands, std::string name, std::string summary) {
+    Command& command = commands.emplace_back();
+    command.name = std::move(name);
+    command.summary = std::move(summary);
+    return command;
 }
 
 std::string help_of(const Parameter& parameter) {

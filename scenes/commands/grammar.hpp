@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -35,8 +36,20 @@ struct Parameter {
     Parameter& several() { return takes_several = true, *this; }
     Parameter& separated_by(char c) { return separator = c, *this; }
     Parameter& one_of(std::vector<std::string> values) { return choices = std::move(values), *this; }
+    // The help text of an option that sets a key, in place of the key's meaning.
+    Parameter& says(std::string text) { return key.clear(), meaning = std::move(text), *this; }
     Parameter& range(double low, double high) { return limits.emplace(low, high), *this; }
     bool is_option() const { return names.starts_with('-'); }
+};
+
+struct Command;
+Command& add_command(std::deque<Command>& commands, std::string name, std::string summary);
+
+// A new command, and its arguments: the targets of its options, which live as long as the command.
+template <class Arguments>
+struct BoundCommand {
+    Command& command;
+    Arguments& arguments;
 };
 
 struct Command {
@@ -51,12 +64,22 @@ struct Command {
     void flag(std::string names, bool& target, std::string meaning);
     Parameter& option(std::string names, Target target, std::string value, std::string meaning);
     Parameter& positional(std::string name, Target target, std::string meaning);
-    Command& subcommand(std::string command, std::string text);
 
-    // `arguments` lives as long as the grammar; `act` receives it.
-    template <class Arguments>
-    void bind(std::shared_ptr<Arguments> arguments, int (*act)(const Arguments&)) {
-        action = [arguments, act] { return act(*arguments); };
+    template <class Arguments, class Code>
+    BoundCommand<Arguments> subcommand(std::string word, std::string text, Code (*act)(const Arguments&)) {
+        return add_command(subcommands, std::move(word), std::move(text)).bind(act);
+    }
+    // `act` returns the exit code, or nothing: then the code is 0.
+    template <class Arguments, class Code>
+    BoundCommand<Arguments> bind(Code (*act)(const Arguments&)) {
+        const auto arguments = std::make_shared<Arguments>();
+        action = [arguments, act] {
+            if constexpr (std::is_void_v<Code>)
+                return act(*arguments), 0;
+            else
+                return act(*arguments);
+        };
+        return {*this, *arguments};
     }
 };
 
@@ -67,7 +90,13 @@ struct Grammar {
 
     std::deque<Command> commands;  // in the order of --help
 
-    Command& command(std::string name, std::string summary);
+    template <class Arguments, class Code>
+    BoundCommand<Arguments> command(std::string name, std::string summary, Code (*act)(const Arguments&)) {
+        return add_command(commands, std::move(name), std::move(summary)).bind(act);
+    }
+    Command& command(std::string name, std::string summary) {  // with subcommands
+        return add_command(commands, std::move(name), std::move(summary));
+    }
 };
 
 // The help text of a parameter: its own, or the meaning of the key that it sets, with the key's unit and words.

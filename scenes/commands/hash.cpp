@@ -50,7 +50,7 @@ void hash_in_order(output::PictureSource& source, const std::string& file, bool 
     if (whole) print_line(all.hex(), file);
 }
 
-int act(const HashArguments& args) {
+void act(const HashArguments& args) {
     const int threads = thread_count(args.common.threads);
     std::vector<std::filesystem::path> stills;  // not hashed yet
     auto hash_stills = [&] {
@@ -67,26 +67,24 @@ int act(const HashArguments& args) {
         hash_in_order(source, file, args.whole);
     }
     hash_stills();
-    return 0;
 }
 
 }  // namespace
 
 void add_hash(Grammar& grammar) {
-    auto args = std::make_shared<HashArguments>();
-    Command& app = grammar.command("hash", "Print the SHA-256 digests of the decoded pixels of pictures and films");
+    const auto [app, args] = grammar.command<HashArguments>(
+        "hash", "Print the SHA-256 digests of the decoded pixels of pictures and films", act);
     app.examples = {"hash fall.png", "hash fall.mp4 --whole"};
-    app.positional("FILE", &args->files, "PNG files, directories or sequences (name-####.png), films").required();
-    app.flag("--whole", args->whole,
+    app.positional("FILE", &args.files, "PNG files, directories or sequences (name-####.png), films").required();
+    app.flag("--whole", args.whole,
              "Print one digest for each FILE, over all its pictures, instead of one for each picture");
-    add_jobs(app, args->common, "Largest number of threads that decode PNG files");
+    add_jobs(app, args.common, "Largest number of threads that decode PNG files");
     app.footer =
         "The digest is taken over R, G, B, A bytes of 8 bits, row by row. FFmpeg prints the same digest of a picture "
         "with\n"
         "  ffmpeg -i FILE -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba \\\n"
         "         -f framehash -hash sha256 -\n"
         "and for --whole with -f hash -hash sha256.";
-    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

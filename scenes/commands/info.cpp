@@ -174,9 +174,7 @@ std::string runnable_scene(const std::string& scene) {
 }
 
 Node provenance_node(const Provenance& p) {
-    Node out = object_node();
-    add(out, "file", text_node(p.file));
-    add(out, "kind", text_node(p.kind));
+    Node out = object_node({{"file", text_node(p.file)}, {"kind", text_node(p.kind)}});
     for (const auto& [key, value] : p.facts) add(out, key, text_node(value));
     add(out, "made_by_beamcam", boolean_node(p.made_by_beamcam()));
     for (const auto& [key, value] :
@@ -194,7 +192,7 @@ struct InfoArguments {
     bool scene = false;
 };
 
-int act(const InfoArguments& args) {
+void act(const InfoArguments& args) {
     if (args.scene && args.files.size() != 1) throw UsageError("--scene prints one scene; name one file");
     for (const std::string& file : args.files) {
         const Provenance found = provenance_of(file);
@@ -211,20 +209,18 @@ int act(const InfoArguments& args) {
                 "{} contains no scene: beamcam did not make it, or another program removed its metadata", file));
         print_json(scene);
     }
-    return kDone;
 }
 
 }  // namespace
 
 void add_info(Grammar& grammar) {
-    auto args = std::make_shared<InfoArguments>();
-    Command& app = grammar.command("info", "Print the provenance of a picture, film, figure or table");
+    const auto [app, args] =
+        grammar.command<InfoArguments>("info", "Print the provenance of a picture, film, figure or table", act);
     app.examples = {"info fall.mp4", "info fall.mp4 --scene > fall.json"};
-    app.positional("FILE", &args->files, "Files that beamcam made").required();
-    app.flag("--scene", args->scene,
+    app.positional("FILE", &args.files, "Files that beamcam made").required();
+    app.flag("--scene", args.scene,
              "Print the scene that the file was made from; `beamcam run` makes the same file from it");
-    add_json(app, args->common);
-    app.bind(args, act);
+    add_json(app, args.common);
 }
 
 }  // namespace beamcam::scenes

@@ -53,50 +53,44 @@ int act(const InitArguments& args) {
     return 0;
 }
 
-int list_examples(const Common&) {
+void list_examples(const Common&) {
     std::size_t width = 0;
     for (const EmbeddedScene& scene : embedded_scenes()) width = std::max(width, scene.name.size());
     std::string text;
     for (const EmbeddedScene& scene : embedded_scenes())
         text += fmt::format("{:<{}}  {}\n", scene.name, width, scene.summary());
     print_text(text);
-    return 0;
 }
 
 struct SchemaArguments {
     bool baselines = false;
 };
 
-int print_schema(const SchemaArguments& args) {
+void print_schema(const SchemaArguments& args) {
     print_data(args.baselines ? std::string(baselines_schema_text()) : schema_text());
-    return 0;
 }
 
 }  // namespace
 
 void add_init(Grammar& grammar) {
-    auto args = std::make_shared<InitArguments>();
-    Command& app = grammar.command("init", "Write a scene with comments to start from");
+    const auto [app, args] = grammar.command<InitArguments>("init", "Write a scene with comments to start from", act);
     app.examples = {"init fall", "init slow --from slow-motion"};
-    app.positional("NAME", &args->name,
+    app.positional("NAME", &args.name,
                    "Name of the new file (default: scene, or the name of the example); - is standard output");
-    app.option("--from", &args->from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");
-    app.flag("--force", args->common.force, "Replace an existing file");
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    app.option("--from", &args.from, "EXAMPLE", "Copy this example; `beamcam examples` lists all");
+    app.flag("--force", args.common.force, "Replace an existing file");
+    add_quiet(app, args.common);
 }
 
 void add_examples(Grammar& grammar) {
-    Command& app = grammar.command("examples", "List the examples that `beamcam init --from` copies");
-    app.bind(std::make_shared<Common>(), list_examples);
+    grammar.command<Common>("examples", "List the examples that `beamcam init --from` copies", list_examples);
 }
 
 void add_schema(Grammar& grammar) {
-    Command& app = grammar.command("schema", "Print the JSON Schema of scenes, for editors");
+    const auto [app, args] =
+        grammar.command<SchemaArguments>("schema", "Print the JSON Schema of scenes, for editors", print_schema);
     app.examples = {"schema > beamcam-scene.schema.json"};
-    auto args = std::make_shared<SchemaArguments>();
-    app.flag("--baselines", args->baselines, "Print the schema of the baselines of `beamcam test` instead");
-    app.bind(args, print_schema);
+    app.flag("--baselines", args.baselines, "Print the schema of the baselines of `beamcam test` instead");
 }
 
 }  // namespace beamcam::scenes

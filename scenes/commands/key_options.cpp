@@ -49,23 +49,20 @@ Node value_node(const std::string& text) {
     return node;
 }
 
-Parameter& KeyOptions::add_parameter(Command& command, const Option& option, Target target, const char* placeholder,
-                                     const char* note) {
-    Parameter& parameter = command.option(option.name, target, placeholder, note);
+Parameter& KeyOptions::add(Command& command, const char* name, const char* key, const char* placeholder,
+                           const char* note) {
+    Parameter& parameter =
+        command.option(name, &options_.emplace_back(Option{name, key, {}, {}}).value, placeholder, note);
     parameter.output_type = type_;
-    parameter.key = option.key;
+    parameter.key = key;
     return parameter;
 }
 
-void KeyOptions::add(Command& command, const char* name, const char* key, const char* placeholder, const char* note) {
-    Option& option = options_.emplace_back(Option{name, key, {}, {}});
-    add_parameter(command, option, &option.value, placeholder, note);
-}
-
-void KeyOptions::add_list(Command& command, const char* name, const char* key, const char* placeholder,
-                          const char* note) {
-    Option& option = options_.emplace_back(Option{name, key, {}, {}});
-    add_parameter(command, option, &option.values, placeholder, note).separated_by(',');
+Parameter& KeyOptions::add_list(Command& command, const char* name, const char* key, const char* placeholder,
+                                const char* note) {
+    Parameter& parameter = add(command, name, key, placeholder, note).separated_by(',');
+    parameter.target = &options_.back().values;
+    return parameter;
 }
 
 const std::string* KeyOptions::value(std::string_view name) const {

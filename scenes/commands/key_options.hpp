@@ -20,9 +20,10 @@ class KeyOptions {
     explicit KeyOptions(const char* type) : type_(type) {}
 
     // The option `name` sets `key`, "view.style". `note`: text before the key's meaning in the help.
-    void add(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
+    Parameter& add(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
     // The same of a key whose value is a list: values separated by commas.
-    void add_list(Command& command, const char* name, const char* key, const char* placeholder, const char* note = "");
+    Parameter& add_list(Command& command, const char* name, const char* key, const char* placeholder,
+                        const char* note = "");
 
     // The value that was given to an option; null: it was not given.
     const std::string* value(std::string_view name) const;
@@ -38,9 +39,6 @@ class KeyOptions {
         bool given() const { return value || !values.empty(); }
     };
     friend Output read_output(Node, std::initializer_list<const KeyOptions*>, Scene, const std::string&, const Common&);
-
-    Parameter& add_parameter(Command& command, const Option& option, Target target, const char* placeholder,
-                             const char* note);
 
     const char* type_;
     std::deque<Option> options_;  // the parser stores values here: the addresses stay

@@ -47,15 +47,10 @@ std::vector<KeyRow> chosen(const std::string& pattern) {
 Node json_of(const KeyRow& row) {
     const DescribedKey& key = *row.key;
     const auto bound = [](double value) { return std::isfinite(value) ? number_node(value) : Node{}; };
-    Node out = object_node();
-    add(out, "key", text_node(row.path));
+    Node out = object_node({{"key", text_node(row.path)}});
     if (!row.when.empty()) add(out, "when", text_node(row.when));
     add(out, "type", text_node(key.type));
-    if (!key.words.empty()) {
-        Node words = array_node();
-        for (const std::string& word : key.words) words.items.push_back(text_node(word));
-        add(out, "words", std::move(words));
-    }
+    if (!key.words.empty()) add(out, "words", texts_node(key.words));
     add(out, "unit", key.unit.empty() ? Node{} : text_node(key.unit));
     add(out, "default", key.value && !key.required() ? *key.value : Node{});
     add(out, "min", bound(key.range.min));
@@ -80,17 +75,17 @@ std::string text_of(const std::vector<KeyRow>& rows) {
     return text;
 }
 
-int act(const KeysArguments& args) {
+void act(const KeysArguments& args) {
     if (args.markdown) {
         print_data(reference_text());
-        return 0;
+        return;
     }
     const std::vector<KeyRow> rows = chosen(args.pattern);
     if (args.json) {
         Node all = array_node();
         for (const KeyRow& row : rows) all.items.push_back(json_of(row));
         print_data(to_text(all));
-        return 0;
+        return;
     }
     if (rows.empty()) {
         std::vector<std::string> names;
@@ -98,20 +93,18 @@ int act(const KeysArguments& args) {
         throw UsageError(fmt::format("no key matches {}{}", args.pattern, suggestion(args.pattern, names)));
     }
     print_data(text_of(rows));
-    return 0;
 }
 
 }  // namespace
 
 void add_keys(Grammar& grammar) {
-    auto args = std::make_shared<KeysArguments>();
-    Command& app = grammar.command("keys", "Explain the keys of scenes: type, unit, range, default, meaning");
+    const auto [app, args] =
+        grammar.command<KeysArguments>("keys", "Explain the keys of scenes: type, unit, range, default, meaning", act);
     app.examples = {"keys damping", "keys 'contact*'"};
-    app.positional("PATTERN", &args->pattern,
+    app.positional("PATTERN", &args.pattern,
                    "Only keys with this text in their path or meaning; * stands for any text");
-    app.flag("--json", args->json, "Print JSON");
-    app.flag("--markdown", args->markdown, "Print all keys as Markdown (scenes/FORMAT.md)");
-    app.bind(args, act);
+    app.flag("--json", args.json, "Print JSON");
+    app.flag("--markdown", args.markdown, "Print all keys as Markdown (scenes/FORMAT.md)");
 }
 
 }  // namespace beamcam::scenes

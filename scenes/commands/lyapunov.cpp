@@ -31,8 +31,7 @@ const char* verdict(sim::Chaos chaos) {
                    "largest exponent does not exceed its error\n";
         case sim::Chaos::not_shown:
             return "no chaos is shown: the largest exponent does not exceed its error, differences grow by less than "
-                   "e³ "
-                   "in the second half, or the motion had not settled\n";
+                   "e³ in the second half, or the motion had not settled\n";
     }
     return "";
 }
@@ -51,7 +50,7 @@ std::string exponents_text(const sim::Exponents& e) {
     return text + verdict(e.chaos());
 }
 
-int act(const LyapunovArguments& args) {
+void act(const LyapunovArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     if (const auto refusal = sim::tangent_refusal(scene.problem)) throw UsageError(*refusal);
     sim::ExponentsRequest request;
@@ -81,26 +80,24 @@ int act(const LyapunovArguments& args) {
     if (std::cmp_greater(args.count, found.lambda.size()))
         inform(args.common, fmt::format("note: there are {} exponents, not {}", found.lambda.size(), args.count));
     for (const std::string& warning : found.warnings) inform(args.common, "warning: " + warning);
-    return 0;
 }
 
 }  // namespace
 
 void add_lyapunov(Grammar& grammar) {
-    auto args = std::make_shared<LyapunovArguments>();
-    Command& app = grammar.command("lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos");
+    const auto [app, args] = grammar.command<LyapunovArguments>(
+        "lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos", act);
     app.examples = {"lyapunov chaos.json --transient 200 --duration '300 s' -o convergence.pdf"};
-    add_scene(app, args->scene, args->common);
-    add_result_options(app, args->files, args->common,
+    add_scene(app, args.scene, args.common);
+    add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");
-    app.option("--count", &args->count, "K", "Compute the K largest only (default: all)").range(1, 82);
-    app.option("--transient", &args->transient, "T",
+    app.option("--count", &args.count, "K", "Compute the K largest only (default: all)").range(1, 82);
+    app.option("--transient", &args.transient, "T",
                "Time left out at the start: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
-    app.option("--duration", &args->duration, "T", "Averaging time (default: 100 s)");
-    app.option("--blocks", &args->blocks, "N",
+    app.option("--duration", &args.duration, "T", "Averaging time (default: 100 s)");
+    app.option("--blocks", &args.blocks, "N",
                "Number of blocks of that time; their scatter gives the error (default: 20)")
         .range(2, 1000);
-    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -66,7 +66,7 @@ beamcam simulate fall.json \-\-trajectory motion.csv \-\-summary \-
 .fi
 )";
 
-int act(const ManualArguments& args) {
+void act(const ManualArguments& args) {
     std::string text = fmt::format(".TH BEAMCAM 1 \"\" \"beamcam {}\" \"User Commands\"\n", kVersion);
     text += ".SH NAME\nbeamcam \\- simulates and films a flexible beam that strikes a turning cam\n";
     text += ".SH SYNOPSIS\n\\fBbeamcam\\fR \\fICOMMAND\\fR [\\fIOPTION\\fR]...\n";
@@ -78,15 +78,13 @@ int act(const ManualArguments& args) {
     for (const auto& [code, meaning] : kExitCodes) text += fmt::format(".TP\n{}\n{}\n", int(code), meaning);
     text += fmt::format(".SH ENVIRONMENT\n{}.SH EXAMPLES\n{}", kEnvironment, kExamples);
     print_data(text);
-    return 0;
 }
 
 }  // namespace
 
 void add_manual(Grammar& grammar) {
-    auto args = std::make_shared<ManualArguments>();
-    args->grammar = &grammar;
-    grammar.command("manual", "Print the manual page, for `man -l -`").bind(args, act);
+    grammar.command<ManualArguments>("manual", "Print the manual page, for `man -l -`", act).arguments.grammar =
+        &grammar;
 }
 
 }  // namespace beamcam::scenes

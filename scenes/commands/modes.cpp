@@ -19,18 +19,18 @@ struct ModesArguments {
     std::optional<std::string> speed;
 };
 
-int act(const ModesArguments& args) {
+void act(const ModesArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     std::optional<double> speed;
     if (args.speed) speed = signed_argument("--speed", *args.speed, dimension::kAngularSpeed);
     const std::vector<sim::Mode> modes = sim::natural_modes(scene.problem, speed);
     if (args.common.json) {
         print_json(output::modes_json(modes));
-        return 0;
+        return;
     }
     if (modes.empty()) {
         inform(args.common, "a rigid beam has no bending modes");
-        return 0;
+        return;
     }
     std::string text = fmt::format("{:>4}  {:>20}  {:>20}\n", "mode", "omega [rad/s]", "f [Hz]");
     for (std::size_t i = 0; i < modes.size(); ++i) {
@@ -41,21 +41,18 @@ int act(const ModesArguments& args) {
                                 modes[i].omega / (2 * std::numbers::pi));
     }
     print_text(text);
-    return 0;
 }
 
 }  // namespace
 
 void add_modes(Grammar& grammar) {
-    auto args = std::make_shared<ModesArguments>();
-    Command& app =
-        grammar.command("modes", "Print the natural frequencies of the beam on its hub, at rest or rotating");
+    const auto [app, args] = grammar.command<ModesArguments>(
+        "modes", "Print the natural frequencies of the beam on its hub, at rest or rotating", act);
     app.examples = {"modes fall.json", "modes fall.json --speed 300rpm --json"};
-    add_scene(app, args->scene, args->common);
-    app.option("--speed", &args->speed, "RAD_S",
+    add_scene(app, args.scene, args.common);
+    app.option("--speed", &args.speed, "RAD_S",
                "Clamp the beam to a hub that rotates at this speed, for example 300rpm (default: a free hub at rest)");
-    app.flag("--json", args->common.json, "Print JSON, with mass-normalized mode shapes");
-    app.bind(args, act);
+    app.flag("--json", args.common.json, "Print JSON, with mass-normalized mode shapes");
 }
 
 }  // namespace beamcam::scenes

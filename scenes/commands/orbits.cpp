@@ -54,8 +54,8 @@ KeyRange range_argument(const std::string& over, const sim::Problem& problem) {
     }
     if (key->whole)
         throw UsageError(
-            fmt::format("{}: {} takes whole numbers alone, and an orbit is followed over a key that "
-                        "varies continuously; give sweep --over {} a list of them",
+            fmt::format("{}: {} takes whole numbers alone, and an orbit is followed over a key that varies "
+                        "continuously; give sweep --over {} a list of them",
                         option, path, path));
     KeyRange range{*key, signed_argument(option, over.substr(equals + 1, colon - equals - 1), key->dimension),
                    signed_argument(option, over.substr(colon + 1), key->dimension)};
@@ -79,8 +79,7 @@ void need_narrow(const KeyRange& range, double start) {
     constexpr double kWidest = 1e4;  // of the value that a branch begins at
     if (range.to - range.from > kWidest * std::abs(start) && start != 0)
         throw UsageError(
-            fmt::format("--over {}: the range is wider than {:g} times {:g}, where the branch begins; "
-                        "narrow it",
+            fmt::format("--over {}: the range is wider than {:g} times {:g}, where the branch begins; narrow it",
                         range.key.path, kWidest, start));
 }
 
@@ -137,7 +136,7 @@ void follow_branches(output::BranchTable& table, const ProblemFamily& family, co
 // own and lasts as long, but at least three seconds.
 Scene scene_on(const Scene& scene, const sim::PeriodicOrbit& orbit, const sim::Problem& begun, std::string name) {
     constexpr double kShortest = 3;  // [s]
-    VideoOutput film = film_template(scene);
+    PictureOutput film = film_template(scene);
     const FrameSpan before = film.span;
     film.span = {.fps = before.fps};
     film.span.from = orbit.period;
@@ -167,8 +166,8 @@ bool write_scene(const OrbitsArguments& args, const Scene& scene, const std::vec
             return true;
         }
     if (!orbits.empty())
-        inform(args.common, fmt::format("{} is not written: on these orbits the beam never leaves the cam; film "
-                                        "the scene itself, after its transient",
+        inform(args.common, fmt::format("{} is not written: on these orbits the beam never leaves the cam; film the "
+                                        "scene itself, after its transient",
                                         *args.scene_file));
     return false;
 }
@@ -257,43 +256,41 @@ int act(const OrbitsArguments& args) {
 }  // namespace
 
 void add_orbits(Grammar& grammar) {
-    auto args = std::make_shared<OrbitsArguments>();
-    Command& app =
-        grammar.command("orbits", "Find periodic orbits and their stability, and follow them over a parameter");
+    const auto [app, args] = grammar.command<OrbitsArguments>(
+        "orbits", "Find periodic orbits and their stability, and follow them over a parameter", act);
     app.examples = {"orbits fast-cam.json --turns 1",
                     "orbits fast-cam.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
-    add_scene(app, args->scene, args->common);
-    add_result_options(app, args->files, args->common,
-                       "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf "
-                       "(repeatable)");
-    app.option("--over", &args->over, "KEY=FROM:TO",
+    add_scene(app, args.scene, args.common);
+    add_result_options(
+        app, args.files, args.common,
+        "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
+    app.option("--over", &args.over, "KEY=FROM:TO",
                "Follow the orbit over this key of the scene, also through folds, for example cam.speed=40:60; follow, "
                "too, the first orbit that rests on the cam for a part of its period");
-    app.option("--at", &args->at, "VALUE",
+    app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
-    app.option("--turns", &args->turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
+    app.option("--turns", &args.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
         .range(1, 1000);
-    app.option("--most-turns", &args->most_turns, "N", "Longest period to try without --turns (default: 8)")
+    app.option("--most-turns", &args.most_turns, "N", "Longest period to try without --turns (default: 8)")
         .range(1, 1000);
-    app.option("--impacts", &args->impacts, "M", "Number of impacts of the orbit in a period (default: any)")
+    app.option("--impacts", &args.impacts, "M", "Number of impacts of the orbit in a period (default: any)")
         .range(0, 100000);
-    app.option("--transient", &args->transient, "T",
+    app.option("--transient", &args.transient, "T",
                "Time left out before the search: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
-    app.option("--doublings", &args->doublings, "K", "Number of successive period doublings to follow (default: 0)")
+    app.option("--doublings", &args.doublings, "K", "Number of successive period doublings to follow (default: 0)")
         .range(0, 20);
-    app.option("--step", &args->step, "SHARE", "Longest step along a branch, as a share of the range (default: 0.01)")
+    app.option("--step", &args.step, "SHARE", "Longest step along a branch, as a share of the range (default: 0.01)")
         .range(1e-6, 0.5);
-    app.option("--most-points", &args->most_points, "N",
+    app.option("--most-points", &args.most_points, "N",
                "Largest number of points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
-    app.option("--sweep", &args->sweep_file, "FILE",
+    app.option("--sweep", &args.sweep_file, "FILE",
                "Draw the impacts of a sweep over the same key (.csv, .npz or .nc) below the branches");
-    app.option("--row", &args->row, "K",
+    app.option("--row", &args.row, "K",
                "Start from row K of the table of --sweep: its state and the values of its swept keys")
         .range(1, 1000000000);
-    app.option("--scene", &args->scene_file, "FILE.json",
+    app.option("--scene", &args.scene_file, "FILE.json",
                "Write a scene that begins on the first orbit, with a looping film of one period");
-    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

@@ -16,7 +16,7 @@
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/motion_store.hpp"
 #include "scenes/outputs/run_context.hpp"
-#include "scenes/plan/figure_times.hpp"
+#include "scenes/plan/output_times.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -130,7 +130,7 @@ std::string plan_text(const std::vector<Study>& studies, const std::vector<std::
     return text;
 }
 
-int act(const PaperArguments& args) {
+void act(const PaperArguments& args) {
     const RunOptions options = run_options(args.common, args.directory);
     Studies studies;
     std::vector<Job> jobs = jobs_of(args);
@@ -138,7 +138,7 @@ int act(const PaperArguments& args) {
         prepare(jobs, {}, studies);
         prepare_findings(studies);
         print_text(plan_text(studies.take(), files_of(args, jobs)));
-        return 0;
+        return;
     }
     PaperWriter writer(args);
     writer.prepare(files_of(args, jobs));
@@ -177,25 +177,23 @@ int act(const PaperArguments& args) {
     writer.write("captions.md", captions);
     writer.write("findings.md", findings_markdown(findings(results)));
     writer.finish();
-    return 0;
 }
 
 }  // namespace
 
 void add_paper(Grammar& grammar) {
-    auto args = std::make_shared<PaperArguments>();
-    Command& app = grammar.command(
-        "paper", "Make all figures of the paper as .png, .svg and .pdf, their captions, and the table of findings");
+    const auto [app, args] = grammar.command<PaperArguments>(
+        "paper", "Make all figures of the paper as .png, .svg and .pdf, their captions, and the table of findings",
+        act);
     app.examples = {"paper -o paper --column aps"};
-    app.option("-o,--output", &args->directory, "DIR", "Directory for the files").required();
-    add_column(app, args->column);
-    add_lang(app, args->lang);
-    app.option("--dpi", &args->dpi, "N", "Dots per inch of the .png files (default: 300)").range(50, 2400);
-    app.flag("--data", args->data, "Write the plotted numbers, too, as .csv");
-    add_set(app, args->common);
-    add_quiet(app, args->common);
-    add_work(app, args->common);
-    app.bind(args, act);
+    app.option("-o,--output", &args.directory, "DIR", "Directory for the files").required();
+    add_column(app, args.column);
+    add_lang(app, args.lang);
+    app.option("--dpi", &args.dpi, "N", "Dots per inch of the .png files (default: 300)").range(50, 2400);
+    app.flag("--data", args.data, "Write the plotted numbers, too, as .csv");
+    add_set(app, args.common);
+    add_quiet(app, args.common);
+    add_work(app, args.common);
 }
 
 }  // namespace beamcam::scenes

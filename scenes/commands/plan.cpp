@@ -12,7 +12,7 @@ struct PlanArguments {
     std::string directory = ".";
 };
 
-int act(const PlanArguments& args) {
+void act(const PlanArguments& args) {
     std::vector<Scene> scenes;
     for (const std::string& path : args.scenes) scenes.push_back(with_default_output(load_scene(path, args.common)));
     const RunOptions options = run_options(args.common, args.directory);
@@ -20,21 +20,19 @@ int act(const PlanArguments& args) {
     for (const Scene& scene : scenes)
         if (scene.sweep && !args.common.json)
             print_text("\n" + sweep_plan(SweepGrid(scene), {}, thread_count(options.threads), false));
-    return 0;
 }
 
 }  // namespace
 
 void add_plan(Grammar& grammar) {
-    auto args = std::make_shared<PlanArguments>();
-    Command& app = grammar.command("plan", "Print what `run` would do, what it would skip, and why");
+    const auto [app, args] =
+        grammar.command<PlanArguments>("plan", "Print what `run` would do, what it would skip, and why", act);
     app.examples = {"plan fall.json", "plan fall.json --force --no-cache"};
-    add_scenes(app, args->scenes, args->common);
-    app.option("-o,--output", &args->directory, "DIR", "Directory for the outputs (default: the current one)");
-    app.flag("--force", args->common.force, "Plan as if no output existed");
-    app.flag("--no-cache", args->common.no_cache, "Plan as if the cache were empty");
-    add_json(app, args->common);
-    app.bind(args, act);
+    add_scenes(app, args.scenes, args.common);
+    app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");
+    app.flag("--force", args.common.force, "Plan as if no output existed");
+    app.flag("--no-cache", args.common.no_cache, "Plan as if the cache were empty");
+    add_json(app, args.common);
 }
 
 }  // namespace beamcam::scenes

@@ -29,7 +29,7 @@ struct RenderArguments {
 
 // The codec of the film: --codec, else that of the scene's own film if it is of the same kind of file, else the usual
 // one.
-void choose_codec(VideoOutput& film, const std::string& ending, const std::string* name) {
+void choose_codec(PictureOutput& film, const std::string& ending, const std::string* name) {
     Encoding& encoding = film.encoding;
     std::optional<output::Codec> codec =
         name ? output::codec_named(*name) : std::nullopt;  // the reader judges the name
@@ -42,7 +42,7 @@ void choose_codec(VideoOutput& film, const std::string& ending, const std::strin
 }
 
 // Vector graphics of one instant: the figure "strobe".
-FigureOutput vector_still(const RenderArguments& args, const VideoOutput& film) {
+FigureOutput vector_still(const RenderArguments& args, const PictureOutput& film) {
     if (!args.still.value("--at")) throw UsageError(fmt::format("-o {}: name the instant with --at", args.file));
     if (!args.others.empty())
         throw UsageError(fmt::format("-o {} shows one motion; name one scene, or a .png file", args.file));
@@ -53,18 +53,8 @@ FigureOutput vector_still(const RenderArguments& args, const VideoOutput& film) 
     return figure;
 }
 
-Output page_or_model(const RenderArguments& args, VideoOutput film, const std::string& ending) {
-    if (!args.others.empty()) throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
-    film.span.speed = {}, film.span.duration.reset(), film.span.events.clear(), film.span.hold = 0;
-    film.compare.clear();
-    if (ending == ".glb") return ModelOutput{film, "", film.span};
-    PageOutput page{film, "", film.span};
-    page.span.fps = PageOutput().span.fps;
-    return page;
-}
-
 // With the keys that it has in common with `film`.
-Output output_for_file(const RenderArguments& args, VideoOutput film) {
+Output output_for_file(const RenderArguments& args, PictureOutput film) {
     const std::string ending = ending_of(args.file);
     if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
     require_ending(
@@ -72,26 +62,27 @@ Output output_for_file(const RenderArguments& args, VideoOutput film) {
         {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".pdf", ".svg", ".eps", ".html", ".glb"});
     if (ending == ".pdf" || ending == ".svg" || ending == ".eps") return vector_still(args, film);
     const bool numbered = is_numbered(std::filesystem::path(args.file).filename().string());
-    if (args.still.value("--at")) {
-        if (ending != ".png" || numbered)
-            throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
-        return StillOutput{film, "", {}};
-    }
-    if (ending == ".html" || ending == ".glb") return page_or_model(args, std::move(film), ending);
-    if (ending == ".png") {
-        if (!numbered)
-            throw UsageError(
-                fmt::format("-o {}: name the instant with --at for one picture, or put #### in the name for a sequence",
-                            args.file));
-        return FramesOutput{film, "", film.span};
-    }
-    choose_codec(film, ending, args.film.value("--codec"));
-    film.file.clear();
+    using enum PictureOutput::Kind;
+    const bool document = ending == ".html" || ending == ".glb";
+    film.kind = args.still.value("--at") ? still
+                : ending == ".html"      ? page
+                : document               ? model
+                : ending == ".png"       ? frames
+                                         : video;
+    if (film.kind == still && (ending != ".png" || numbered))
+        throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
+    if (document && !args.others.empty())
+        throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
+    if (film.kind == frames && !numbered)
+        throw UsageError(fmt::format(
+            "-o {}: name the instant with --at for one picture, or put #### in the name for a sequence", args.file));
+    if (film.kind == page) film.span.fps = PictureOutput::of(page).span.fps;
+    if (film.kind == video) choose_codec(film, ending, args.film.value("--codec"));
     return film;
 }
 
 bool has_frames(const Output& output) {
-    return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output);
+    return picture_of(output, PictureOutput::Kind::video) || picture_of(output, PictureOutput::Kind::frames);
 }
 
 // The output with the values of the options.
@@ -161,10 +152,9 @@ std::pair<long, long> frames_argument(const std::string& text, long begin, long 
     const long from = number(std::string_view(text).substr(0, colon), begin),
                to = number(std::string_view(text).substr(colon + 1), end);
     if (from < begin || to > end || from >= to)
-        throw UsageError(
-            fmt::format("--frames {}: the film has the frames {}:{}, the last one not included; name at least one of "
-                        "them",
-                        text, begin, end));
+        throw UsageError(fmt::format(
+            "--frames {}: the film has the frames {}:{}, the last one not included; name at least one of them", text,
+            begin, end));
     return {from, to};
 }
 
@@ -184,7 +174,7 @@ Selection part_of_film(const RenderArguments& args, const Scene& scene) {
 
 // In a scene a poster outside the film is the film's nearest frame, so that films can be shortened; here it is an
 // error.
-void require_poster_inside(const VideoOutput& film, double end_time) {
+void require_poster_inside(const PictureOutput& film, double end_time) {
     const FrameSpan& span = film.span;
     const double to = span.to.value_or(end_time);
     if (!span.poster || span.poster->kind != Instant::Kind::time || span.from_event || span.to_event) return;
@@ -193,19 +183,19 @@ void require_poster_inside(const VideoOutput& film, double end_time) {
                                      span.from, to));
 }
 
-int act(const RenderArguments& args) {
+void act(const RenderArguments& args) {
     Common with_title = args.common;
     if (args.title) with_title.overrides.push_back("title=" + to_text(text_node(*args.title)));
     Scene scene = load_scene(args.scene, with_title);
-    VideoOutput film = film_template(scene);
+    PictureOutput film = film_template(scene);
     compare_scenes(args, scene, film);
     Output output = with_options(args, output_for_file(args, std::move(film)), scene);
-    if (const auto* video = std::get_if<VideoOutput>(&output)) require_poster_inside(*video, scene.end_time);
+    if (const auto* video = picture_of(output, PictureOutput::Kind::video))
+        require_poster_inside(*video, scene.end_time);
     scene.set_outputs({std::move(output)});
     RunOptions options = run_options(args.common, "");
     options.selection = part_of_film(args, scene);
     run_or_plan({&scene, 1}, options, args.common);
-    return 0;
 }
 
 void add_key_options(Command& app, RenderArguments& args) {
@@ -232,27 +222,25 @@ void add_key_options(Command& app, RenderArguments& args) {
 }  // namespace
 
 void add_render(Grammar& grammar) {
-    auto args = std::make_shared<RenderArguments>();
-    Command& app =
-        grammar.command("render", "Make one film, picture sequence, still picture, page or model of a scene");
+    const auto [app, args] = grammar.command<RenderArguments>(
+        "render", "Make one film, picture sequence, still picture, page or model of a scene", act);
     app.examples = {"render fall.json -o fall.mp4 --size 1280x720 --speed impacts",
                     "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4"};
-    add_scene(app, args->scene, args->common);
-    app.positional("OTHERS", &args->others, "Further scenes, compared with the first in one picture");
-    app.option("-o,--output", &args->file, "FILE",
+    add_scene(app, args.scene, args.common);
+    app.positional("OTHERS", &args.others, "Further scenes, compared with the first in one picture");
+    app.option("-o,--output", &args.file, "FILE",
                "File to make. The ending chooses the kind: film (.mp4 .webm .mov .mkv .gif .apng .webp), sequence of "
                "pictures (name-####.png), still picture (.png, or .pdf .svg .eps in vector graphics, with --at), page "
                "that plays the motion (.html), moving model (.glb)")
         .required();
-    app.option("--title", &args->title, "TEXT", "Title of the picture");
-    add_key_options(app, *args);
-    app.option("--frames", &args->frames, "FIRST:END",
+    app.option("--title", &args.title, "TEXT", "Title of the picture");
+    add_key_options(app, args);
+    app.option("--frames", &args.frames, "FIRST:END",
                "Only these frames of the film, by number from 0, END not included: 30:60. Scales and camera are those "
                "of the whole film");
-    add_shard(app, args->shard);
-    add_work(app, args->common);
+    add_shard(app, args.shard);
+    add_work(app, args.common);
     app.footer = "Other properties are those of the first film, sequence or still picture of the scene.";
-    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

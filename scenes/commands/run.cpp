@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "output/files/standard_output.hpp"
-#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
 
@@ -45,15 +44,14 @@ int act(const RunArguments& args) {
 }  // namespace
 
 void add_run(Grammar& grammar) {
-    auto args = std::make_shared<RunArguments>();
-    Command& app = grammar.command("run", "Make all outputs that scenes list; of a scene without outputs, a film");
+    const auto [app, args] = grammar.command<RunArguments>(
+        "run", "Make all outputs that scenes list; of a scene without outputs, a film", act);
     app.examples = {"run fall.json -o out", "run *.json -n"};
-    add_scenes(app, args->scenes, args->common);
-    app.option("-o,--output", &args->directory, "DIR", "Directory for the outputs (default: the current one)");
-    add_shard(app, args->shard);
-    add_work(app, args->common);
+    add_scenes(app, args.scenes, args.common);
+    app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");
+    add_shard(app, args.shard);
+    add_work(app, args.common);
     app.footer = "Scenes with the same mechanics are simulated once.";
-    app.bind(args, act);
 }
 
 }  // namespace beamcam::scenes

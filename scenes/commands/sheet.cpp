@@ -74,8 +74,8 @@ render::Image sheet_of(const SheetArguments& args) {
             grid.emplace(args, shown, picture);
             if (grid->total_height() > kTallest)
                 throw UsageError(
-                    fmt::format("the sheet would be {} × {} pixels, higher than {}; use more --columns, or a "
-                                "smaller --width or --count",
+                    fmt::format("the sheet would be {} × {} pixels, higher than {}; use more --columns, or a smaller "
+                                "--width or --count",
                                 args.width, grid->total_height(), kTallest));
             sheet = render::Image(args.width, grid->total_height());
             render::Canvas(sheet, fonts).paint(render::rgb(0xFFFFFF));
@@ -89,35 +89,33 @@ render::Image sheet_of(const SheetArguments& args) {
     return sheet;
 }
 
-int act(const SheetArguments& args) {
+void act(const SheetArguments& args) {
     require_ending("-o", args.file, {".png"});
     output::Manifest manifest(args.common.force);
     if (args.file != "-") manifest.require_replaceable(args.file);
     const std::string bytes = output::encode_png(sheet_of(args));
     if (args.file == "-") {
         print_data(bytes);
-        return kDone;
+        return;
     }
     output::write_file(manifest.target(args.file), bytes);
     manifest.save();
     inform(args.common, fmt::format("wrote {}", args.file));
-    return kDone;
 }
 
 }  // namespace
 
 void add_sheet(Grammar& grammar) {
-    auto args = std::make_shared<SheetArguments>();
-    Command& app = grammar.command("sheet", "Make a contact sheet: evenly spaced pictures of a film in one picture");
+    const auto [app, args] = grammar.command<SheetArguments>(
+        "sheet", "Make a contact sheet: evenly spaced pictures of a film in one picture", act);
     app.examples = {"sheet fall.mp4 -o sheet.png --count 20 --columns 5"};
-    app.positional("FILM", &args->film, "Film, directory or sequence (name-####.png)").required();
-    app.option("-o,--output", &args->file, "FILE", "Picture to make, .png").required();
-    app.option("--count", &args->count, "N", "Number of pictures (default: 12)").range(1, 1000);
-    app.option("--columns", &args->columns, "N", "Number of columns (default: 4)").range(1, 100);
-    app.option("--width", &args->width, "W", "Width of the sheet in pixels (default: 1920)").range(160, 16384);
-    add_force(app, args->common);
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    app.positional("FILM", &args.film, "Film, directory or sequence (name-####.png)").required();
+    app.option("-o,--output", &args.file, "FILE", "Picture to make, .png").required();
+    app.option("--count", &args.count, "N", "Number of pictures (default: 12)").range(1, 1000);
+    app.option("--columns", &args.columns, "N", "Number of columns (default: 4)").range(1, 100);
+    app.option("--width", &args.width, "W", "Width of the sheet in pixels (default: 1920)").range(160, 16384);
+    add_force(app, args.common);
+    add_quiet(app, args.common);
 }
 
 }  // namespace beamcam::scenes

@@ -20,16 +20,10 @@ struct SimulateArguments {
     bool horizon = false;
 };
 
-Node node_of_type(const char* type) {
-    Node node = object_node();
-    add(node, "type", text_node(type));
-    return node;
-}
-
 TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
     const std::string file = args.trajectory.value_or("-");
     require_ending("--trajectory", file, {".csv", ".npz"});
-    auto table = std::get<TrajectoryOutput>(read_output(node_of_type(TrajectoryOutput::kType),
+    auto table = std::get<TrajectoryOutput>(read_output(object_node({{"type", text_node(TrajectoryOutput::kType)}}),
                                                         {&args.rate, &args.times, &args.channels}, scene, args.scene,
                                                         args.common));
     table.file = file;
@@ -39,8 +33,8 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
 ShapesOutput shapes_output(const SimulateArguments& args, const Scene& scene) {
     if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
     require_ending("--shapes", *args.shapes, {".csv", ".npz"});
-    auto shapes = std::get<ShapesOutput>(
-        read_output(node_of_type(ShapesOutput::kType), {&args.rate, &args.times}, scene, args.scene, args.common));
+    auto shapes = std::get<ShapesOutput>(read_output(object_node({{"type", text_node(ShapesOutput::kType)}}),
+                                                     {&args.rate, &args.times}, scene, args.scene, args.common));
     shapes.file = *args.shapes;
     return shapes;
 }
@@ -73,38 +67,36 @@ void require_different_files(const std::vector<Output>& outputs) {
         throw UsageError(fmt::format("{} is named twice; give each output its own file", clash.later.file));
 }
 
-int act(const SimulateArguments& args) {
+void act(const SimulateArguments& args) {
     Scene scene = load_scene(args.scene, args.common);
     std::vector<Output> outputs = simulate_outputs(args, scene);
     require_different_files(outputs);
     scene.set_outputs(std::move(outputs));
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
-    return 0;
 }
 
 }  // namespace
 
 void add_simulate(Grammar& grammar) {
-    auto args = std::make_shared<SimulateArguments>();
-    Command& app = grammar.command("simulate", "Compute a motion without pictures; without options, print the summary");
+    const auto [app, args] = grammar.command<SimulateArguments>(
+        "simulate", "Compute a motion without pictures; without options, print the summary", act);
     app.examples = {"simulate fall.json --trajectory fall.csv --channels theta,contact_force --rate 500",
                     "simulate fall.json --impacts impacts.json --summary -"};
-    add_scene(app, args->scene, args->common);
-    app.option("--trajectory", &args->trajectory, "FILE",
+    add_scene(app, args.scene, args.common);
+    app.option("--trajectory", &args.trajectory, "FILE",
                "Table of channels against time, .csv or .npz; - is standard output (CSV)");
-    app.option("--shapes", &args->shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
-    args->rate.add(app, "--rate", "rate", "HZ", "Of --trajectory and --shapes (default: 1000).");
-    args->times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
-    args->channels.add_list(app, "--channels", "channels", "CHANNEL,...", "Of --trajectory.");
-    app.option("--impacts", &args->impacts, "FILE",
+    app.option("--shapes", &args.shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
+    args.rate.add(app, "--rate", "rate", "HZ", "Of --trajectory and --shapes (default: 1000).");
+    args.times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
+    args.channels.add_list(app, "--channels", "channels", "CHANNEL,...", "Of --trajectory.");
+    app.option("--impacts", &args.impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
-    app.option("--summary", &args->summary, "FILE",
+    app.option("--summary", &args.summary, "FILE",
                "Counts, extreme values and energy balance, .json; - is standard output");
-    app.flag("--horizon", args->horizon,
+    app.flag("--horizon", args.horizon,
              "Add to the summary the intervals in which the motion is reproducible; this takes further runs, with a "
              "tighter tolerance and with another method");
-    add_work(app, args->common);
-    app.bind(args, act);
+    add_work(app, args.common);
 }
 
 }  // namespace beamcam::scenes

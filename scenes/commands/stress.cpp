@@ -64,7 +64,7 @@ void write(const output::Target& file, const sim::Campaign& campaign, const std:
             file, ending == ".csv" ? output::stress_csv(campaign, results) : output::stress_json(campaign, results));
 }
 
-int act(const StressArguments& args) {
+void act(const StressArguments& args) {
     if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
     output::Manifest manifest(args.common.force);
     for (const std::string& file : args.files) {
@@ -81,23 +81,21 @@ int act(const StressArguments& args) {
                                     [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
     if (failed)
         throw std::logic_error("the stress campaign found cases that neither finish nor are rejected with a message");
-    return 0;
 }
 
 }  // namespace
 
 void add_stress(Grammar& grammar) {
-    auto args = std::make_shared<StressArguments>();
-    Command& app = grammar.command(
-        "stress", "Test the solver with thousands of extreme problems; each must finish or be rejected with a message");
+    const auto [app, args] = grammar.command<StressArguments>(
+        "stress", "Test the solver with thousands of extreme problems; each must finish or be rejected with a message",
+        act);
     app.examples = {"stress --quick -o cases.csv -o map.png"};
-    app.flag("--quick", args->quick, "Run one case in eleven and the short single cases (default)");
-    app.flag("--full", args->full, "Run every case; takes minutes to an hour");
-    app.option("-o,--output", &args->files, "FILE", "Write the cases, too: .csv, .json, or a map as .png (repeatable)");
-    add_quiet(app, args->common);
-    add_jobs(app, args->common, "Largest number of cases at a time");
-    add_force(app, args->common);
-    app.bind(args, act);
+    app.flag("--quick", args.quick, "Run one case in eleven and the short single cases (default)");
+    app.flag("--full", args.full, "Run every case; takes minutes to an hour");
+    app.option("-o,--output", &args.files, "FILE", "Write the cases, too: .csv, .json, or a map as .png (repeatable)");
+    add_quiet(app, args.common);
+    add_jobs(app, args.common, "Largest number of cases at a time");
+    add_force(app, args.common);
 }
 
 }  // namespace beamcam::scenes

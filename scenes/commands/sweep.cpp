@@ -33,16 +33,6 @@ struct SweepArguments {
     int parts = 0;  // 0: kDefaultParts
 };
 
-std::vector<std::string> split(const std::string& text, char separator) {
-    std::vector<std::string> parts;
-    for (std::size_t from = 0; from <= text.size();) {
-        const std::size_t to = std::min(text.find(separator, from), text.size());
-        parts.push_back(text.substr(from, to - from));
-        from = to + 1;
-    }
-    return parts;
-}
-
 // "601" and "601n" are a number of values; "0.02", "2.0" and "2 rad/s" are a step. "1" is a step, too: a range has more
 // than one value.
 bool is_count(const std::string& text) {
@@ -220,7 +210,7 @@ std::vector<PlannedFile> planned_files(const Plan& plan) {
     return files;
 }
 
-int act(const SweepArguments& args) {
+void act(const SweepArguments& args) {
     check_parts(args);
     reject_unused_options(args);
     if (!args.file.empty()) require_ending("-o", args.file, {".csv", ".npz", ".nc"});
@@ -237,7 +227,7 @@ int act(const SweepArguments& args) {
     }
     if (!args.emit && !args.common.dry_run) {
         run(scene, options);
-        return 0;
+        return;
     }
     const SweepGrid grid(scene);
     if (args.emit)
@@ -247,51 +237,48 @@ int act(const SweepArguments& args) {
     else
         print_text(sweep_plan(grid, planned_files(plan(scene, options.selection)), thread_count(options.threads),
                               args.common.json));
-    return 0;
 }
 
 }  // namespace
 
 void add_sweep(Grammar& grammar) {
-    auto args = std::make_shared<SweepArguments>();
-    Command& app = grammar.command("sweep", "Simulate many motions over one or two keys: samples, classes, diagrams");
+    const auto [app, args] = grammar.command<SweepArguments>(
+        "sweep", "Simulate many motions over one or two keys: samples, classes, diagrams", act);
     app.examples = {"sweep fast-cam.json --over cam.speed=40:52:601 -o sweep.nc --diagram bifurcation.pdf",
                     "sweep fast-cam.json --over cam.speed=40:52:601 -o sweep.nc --shard 2/8"};
-    add_scene(app, args->scene, args->common);
-    app.option("--over", &args->over, "KEY=VALUES",
-               "The key to vary and its values: KEY=FIRST:LAST:COUNT (both ends included; add :log for logarithmic "
-               "spacing), KEY=FIRST:LAST:STEP with a step such as 0.02, KEY=v,v,... or KEY=@FILE.csv:COLUMN. Twice "
-               "for a grid");
-    app.option("--sample", &args->sample, "WHAT",
+    add_scene(app, args.scene, args.common);
+    app.option(
+        "--over", &args.over, "KEY=VALUES",
+        "The key to vary and its values: KEY=FIRST:LAST:COUNT (both ends included; add :log for logarithmic spacing), "
+        "KEY=FIRST:LAST:STEP with a step such as 0.02, KEY=v,v,... or KEY=@FILE.csv:COLUMN. Twice for a grid");
+    app.option("--sample", &args.sample, "WHAT",
                "When to take samples: impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: "
                "impacts)");
-    app.option("--transient", &args->transient, "N",
+    app.option("--transient", &args.transient, "N",
                "Turns of the cam, or a time, before the first sample (default: 200)");
-    app.option("--keep", &args->keep, "N", "Turns of the cam, or a time, in which samples are taken (default: 50)");
-    app.option("--seed", &args->seed, "WHICH",
+    app.option("--keep", &args.keep, "N", "Turns of the cam, or a time, in which samples are taken (default: 50)");
+    app.option("--seed", &args.seed, "WHICH",
                "Initial states: same, carry-up, carry-down, carry-up,carry-down or random:N (default: same)");
-    app.option("-o,--output", &args->file, "FILE",
+    app.option("-o,--output", &args.file, "FILE",
                "Table of samples: .csv, .npz or .nc (NetCDF-4); without any file, CSV on standard output");
-    app.option("--diagram", &args->diagram, "FILE", "Figure of the sweep: .pdf, .svg, .eps, .png or .tif");
-    app.option("--film", &args->film, "FILE",
+    app.option("--diagram", &args.diagram, "FILE", "Figure of the sweep: .pdf, .svg, .eps, .png or .tif");
+    app.option("--film", &args.film, "FILE",
                "Film in which the diagram grows while the beam moves beside it: .mp4, .mov, .mkv or .webm");
-    app.option("--figure", &args->figure, "NAME", "Kind of --diagram (default: depends on the swept keys)")
+    app.option("--figure", &args.figure, "NAME", "Kind of --diagram (default: depends on the swept keys)")
         .one_of(diagram_names());
-    app.option("--value,--ordinate", &args->value, "WHAT",
+    app.option("--value,--ordinate", &args.value, "WHAT",
                "Quantity that --diagram and --film show. bifurcation: a column of the samples (default: v_n_before, "
                "theta); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
-    add_column(app, args->column);
-    add_lang(app, args->lang);
-    app.option("--caption", &args->caption, "FILE", "Write the caption of the figure, too: .txt, .md or .tex");
-    app.option(
-        "--shard", &args->shard, "I/N",
-        "Compute part I of N into a separate file: 2/3 writes NAME.2of3.nc; `beamcam collect` joins the parts. auto: "
-        "the part of this array task of Slurm, Grid Engine or PBS");
-    app.option("--emit", &args->emit, "ENGINE", "Print a script that computes all parts")
+    add_column(app, args.column);
+    add_lang(app, args.lang);
+    app.option("--caption", &args.caption, "FILE", "Write the caption of the figure, too: .txt, .md or .tex");
+    app.option("--shard", &args.shard, "I/N",
+               "Compute part I of N into a separate file: 2/3 writes NAME.2of3.nc; `beamcam collect` joins the parts. "
+               "auto: the part of this array task of Slurm, Grid Engine or PBS");
+    app.option("--emit", &args.emit, "ENGINE", "Print a script that computes all parts")
         .one_of({"slurm", "parallel", "snakemake"});
-    app.option("--parts", &args->parts, "N", "Number of parts of --emit (default: 16)").range(1, 1000);
-    add_work(app, args->common);
-    app.bind(args, act);
+    app.option("--parts", &args.parts, "N", "Number of parts of --emit (default: 16)").range(1, 1000);
+    add_work(app, args.common);
 }
 
 }  // namespace beamcam::scenes

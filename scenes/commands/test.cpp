@@ -9,7 +9,6 @@
 
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
-#include "scenes/commands/cli.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/regression/regression.hpp"
 #include "scenes/regression/report.hpp"
@@ -99,13 +98,12 @@ void print_result(const TestArguments& args, const RegressionResult& result, con
     std::map<Verdict, std::size_t> counts;
     for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
     const std::size_t new_renderer = counts[Verdict::new_renderer];
-    inform(
-        args.common,
-        fmt::format("{} entries: {} identical, {} equivalent, {}{} different, {} missing; {} simulations, {} pictures, "
-                    "{:.2f} s",
-                    result.entries.size(), counts[Verdict::identical], counts[Verdict::equivalent],
-                    new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "", counts[Verdict::different],
-                    counts[Verdict::missing], result.simulations, result.pictures, result.seconds));
+    inform(args.common, fmt::format("{} entries: {} identical, {} equivalent, {}{} different, {} missing; {} "
+                                    "simulations, {} pictures, {:.2f} s",
+                                    result.entries.size(), counts[Verdict::identical], counts[Verdict::equivalent],
+                                    new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "",
+                                    counts[Verdict::different], counts[Verdict::missing], result.simulations,
+                                    result.pictures, result.seconds));
     if (result.changed)
         inform(args.common,
                fmt::format("{} was changed: check the pictures and motions that it accepts now before you keep it",
@@ -135,43 +133,41 @@ int act(const TestArguments& args) {
 }  // namespace
 
 void add_test(Grammar& grammar) {
-    auto args = std::make_shared<TestArguments>();
-    Command& app =
-        grammar.command("test", "Run a regression test of pictures and motions; exit code 7 if any entry differs");
+    const auto [app, args] = grammar.command<TestArguments>(
+        "test", "Run a regression test of pictures and motions; exit code 7 if any entry differs", act);
     app.examples = {"test baselines.json --report report", "test baselines.json --update 'fall-*'"};
-    app.positional("BASELINES", &args->baselines, "The file of baselines, JSON; - is standard input").required();
-    app.option("--only,--filter", &args->only, "NAME...",
+    app.positional("BASELINES", &args.baselines, "The file of baselines, JSON; - is standard input").required();
+    app.option("--only,--filter", &args.only, "NAME...",
                "Test only these entries; patterns such as 'fall-*' are allowed")
         .several();
-    app.option("--update", &args->update, "NAME...",
+    app.option("--update", &args.update, "NAME...",
                "Replace the references of these entries by the present pictures and motions (exit code 7); patterns, "
                "all and failed are allowed")
         .several();
-    app.flag("--add-digest", args->add_digest,
+    app.flag("--add-digest", args.add_digest,
              "Accept the pictures of this machine in addition to the others, where they are equivalent, or where no "
              "picture of its libraries and fonts is accepted yet (exit code 7)");
-    app.option("--on-new-renderer", &args->on_new_renderer, "WHAT",
+    app.option("--on-new-renderer", &args.on_new_renderer, "WHAT",
                "Verdict on pictures of libraries or fonts of which no picture is accepted yet: fail; warn: similar "
                "pictures pass; accept: they pass and are accepted (default: fail)")
         .one_of({"fail", "warn", "accept"});
-    app.flag("--strict", args->strict, "Fail entries that are only equivalent");
-    app.option("--tolerance", &args->tolerance, "KEY=X,...",
-               "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, "
-               "impacts=1e-4 (repeatable)")
+    app.flag("--strict", args.strict, "Fail entries that are only equivalent");
+    app.option("--tolerance", &args.tolerance, "KEY=X,...",
+               "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
+               "(repeatable)")
         .separated_by(',');
-    app.option("--report", &args->report, "DIR",
+    app.option("--report", &args.report, "DIR",
                "Directory for an HTML page with actual, expected and difference pictures");
-    app.option("--junit", &args->junit, "FILE", "Write a JUnit report, .xml");
-    app.option("--annotate", &args->annotate, "SERVICE",
+    app.option("--junit", &args.junit, "FILE", "Write a JUnit report, .xml");
+    app.option("--annotate", &args.annotate, "SERVICE",
                "Print failures as annotations, and add a table to the summary of the step (default: auto: if "
                "GITHUB_ACTIONS is set)")
         .one_of({"auto", "github", "none"});
-    add_jobs(app, args->common, "Largest number of threads that draw");
-    add_progress(app, args->common);
-    add_json(app, args->common);
-    add_force(app, args->common);
-    add_quiet(app, args->common);
-    app.bind(args, act);
+    add_jobs(app, args.common, "Largest number of threads that draw");
+    add_progress(app, args.common);
+    add_json(app, args.common);
+    add_force(app, args.common);
+    add_quiet(app, args.common);
 }
 
 }  // namespace beamcam::scenes

@@ -80,13 +80,6 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
 
 }  // namespace
 
-std::vector<std::string> files_of(const FigureOutput& how) {
-    std::vector<std::string> files{how.file};
-    if (!how.data_file.empty()) files.push_back(how.data_file);
-    if (!how.caption_file.empty()) files.push_back(how.caption_file);
-    return files;
-}
-
 render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
     return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
 }

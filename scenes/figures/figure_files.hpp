@@ -10,11 +10,9 @@
 
 namespace beamcam::scenes {
 
-// The names of the files that a figure's output writes: the figure, then data and caption if requested.
-std::vector<std::string> files_of(const FigureOutput& how);
-
-// Names and bytes of these files. `scene` is the resolved scene as JSON, which the figure carries. PDF and SVG hold the
-// instant of SOURCE_DATE_EPOCH, 1970 without it, so that the same figure has the same bytes.
+// Names and bytes of the files that a figure's output writes, as written_by. `scene` is the resolved scene as JSON,
+// which the figure carries. PDF and SVG hold the instant of SOURCE_DATE_EPOCH, 1970 without it, so that the same figure
+// has the same bytes.
 std::vector<std::pair<std::string, std::string>> figure_files(const render::figure::Figure& figure,
                                                               const FigureOutput& how, const std::string& scene);
 

@@ -24,7 +24,7 @@ namespace {
 Place place_in_scene(const Node& root, std::string_view path, bool& exact) {
     const Node* node = &root;
     Place place = root.place;
-    const std::vector<std::string> names = split_path(path);
+    const std::vector<std::string> names = split(path);
     exact = true;
     for (std::size_t i = 0; i < names.size() && exact; ++i) {
         const Node* inner = child(*node, names[i]);
@@ -54,7 +54,7 @@ void check_physics(ObjectReader& r, const sim::Problem& problem) {
 
 void check_words(ObjectReader& r, const char* key, const std::string& text) {
     if (const std::string problem = render::markup_problem(text); !problem.empty())
-        r.warn(key, fmt::format("{}: {}; the picture shows it unchanged", r.path(key), problem));
+        r.warn(key, ": {}; the picture shows it unchanged", problem);
 }
 
 // ---- pictures ----------------------------------------------------------------------------------
@@ -78,11 +78,10 @@ static bool needs_cam(const render::Anchor& anchor) {
 void check_camera(ObjectReader& r, const View& view) {
     for (const char* key : {"yaw", "pitch", "swing"})
         if (r.has(key) && view.style != render::Style::solid)
-            r.warn(key, fmt::format("{} has an effect in the solid view only; add \"style\": \"solid\"", r.path(key)));
+            r.warn(key, " has an effect in the solid view only; add \"style\": \"solid\"");
     const auto check = [&](const render::Anchor& follow, const std::string& key) {
         if (needs_cam(follow) && !r.context().scene.problem.cam)
-            r.fail(key,
-                   fmt::format("{}: the scene has no cam to follow; follow the tip, the hub or a place", r.path(key)));
+            r.reject(key, ": the scene has no cam to follow; follow the tip, the hub or a place");
     };
     check(view.shot.follow, "follow");
     for (std::size_t i = 0; i < view.keyframes.size(); ++i)
@@ -91,7 +90,7 @@ void check_camera(ObjectReader& r, const View& view) {
 
 void check_view(ObjectReader& r, const View& view) {
     if (r.has("exposures") && view.poses() == 1)
-        r.warn("exposures", fmt::format("{} has no effect without a \"shutter\" or \"strobe\"", r.path("exposures")));
+        r.warn("exposures", " has no effect without a \"shutter\" or \"strobe\"");
 }
 
 // A longer logo would be a hairline at the height of the clock.
@@ -99,21 +98,19 @@ static constexpr int kWidestLogo = 10, kTallestLogo = 5;
 
 static void read_logo(ObjectReader& r, Picture& picture) {
     if (!r.has("logo") || r.diagnostics().failed(r.path("logo"))) return;
-    if (picture.logo.empty())
-        return r.fail("logo", fmt::format("{} is empty; name a .png file, or remove the key", r.path("logo")));
+    if (picture.logo.empty()) return r.reject("logo", " is empty; name a .png file, or remove the key");
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / picture.logo;
     try {
         const output::Raster raster = output::read_png(path);
         if (raster.width > kWidestLogo * raster.height || raster.height > kTallestLogo * raster.width)
-            return r.fail("logo",
-                          fmt::format("{} = {} has {} × {} pixels; a logo is at most {} times as wide as high and {} "
-                                      "times as high as wide",
-                                      r.path("logo"), as_written(r.place("logo")), raster.width, raster.height,
-                                      kWidestLogo, kTallestLogo));
+            return r.reject_value(
+                r.place("logo"), "logo",
+                " has {} × {} pixels; a logo is at most {} times as wide as high and {} times as high as wide",
+                raster.width, raster.height, kWidestLogo, kTallestLogo);
         picture.logo_digest = output::digest(raster);
         picture.logo_image = std::make_shared<const render::Image>(output::to_image(raster));
     } catch (const output::IoError& error) {
-        r.fail("logo", fmt::format("{} = {}: {}", r.path("logo"), as_written(r.place("logo")), error.what()));
+        r.reject_value(r.place("logo"), "logo", ": {}", error.what());
     }
 }
 
@@ -127,16 +124,13 @@ void check_picture(ObjectReader& r, Picture& picture) {
         const render::Color ink =
             picture.view.colors.ink ? render::rgb(*picture.view.colors.ink) : render::palette(picture.view.theme).ink;
         if (render::contrast(ink, render::rgb(*paper)) < 3)
-            r.warn("background",
-                   fmt::format("{} makes the text hardly readable; choose another \"theme\"", r.path("background")));
+            r.warn("background", " makes the text hardly readable; choose another \"theme\"");
     }
     if (picture.comparison == render::Comparison::ghosts && !r.has("compare"))
         r.diagnostics().warning(
             r.node()->place,
             fmt::format("{} = \"ghosts\" has no effect without \"compare\", or several scenes for `beamcam render`",
                         r.path("comparison")));
-    for (std::size_t i = 0; i < picture.compare.size(); ++i)
-        if (std::string& label = picture.compare[i].label; label.empty()) label = std::to_string(i + 1);
     check_layout(r, picture);
 }
 
@@ -167,15 +161,15 @@ void check_speed(ObjectReader& r, const Speed& speed) {
         const Instant &before = speed.intervals[i - 1].to, &from = speed.intervals[i].from;
         const std::string key = fmt::format("intervals.{}.from", i);
         if (before.kind == Instant::Kind::time && from.kind == Instant::Kind::time && from.t < before.t)
-            r.fail(key,
-                   fmt::format("{} = {:g} s is before the end of the previous interval, {:g} s; list the intervals in "
-                               "order of time, without overlap",
-                               r.path(key), from.t, before.t));
+            r.reject(key,
+                     " = {:g} s is before the end of the previous interval, {:g} s; list the intervals in order of "
+                     "time, without overlap",
+                     from.t, before.t);
     }
     for (std::size_t i = 0; speed.around && i < speed.around->collisions.size(); ++i)
         if (const double number = speed.around->collisions[i]; number != std::round(number)) {
             const std::string key = fmt::format("collisions.{}", i);
-            r.fail(key, fmt::format("{} = {:g} must be a whole number", r.path(key), number));
+            r.reject(key, " = {:g} must be a whole number", number);
         }
 }
 
@@ -185,8 +179,7 @@ namespace {
 void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, double end) {
     const auto check = [&](const std::string& key, const Instant& at, const char* consequence) {
         if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
-            r.warn(key, fmt::format("{} = {:g} s is outside the film from {:g} s to {:g} s: {}", r.path(key), at.t,
-                                    span.from, end, consequence));
+            r.warn(key, " = {:g} s is outside the film from {:g} s to {:g} s: {}", at.t, span.from, end, consequence);
     };
     const auto readable = [&](const char* key) { return !r.diagnostics().failed(r.path(key)); };
     for (std::size_t i = 0; i < span.events.size() && readable("events"); ++i)
@@ -203,10 +196,8 @@ void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, do
         if (i == 0 || at.kind != Instant::Kind::time) continue;
         const Instant& before = view.keyframes[i - 1].at;
         if (before.kind == Instant::Kind::time && at.t <= before.t)
-            r.fail(key,
-                   fmt::format(
-                       "{} = {:g} s is not after the previous keyframe, {:g} s; list the keyframes in order of time",
-                       r.path(key), at.t, before.t));
+            r.reject(key, " = {:g} s is not after the previous keyframe, {:g} s; list the keyframes in order of time",
+                     at.t, before.t);
     }
 }
 
@@ -216,19 +207,17 @@ void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) 
     const Diagnostics& diagnostics = r.diagnostics();
     if (diagnostics.failed(r.path("from")) || diagnostics.failed(r.path("to")) || diagnostics.failed("time")) return;
     if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
-        return r.fail(*r.node(), "to", fmt::format("{}: {}", r.object_name(), problem));
+        return r.reject_object("to", ": {}", problem);
     check_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
     const sim::Problem& shown = picture.compare.empty() ? r.context().scene.problem : picture.compare.front().problem;
     for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)
         if (const auto& anchor = span.events[i].anchor; anchor && needs_cam(*anchor)) {
             const std::string key = fmt::format("events.{}.anchor", i);
-            r.fail(key, fmt::format("{}: the scene has no cam; anchor the text to the tip, the hub or a place",
-                                    r.path(key)));
+            r.reject(key, ": the scene has no cam; anchor the text to the tip, the hub or a place");
         }
 }
 
-void set_default_codec(ObjectReader& r, VideoOutput& video) {
-    name_after_scene(r, video.file, ".mp4");
+void set_default_codec(PictureOutput& video) {
     video.encoding.codec =
         output::default_codec(std::filesystem::path(video.file).extension().string()).value_or(output::Codec::h264);
 }
@@ -236,11 +225,11 @@ void set_default_codec(ObjectReader& r, VideoOutput& video) {
 namespace {
 
 // Rules between codec, container and picture.
-void check_format(ObjectReader& r, const VideoOutput& video) {
+void check_format(ObjectReader& r, const PictureOutput& video) {
     const std::string ending = std::filesystem::path(video.file).extension().string();
     const output::Codec codec = video.encoding.codec;
     const auto reject = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.fail(key, fmt::format("{}: {}", r.path(key), problem));
+        if (!problem.empty()) r.reject(key, ": {}", problem);
     };
     if (const std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
         return r.fail(r.place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
@@ -253,13 +242,12 @@ void check_format(ObjectReader& r, const VideoOutput& video) {
     if (r.has("crf") && !quality)
         reject("crf", fmt::format("{} has no crf; remove the key", title(codec)));
     else if (quality && video.encoding.crf.value_or(0) > quality->worst)
-        r.fail("crf", fmt::format("{} = {} is outside 0 … {}, the range of {}", r.path("crf"), *video.encoding.crf,
-                                  quality->worst, title(codec)));
+        r.reject("crf", " = {} is outside 0 … {}, the range of {}", *video.encoding.crf, quality->worst, title(codec));
 }
 
 }  // namespace
 
-void check_video(ObjectReader& r, VideoOutput& video) {
+void check_video(ObjectReader& r, PictureOutput& video) {
     constexpr FrameRate kGifRate{25, 1};  // default of a GIF
     if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
     if (!video.encoding.crf)
@@ -274,12 +262,8 @@ void limit_rows(ObjectReader& r, double rate, double rows_each) {
     constexpr double kMostRows = 20'000'000;  // 160 MB for each channel
     const double rows = rate * r.context().scene.end_time * rows_each;
     if (r.has("rate") && rows > kMostRows)
-        r.fail("rate", fmt::format("{} = {} gives {:.3g} rows, but a table has at most {:.3g}; reduce the rate",
-                                   r.path("rate"), as_written(r.place("rate")), rows, kMostRows));
-}
-
-void name_after_scene(ObjectReader& r, std::string& file, const char* ending) {
-    if (file.empty()) file = r.context().scene.name + ending;
+        r.reject_value(r.place("rate"), "rate", " gives {:.3g} rows, but a table has at most {:.3g}; reduce the rate",
+                       rows, kMostRows);
 }
 
 namespace {

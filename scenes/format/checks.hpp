@@ -12,6 +12,8 @@ namespace beamcam::scenes {
 
 // The colours distinguish at most eight motions.
 inline constexpr std::size_t kMostCompared = 8;
+// Two or more motions; those without a label get their number.
+List compared_motions(std::vector<Compared>& motions);
 
 ValueFormat layout_format(std::optional<render::LayoutNode>& layout);
 
@@ -28,13 +30,12 @@ void check_picture(ObjectReader& r, Picture& picture);
 void check_layout(ObjectReader& r, const Picture& picture);
 void check_speed(ObjectReader& r, const Speed& speed);  // `r` reads "speed"
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
-void set_default_codec(ObjectReader& r, VideoOutput& video);
-void check_video(ObjectReader& r, VideoOutput& video);
+void set_default_codec(PictureOutput& video);  // that of its ending
+void check_video(ObjectReader& r, PictureOutput& video);
 void check_figure(ObjectReader& r, FigureOutput& figure);
 void check_series_panel(ObjectReader& r, const SeriesPanel& panel);
 void limit_rows(ObjectReader& r, double rate, double rows_each);  // `rows_each`: rows at each of the times k/rate
-void name_after_scene(ObjectReader& r, std::string& file, const char* ending);
-void check_outputs(ObjectReader& r, Scene& scene);  // also stores the position of each
+void check_outputs(ObjectReader& r, Scene& scene);                // also stores the position of each
 
 // Why a span has no frames, or too many; empty if it is valid.
 std::string problem_with_span(const FrameSpan& span, double end_time);

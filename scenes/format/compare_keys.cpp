@@ -15,21 +15,17 @@ namespace {
 // The mechanics of another scene file, whose path is relative to this one.
 std::optional<Node> other_scene(ObjectReader& r, const Node& node, const std::string& key) {
     if (node.kind != Node::Kind::string) {
-        r.fail(node, key, fmt::format("{} must be a file name in quotes, not {}", r.path(key), as_written(node)));
+        r.expect(node, key, "a file name in quotes");
         return std::nullopt;
     }
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / node.text;
     const SceneFiles::Mechanics& other = r.context().files.mechanics(path.string());
-    if (!other.sections)
-        r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), other.problem));
+    if (!other.sections) r.reject_value(node, key, ": {}", other.problem);
     return other.sections;
 }
 
 void set_values(ObjectReader& r, const Node& set, const std::string& key, Node& out) {
-    if (set.kind != Node::Kind::object)
-        return r.fail(
-            set, key,
-            fmt::format("{} must be an object such as {{\"cam.speed\": 5}}, not {}", r.path(key), as_written(set)));
+    if (set.kind != Node::Kind::object) return r.expect(set, key, "an object such as {{\"cam.speed\": 5}}");
     std::vector<Message> wrong;
     for (const Member& member : set.members)
         if (is_mechanics(member.key.substr(0, member.key.find('.'))))
@@ -54,7 +50,7 @@ void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
     }
     if (r.diagnostics().failed(r.path("set"))) return;
     for (const sim::Issue& finding : sim::validate(problem))
-        if (finding.fatal) r.fail(*r.node(), "", fmt::format("{}: {}: {}", r.path(""), finding.path, finding.message));
+        if (finding.fatal) r.reject("", ": {}: {}", finding.path, finding.message);
 }
 
 }  // namespace
@@ -86,6 +82,19 @@ void visit(SceneVisitor& v, Compared& motion) {
     v.check([&](ObjectReader& r) {
         if (readable) read_problem(r, *base, motion.problem);
     });
+}
+
+List compared_motions(std::vector<Compared>& motions) {
+    List list = SceneVisitor::items_of(motions);
+    list.item = [&motions, visit_item = list.item](SceneVisitor& v, std::size_t index) {
+        visit_item(v, index);
+        v.check([&](ObjectReader&) {
+            if (motions[index].label.empty()) motions[index].label = std::to_string(index + 1);
+        });
+    };
+    list.min_size = 2, list.max_size = kMostCompared, list.of = "motions";
+    list.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
+    return list;
 }
 
 }  // namespace beamcam::scenes

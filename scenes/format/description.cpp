@@ -23,10 +23,7 @@ Node bounded(const Range& range) {
 }
 
 Node any_of(std::vector<Node> choices) {
-    if (choices.size() == 1) return std::move(choices.front());
-    Node out = object_node();
-    add(out, "anyOf", array_node(std::move(choices)));
-    return out;
+    return choices.size() == 1 ? std::move(choices.front()) : object_node({{"anyOf", array_node(std::move(choices))}});
 }
 
 Node with_text(const Unit& unit) {
@@ -100,10 +97,7 @@ class Describer final : public SceneVisitor {
                  const char* meaning) override {
         DescribedKey& d = add_key(key, "word", meaning);
         d.words = words;
-        d.schema = object_node();
-        Node all = array_node();
-        for (const std::string& each : words) all.items.push_back(text_node(each));
-        add(d.schema, "enum", std::move(all));
+        d.schema = object_node({{"enum", texts_node(words)}});
         if (!key.derived) d.value = text_node(words[chosen]);
     }
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override {

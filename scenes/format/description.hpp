@@ -41,9 +41,8 @@ struct DescribedKey {
 // The scene itself: one shape without tags.
 const DescribedObject& scene_format();
 
-std::string one_line(const Node& node);  // as JSON
-std::string schema_text();               // the JSON Schema
-std::string reference_text();            // Markdown, scenes/FORMAT.md
+std::string schema_text();     // the JSON Schema
+std::string reference_text();  // Markdown, scenes/FORMAT.md
 
 // A key by its path: "hub.drive.amplitude", "outputs[].size".
 struct KeyRow {

@@ -15,8 +15,7 @@ void check_markup(ObjectReader& r, const std::string& key, const std::string& te
     try {
         render::parse_markup(text);
     } catch (const std::invalid_argument& error) {
-        r.fail(key, fmt::format("{} = {}: {}; write \\$ \\_ \\^ \\\\ for the characters themselves", r.path(key),
-                                in_quotes(text), error.what()));
+        r.reject(key, " = {}: {}; write \\$ \\_ \\^ \\\\ for the characters themselves", in_quotes(text), error.what());
     }
 }
 
@@ -26,11 +25,9 @@ void require_one_unit(ObjectReader& r, const char* key, const std::vector<sim::C
     const sim::Problem& problem = r.context().scene.problem;
     for (const sim::Channel& channel : channels)
         if (std::string_view(unit(channel, problem)) != unit(channels.front(), problem))
-            return r.fail(key,
-                          fmt::format("{}: {} is measured in {}, but {} in {}; an axis has one unit: use \"right\" or "
-                                      "another panel",
-                                      r.path(key), name(channel), unit(channel, problem), name(channels.front()),
-                                      unit(channels.front(), problem)));
+            return r.reject(
+                key, ": {} is measured in {}, but {} in {}; an axis has one unit: use \"right\" or another panel",
+                name(channel), unit(channel, problem), name(channels.front()), unit(channels.front(), problem));
 }
 
 // The interval that it shows. The times of events are unknown here.
@@ -39,8 +36,7 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
     if (series.needs_events() || series.at) return;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))
-        r.fail("from", fmt::format("{} = {} s is not before the end, {} s; reduce it, or increase \"to\"",
-                                   r.path("from"), series.from, end));
+        r.reject("from", " = {} s is not before the end, {} s; reduce it, or increase \"to\"", series.from, end);
 }
 
 // A figure other than "series": keys that it does not have, its interval and its window.
@@ -51,38 +47,33 @@ void check_other_figure(ObjectReader& r, const FigureOutput& figure, const Recip
     for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "compare",
                                        "comparison", "residuals", "notes"})
         if (r.has(key) && !(interval && (key == "from" || key == "to")) && !(windows && key == "channels"))
-            r.fail(key, fmt::format("{} belongs to the figure \"series\"; remove it", r.path(key)));
+            r.reject(key, " belongs to the figure \"series\"; remove it");
     if (windows && series.panels.front().channels.size() > 1)
-        r.fail("channels", fmt::format("{}: a {} shows one channel; name only one", r.path("channels"), figure.figure));
+        r.reject("channels", ": a {} shows one channel; name only one", figure.figure);
     const double length = series.to.value_or(r.context().scene.end_time) - series.from;
     if (windows && series.window && !series.needs_events() && !(2 * *series.window <= length))
-        r.fail("window", fmt::format("{} = {:g} s is more than half of the interval of {:g} s; reduce it",
-                                     r.path("window"), *series.window, length));
+        r.reject("window", " = {:g} s is more than half of the interval of {:g} s; reduce it", *series.window, length);
 }
 
 // Keys that only some figures have.
 void check_own_keys(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
     if (r.has("value") && recipe && !recipe->takes_value)
-        r.fail("value",
-               fmt::format("{} belongs to the figures \"bifurcation\", \"map\" and \"basins\"", r.path("value")));
+        r.reject("value", " belongs to the figures \"bifurcation\", \"map\" and \"basins\"");
     const std::pair<const char*, const char*> owners[] = {
         {"collision", "collision"}, {"window", "spectrogram"}, {"highest", "spectrogram"}, {"at", "strobe"}};
     for (const auto& [key, owner] : owners)
-        if (r.has(key) && figure.figure != owner)
-            r.fail(key, fmt::format("{} belongs to the figure \"{}\"", r.path(key), owner));
+        if (r.has(key) && figure.figure != owner) r.reject(key, " belongs to the figure \"{}\"", owner);
 }
 
 void check_abscissa(ObjectReader& r, const SeriesKeys& series) {
     if (series.x_low && series.x_high && !(*series.x_low < *series.x_high))
-        r.fail("x_high", fmt::format("{} must be above \"x_low\"", r.path("x_high")));
+        r.reject("x_high", " must be above \"x_low\"");
     if ((series.against == "turns" || series.against == "phase") && !r.context().scene.problem.cam &&
         series.compare.empty())
-        r.fail("x", fmt::format("{} = \"{}\": the scene has no cam", r.path("x"), series.against));
+        r.reject("x", " = \"{}\": the scene has no cam", series.against);
     const bool over_time = series.against == "t" || series.against == "turns";
-    if (series.impacts && !over_time)
-        r.fail("impacts", fmt::format("{}: lines at impacts need \"x\": \"t\" or \"turns\"", r.path("impacts")));
-    if (!series.notes.empty() && !over_time)
-        r.fail("notes", fmt::format("{} need \"x\": \"t\" or \"turns\"", r.path("notes")));
+    if (series.impacts && !over_time) r.reject("impacts", ": lines at impacts need \"x\": \"t\" or \"turns\"");
+    if (!series.notes.empty() && !over_time) r.reject("notes", " need \"x\": \"t\" or \"turns\"");
 }
 
 bool shows(const SeriesPanel& panel, const Measurement& data) {
@@ -97,8 +88,8 @@ void warn_of_undrawn_data(ObjectReader& r, const SeriesKeys& series) {
     for (const Measurement& data : r.context().scene.data)
         if (!data.find(*along) &&
             std::ranges::any_of(series.panels, [&](const SeriesPanel& panel) { return shows(panel, data); }))
-            r.warn("x", fmt::format("{} = \"{}\": the data {} have no {}; they are not drawn", r.path("x"),
-                                    series.against, in_quotes(data.label), series.against));
+            r.warn("x", " = \"{}\": the data {} have no {}; they are not drawn", series.against, in_quotes(data.label),
+                   series.against);
 }
 
 void check_residuals(ObjectReader& r, const SeriesKeys& series) {
@@ -110,29 +101,21 @@ void check_residuals(ObjectReader& r, const SeriesKeys& series) {
         });
     };
     if (series.against != "t" && series.against != "turns")
-        r.fail("residuals", fmt::format("{}: differences need \"x\": \"t\" or \"turns\"", r.path("residuals")));
+        r.reject("residuals", ": differences need \"x\": \"t\" or \"turns\"");
     else if (!r.diagnostics().failed("data") && std::ranges::none_of(series.panels, measured))
-        r.fail("residuals",
-               fmt::format("{}: the scene has no \"data\" of the channels of the panels", r.path("residuals")));
+        r.reject("residuals", ": the scene has no \"data\" of the channels of the panels");
 }
 
-void check_comparison(ObjectReader& r, SeriesKeys& series) {
+void check_comparison(ObjectReader& r, const SeriesKeys& series) {
     if (series.apart && series.compare.empty())
-        r.fail("comparison",
-               fmt::format("{} = \"panels\" needs several motions; add \"compare\"", r.path("comparison")));
-    for (std::size_t i = 0; i < series.compare.size(); ++i) {
-        std::string& label = series.compare[i].label;
-        if (label.empty()) label = std::to_string(i + 1);
-        check_markup(r, "compare", label);
-    }
+        r.reject("comparison", " = \"panels\" needs several motions; add \"compare\"");
+    for (const Compared& motion : series.compare) check_markup(r, "compare", motion.label);
 }
 
 void check_series(ObjectReader& r, FigureOutput& figure) {
     SeriesKeys& series = figure.series;
     if (series.panels.empty() && !r.diagnostics().any())
-        r.fail(*r.node(), "channels",
-               fmt::format("{} shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]",
-                           r.object_name()));
+        r.reject_object("channels", " shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]");
     // Lines of a spectrum differ by orders of magnitude. Explicit panels choose their own scale.
     if (series.against == "frequency" && r.has("channels"))
         for (SeriesPanel& panel : series.panels) panel.logarithmic = true;
@@ -162,10 +145,9 @@ void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
     if (!panel.sums.empty()) require_one_unit(r, "sums", summed);
     check_markup(r, "title", panel.title);
     check_markup(r, "label", panel.label);
-    if (panel.low && panel.high && !(*panel.low < *panel.high))
-        r.fail("high", fmt::format("{} must be above \"low\"", r.path("high")));
+    if (panel.low && panel.high && !(*panel.low < *panel.high)) r.reject("high", " must be above \"low\"");
     if (panel.logarithmic && panel.low && !(*panel.low > 0))
-        r.fail("low", fmt::format("{}: the lower end of a logarithmic axis must be positive", r.path("low")));
+        r.reject("low", ": the lower end of a logarithmic axis must be positive");
 }
 
 void check_figure(ObjectReader& r, FigureOutput& figure) {
@@ -177,10 +159,10 @@ void check_figure(ObjectReader& r, FigureOutput& figure) {
     if (!r.has("figure") || r.diagnostics().any()) return;  // the next rules need a valid scene
     const Scene& scene = r.context().scene;
     if (const auto refusal = refusal_of(*recipe, scene))
-        return r.fail("figure", fmt::format("{} = \"{}\": {}", r.path("figure"), figure.figure, *refusal));
+        return r.reject("figure", " = \"{}\": {}", figure.figure, *refusal);
     if (const std::string problem = recipe->of_sweep ? problem_with_value(recipe->name, figure.value, scene) : "";
         !problem.empty())
-        r.fail("value", fmt::format("{}: {}", r.path("value"), problem));
+        r.reject("value", ": {}", problem);
 }
 
 }  // namespace beamcam::scenes

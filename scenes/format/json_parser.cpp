@@ -215,18 +215,16 @@ class Parser {
         if (token.size() < 2 || token.back() != '"' || token.find('\r') != std::string_view::npos)
             throw SyntaxError{
                 begin,
-                "this text has no closing quote in its line; close it with \" (a line break inside a text "
-                "is \\n)"};
+                "this text has no closing quote in its line; close it with \" (a line break inside a text is \\n)"};
         if (std::ranges::any_of(token, [](char c) { return static_cast<unsigned char>(c) < 0x20; }))
             throw SyntaxError{begin, "this text contains a control character; write it as \\t or \\u0000"};
         std::string out(token.substr(1, token.size() - 2));
         if (out.find('\\') != std::string::npos) {
             const auto decoded = nlohmann::json::parse(token, nullptr, false);
             if (decoded.is_discarded())
-                throw SyntaxError{
-                    begin,
-                    "this text contains an escape that JSON does not have; write \\\\ for a backslash, and "
-                    "the character itself instead of half a surrogate pair"};
+                throw SyntaxError{begin,
+                                  "this text contains an escape that JSON does not have; write \\\\ for a backslash, "
+                                  "and the character itself instead of half a surrogate pair"};
             out = decoded.get<std::string>();
         }
         if (out.find('\0') != std::string::npos)  // most libraries end a text there

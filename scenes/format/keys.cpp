@@ -5,6 +5,16 @@
 namespace beamcam::scenes {
 namespace {
 
+sim::Alternative output_of(Output& output, const PictureType& type) {
+    return {{{"type", type.name}},
+            type.meaning,
+            picture_of(output, type.kind) != nullptr,
+            [&output, kind = type.kind](sim::Visitor& v) {
+                if (!picture_of(output, kind)) output = PictureOutput::of(kind);
+                std::get<PictureOutput>(output).visit(static_cast<SceneVisitor&>(v));
+            }};
+}
+
 template <class Type>
 sim::Alternative output_of(Output& output) {
     return {{{"type", Type::kType}}, Type::kMeaning, std::holds_alternative<Type>(output), [&output](sim::Visitor& v) {
@@ -13,9 +23,12 @@ sim::Alternative output_of(Output& output) {
             }};
 }
 
-template <class... Types>
-std::vector<sim::Alternative> types_of(std::variant<Types...>& output) {
-    return {output_of<Types>(output)...};
+template <class... Others>
+std::vector<sim::Alternative> types_of(std::variant<PictureOutput, Others...>& output) {
+    std::vector<sim::Alternative> all;
+    for (const PictureType& type : kPictureTypes) all.push_back(output_of(output, type));
+    (all.push_back(output_of<Others>(output)), ...);
+    return all;
 }
 
 }  // namespace

@@ -84,6 +84,10 @@ class SceneVisitor : public sim::Visitor {
     }
 };
 
+inline constexpr sim::Named<render::Style> kStyles[] = {
+    {render::Style::lit, "lit"}, {render::Style::flat, "flat"}, {render::Style::solid, "solid"}};
+inline constexpr sim::Named<Lang> kLanguages[] = {{Lang::en, "en"}, {Lang::zh, "zh"}};
+
 void visit(SceneVisitor& v, Scene& scene);
 void visit_outputs(SceneVisitor& v, Scene& scene);
 void visit(SceneVisitor& v, Output& output);

@@ -35,9 +35,8 @@ void read_panel(ObjectReader& r, const Node& node, const std::string& key, Panel
     std::ranges::move(channel_names(channels), std::back_inserter(names));
     const auto found = static_cast<std::size_t>(std::ranges::find(names, node.text) - names.begin());
     if (node.kind != Node::Kind::string || found == names.size()) {
-        r.fail(node, key,
-               fmt::format("{} = {} is not a panel{}", r.path(key), as_written(node),
-                           node.kind == Node::Kind::string ? suggestion_or_list(node.text, names) : ""));
+        r.reject_value(node, key, " is not a panel{}",
+                       node.kind == Node::Kind::string ? suggestion_or_list(node.text, names) : "");
     } else if (found < panels) {
         out.kind = render::panel_types()[found].kind;
     } else {
@@ -57,10 +56,9 @@ void check_strip_units(ObjectReader& r, const std::string& key, const std::vecto
     for (std::size_t i = 1; i < channels.size(); ++i)
         if (const std::string unit = sim::unit(channels[i], problem), first = sim::unit(channels.front(), problem);
             unit != first)
-            r.fail(fmt::format("{}.{}", key, i),
-                   fmt::format("{}.{}: {} is measured in {}, but {} in {}; a strip has one unit: use two strips",
-                               r.path(key), i, name(channels[i]), unit.empty() ? "1" : unit, name(channels.front()),
-                               first.empty() ? "1" : first));
+            r.reject(fmt::format("{}.{}", key, i),
+                     ": {} is measured in {}, but {} in {}; a strip has one unit: use two strips", name(channels[i]),
+                     unit.empty() ? "1" : unit, name(channels.front()), first.empty() ? "1" : first);
 }
 
 bool is_strip(const ObjectReader& r) { return r.place("panel").text == type_of(PanelKind::strip).name; }
@@ -68,7 +66,7 @@ bool is_strip(const ObjectReader& r) { return r.place("panel").text == type_of(P
 ValueFormat strip_channels_format(PanelSpec& panel) {
     ValueFormat format = channels_format(panel.channels);
     format.read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
-        if (!is_strip(r)) return r.fail(node, key, fmt::format("{} belongs to \"panel\": \"strip\"", r.path(key)));
+        if (!is_strip(r)) return r.reject(key, " belongs to \"panel\": \"strip\"");
         const std::size_t items = node.items.size();
         read_channels(r, node, key, strip_channels(r.context().scene.problem), panel.channels);
         if (panel.channels.size() == items) check_strip_units(r, key, panel.channels);
@@ -79,12 +77,10 @@ ValueFormat strip_channels_format(PanelSpec& panel) {
 ValueFormat window_format(PanelSpec& panel) {
     const auto read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
         double window = 0;
-        if (!type_of(panel.kind).takes_window)
-            return r.fail(node, key, fmt::format("{} belongs to the panels \"strip\" and \"energy\"", r.path(key)));
+        if (!type_of(panel.kind).takes_window) return r.reject(key, " belongs to the panels \"strip\" and \"energy\"");
         panel.by_collision = node.kind == Node::Kind::string && node.text == "collision";
         if (panel.by_collision && !type_of(panel.kind).takes_collisions)
-            return r.fail(node, key,
-                          fmt::format("{} of the panel \"energy\" must be a time, not \"collision\"", r.path(key)));
+            return r.reject(key, " of the panel \"energy\" must be a time, not \"collision\"");
         if (!panel.by_collision &&
             r.ranged_value(node, key, sim::dimension::kTime,
                            {0, sim::Range::kInfinity, true, false, "must be positive, or \"collision\""}, window))
@@ -114,8 +110,7 @@ void visit_panel(SceneVisitor& v, PanelSpec& panel) {
     v.value("channels", strip_channels_format(panel), "Of a strip: its curves, all of one unit.");
     v.check([&panel](ObjectReader& r) {
         if (panel.kind == PanelKind::strip && r.has("panel") && !r.has("channels") && panel.channels.empty())
-            r.fail(*r.node(), "channels",
-                   fmt::format("{} is a strip; it needs \"channels\", for example [\"theta\"]", r.object_name()));
+            r.reject_object("channels", " is a strip; it needs \"channels\", for example [\"theta\"]");
     });
     v.value("window", window_format(panel),
             "Of a strip or the energies: length of the time axis; by default all of the time. Of a strip also "
@@ -145,13 +140,9 @@ ValueFormat named_panel_format(std::vector<LayoutNode>& children) {
     const auto read = [&children](ObjectReader& r, const Node& node, const std::string& key) {
         LayoutNode& child = children.emplace_back();
         if (node.kind == Node::Kind::string && node.text == type_of(PanelKind::strip).name)
-            r.fail(node, key,
-                   fmt::format("{} = {} needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}",
-                               r.path(key), in_quotes(node.text)));
+            r.reject_value(node, key, " needs channels: write {{\"panel\": \"strip\", \"channels\": [\"theta\"]}}");
         else if (node.kind != Node::Kind::string)
-            r.fail(
-                node, key,
-                fmt::format("{} must be a panel's name or an object {{ … }}, not {}", r.path(key), as_written(node)));
+            r.expect(node, key, "a panel's name or an object {{ … }}");
         else
             read_panel(r, node, key, child.panel);
     };
@@ -228,29 +219,27 @@ std::string needs_missing_cam(const sim::Problem& own, const Picture& picture, c
 
 void check_layout(ObjectReader& r, const Picture& picture) {
     if (!picture.layout || !r.has("layout")) return;
-    const auto reject = [&](const std::string& problem) { r.fail("layout", r.path("layout") + problem); };
     const std::vector<PanelSpec> panels = render::panels_of(*picture.layout);
     if (panels.size() > kMostPanels || depth_of(*picture.layout) > kDeepestLayout + 1)
-        reject(fmt::format(" is too large for a picture; use at most {} panels and {} levels", kMostPanels,
-                           kDeepestLayout));
+        r.reject("layout", " is too large for a picture; use at most {} panels and {} levels", kMostPanels,
+                 kDeepestLayout);
     const std::size_t motions = std::max<std::size_t>(1, picture.compare.size());
     for (const PanelSpec& panel : panels)
         if (static_cast<std::size_t>(panel.member) >= motions)
-            return reject(fmt::format(": \"motion\": {} does not exist; the picture shows {}", panel.member + 1,
-                                      counted(motions, "motion")));
+            return r.reject("layout", ": \"motion\": {} does not exist; the picture shows {}", panel.member + 1,
+                            counted(motions, "motion"));
     for (const PanelSpec& panel : panels)
         if (panel.by_collision && !picture.compare.empty())
-            reject(fmt::format(
-                ": \"window\": \"collision\" needs one motion, but the picture compares {}; write a time such "
-                "as \"50 ms\"",
-                picture.compare.size()));
+            r.reject("layout",
+                     ": \"window\": \"collision\" needs one motion, but the picture compares {}; write a time such as "
+                     "\"50 ms\"",
+                     picture.compare.size());
     if (r.diagnostics().failed("cam")) return;
     for (const PanelSpec& panel : panels)
         if (const std::string shown = needs_missing_cam(r.context().scene.problem, picture, panel); !shown.empty())
-            reject(
-                fmt::format(": \"{}\" shows contact data, but the scene has no cam; remove the panel, or add a "
-                            "\"cam\"",
-                            shown));
+            r.reject("layout",
+                     ": \"{}\" shows contact data, but the scene has no cam; remove the panel, or add a \"cam\"",
+                     shown);
 }
 
 }  // namespace beamcam::scenes

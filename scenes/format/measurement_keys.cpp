@@ -30,16 +30,13 @@ const std::vector<std::pair<std::string, sim::Channel>>& measurable() {
 
 ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>& units) {
     const auto read = [&units](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::object)
-            return r.fail(node, key,
-                          fmt::format("{} must be an object such as {{\"angle\": \"deg\"}}, not {}", r.path(key),
-                                      as_written(node)));
+        if (node.kind != Node::Kind::object) return r.expect(node, key, "an object such as {{\"angle\": \"deg\"}}");
         for (const Member& member : node.members)
             if (member.value.kind == Node::Kind::string)
                 units.emplace_back(member.key, member.value.text);
             else
                 r.fail(member.value, key + "." + member.key,
-                       fmt::format("{} must be a unit in quotes, such as \"deg\"", r.path(key + "." + member.key)));
+                       r.path(key + "." + member.key) + " must be a unit in quotes, such as \"deg\"");
     };
     const auto write = [&units]() -> std::optional<Node> {
         if (units.empty()) return std::nullopt;
@@ -91,7 +88,7 @@ class MeasurementReader {
   private:
     void fail(const std::string& key, const std::string& why) {
         failed_ = true;
-        r_.fail(r_.place(key), key, fmt::format("{} = {}: {}", r_.path(key), as_written(r_.place(key)), why));
+        r_.reject_value(r_.place(key), key, ": {}", why);
     }
 
     std::vector<double> column(const output::NamedTable& table, const std::string& key, const std::string& from,

@@ -35,7 +35,7 @@ ObjectReader::ObjectReader(Diagnostics& diagnostics, const Node* object, std::st
                            const SceneContext* context)
     : diagnostics_(diagnostics), object_(object), path_(std::move(path)), root_(std::move(root)), context_(context) {
     if (object_ && object_->kind != Node::Kind::object) {
-        fail(*object_, "", fmt::format("{} must be an object {{ … }}, not {}", object_name(), as_written(*object_)));
+        reject_object("", " must be an object {{ … }}, not {}", as_written(*object_));
         object_ = nullptr;
     }
 }
@@ -47,7 +47,7 @@ std::string ObjectReader::path(std::string_view key) const {
 
 const Node& ObjectReader::place(std::string_view path) const {
     const Node* node = object_;
-    for (const std::string& name : split_path(path)) {
+    for (const std::string& name : split(path)) {
         const Node* inner = child(*node, name);
         if (!inner) break;
         node = inner;
@@ -83,16 +83,13 @@ bool ObjectReader::number_value(const Node& node, std::string_view key, const si
     }
     const std::string unit = si_unit(dimension);
     if (node.kind != Node::Kind::string) {
-        fail(node, key,
-             fmt::format("{} must be a number{}, not {}", path(key),
-                         unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit), as_written(node)));
+        expect(node, key, "a number{}", unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit));
         return false;
     }
     const QuantityText read = parse_quantity(node.text, &dimension);
     if (!read.quantity) {
-        fail(node, key,
-             fmt::format("{} = {}: {}{}", path(key), in_quotes(node.text), read.problem,
-                         unit == "1" ? "; write a number" : fmt::format("; write for example \"1.5 {}\"", unit)));
+        reject_value(node, key, ": {}{}", read.problem,
+                     unit == "1" ? "; write a number" : fmt::format("; write for example \"1.5 {}\"", unit));
         return false;
     }
     if (!same(read.quantity->dimension, dimension)) {
@@ -108,9 +105,8 @@ bool ObjectReader::ranged_value(const Node& node, std::string_view key, const Un
     double value = 0;
     if (!number_value(node, key, unit.resolved(), value)) return false;
     if (check_ranges_ && !range.contains(value)) {
-        fail(node, key,
-             fmt::format("{} = {} {}", path(key), as_written(node),
-                         range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max)));
+        reject_value(node, key, " {}",
+                     range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max));
         return false;
     }
     out = value;
@@ -119,11 +115,11 @@ bool ObjectReader::ranged_value(const Node& node, std::string_view key, const Un
 
 bool ObjectReader::integer_value(const Node& node, std::string_view key, int min, int max, int& out) {
     if (node.kind != Node::Kind::number || node.number != std::round(node.number)) {
-        fail(node, key, fmt::format("{} must be a whole number, not {}", path(key), as_written(node)));
+        expect(node, key, "a whole number");
         return false;
     }
     if (node.number < min || node.number > max) {
-        fail(node, key, fmt::format("{} = {} is outside {} … {}", path(key), as_written(node), min, max));
+        reject_value(node, key, " is outside {} … {}", min, max);
         return false;
     }
     out = static_cast<int>(node.number);
@@ -133,17 +129,15 @@ bool ObjectReader::integer_value(const Node& node, std::string_view key, int min
 bool ObjectReader::keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
                                  std::size_t& chosen) {
     if (node.kind != Node::Kind::string) {
-        fail(node, key,
-             fmt::format("{} must be one of {}, not {}", path(key), fmt::join(words, ", "), as_written(node)));
+        expect(node, key, "one of {}", fmt::join(words, ", "));
         return false;
     }
     const auto found = std::ranges::find(words, node.text);
     if (found == words.end()) {
         const bool is_film = path(key).ends_with(".type") && (node.text == "gif" || node.text == "apng");
-        fail(node, key,
-             fmt::format("{} = {} {}", path(key), in_quotes(node.text),
-                         is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
-                                 : "is unknown" + suggestion_or_list(node.text, words)));
+        reject_value(node, key, " {}",
+                     is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
+                             : "is unknown" + suggestion_or_list(node.text, words));
         return false;
     }
     chosen = static_cast<std::size_t>(found - words.begin());
@@ -153,7 +147,7 @@ bool ObjectReader::keyword_value(const Node& node, std::string_view key, const s
 bool ObjectReader::numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
                                  std::vector<double>& out) {
     if (node.kind != Node::Kind::array) {
-        fail(node, key, fmt::format("{} must be an array [ … ], not {}", path(key), as_written(node)));
+        expect(node, key, "an array [ … ]");
         return false;
     }
     std::vector<double> values(node.items.size());
@@ -189,9 +183,7 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
     if (word && node->kind == Node::Kind::string && node->text == word)
         value.reset();
     else if (unit.plain && node->kind != Node::Kind::number)
-        fail(*node, key.name,
-             fmt::format("{} must be {}a number, not {}", path(key.name), word ? fmt::format("\"{}\" or ", word) : "",
-                         as_written(*node)));
+        expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
     else if (ranged_value(*node, key.name, unit, range, read))
         value = read;
 }
@@ -223,10 +215,8 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     if (!numbers_value(*node, key.name, unit.resolved(), read)) return;
     const bool fixed = length.min == length.max;
     if (fixed && read.size() != length.min)
-        return fail(*node, key.name,
-                    fmt::format("{} must have {} numbers, not {}", path(key.name), length.min, read.size()));
-    if (check_ranges_ && read.size() < length.min)
-        return fail(*node, key.name, fmt::format("{} is empty; write at least one number", path(key.name)));
+        return reject(key.name, " must have {} numbers, not {}", length.min, read.size());
+    if (check_ranges_ && read.size() < length.min) return reject(key.name, " is empty; write at least one number");
     for (std::size_t i = 0; i < read.size(); ++i)
         ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range, read[i]);
     values = std::move(read);
@@ -243,7 +233,7 @@ void ObjectReader::boolean(const Key& key, bool& value, const char*) {
     if (node->kind == Node::Kind::boolean)
         value = node->boolean;
     else
-        fail(*node, key.name, fmt::format("{} must be true or false, not {}", path(key.name), as_written(*node)));
+        expect(*node, key.name, "true or false");
 }
 
 void ObjectReader::text(const Key& key, std::string& value, const char*) {
@@ -252,7 +242,7 @@ void ObjectReader::text(const Key& key, std::string& value, const char*) {
     if (node->kind == Node::Kind::string)
         value = node->text;
     else
-        fail(*node, key.name, fmt::format("{} must be a text in quotes, not {}", path(key.name), as_written(*node)));
+        expect(*node, key.name, "a text in quotes");
 }
 
 void ObjectReader::keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) {
@@ -267,9 +257,7 @@ void ObjectReader::object(const Key& key, const Fields& fields, const char*, boo
         return;
     }
     if (present && node->kind != Node::Kind::object)
-        return fail(*node, key.name,
-                    fmt::format("{} must be an object {{ … }}, or null for no {}, not {}", path(key.name), key.name,
-                                as_written(*node)));
+        return expect(*node, key.name, "an object {{ … }}, or null for no {}", key.name);
     if (present) *present = true;
     ObjectReader reader = inside(*node, key.name);
     fields(reader);
@@ -328,12 +316,11 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
     if (!node) return;
     const std::size_t size = node->items.size();
     if (node->kind != Node::Kind::array || size < list.min_size || size > list.max_size)
-        return fail(*node, key.name,
-                    fmt::format("{} must be an array {}, not {}{}", path(key.name),
-                                list.min_size > 0 ? fmt::format("of {} to {} {}", list.min_size, list.max_size, list.of)
-                                : size > list.max_size ? fmt::format("of at most {} {}", list.max_size, list.of)
-                                                       : "[ … ]",
-                                as_written(*node), list.example ? fmt::format("; for example {}", list.example) : ""));
+        return reject(key.name, " must be an array {}, not {}{}",
+                      list.min_size > 0      ? fmt::format("of {} to {} {}", list.min_size, list.max_size, list.of)
+                      : size > list.max_size ? fmt::format("of at most {} {}", list.max_size, list.of)
+                                             : "[ … ]",
+                      as_written(*node), list.example ? fmt::format("; for example {}", list.example) : "");
     for (std::size_t i = 0; i < node->items.size(); ++i) {
         const Node& item = node->items[i];
         const std::string at = fmt::format("{}.{}", key.name, i);

@@ -2,6 +2,8 @@
 // error.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <functional>
 #include <set>
 #include <string>
@@ -71,8 +73,31 @@ class ObjectReader final : public SceneVisitor {
 
     const Node* take(const Key& key);  // reports a missing required key
     void fail(const Node& node, std::string_view key, std::string text);
-    void fail(std::string_view key, std::string text) { fail(place(key), key, std::move(text)); }  // at the key's value
-    void warn(std::string_view key, std::string text) { diagnostics_.warning(place(key).place, std::move(text)); }
+
+    // Errors of a key, at its value. `key` is a path inside this object.
+    template <class... Values>  // "KEY<why>"
+    void reject(std::string_view key, fmt::format_string<Values...> why, Values&&... values) {
+        fail(place(key), key, path(key) + fmt::format(why, std::forward<Values>(values)...));
+    }
+    template <class... Values>  // "KEY = VALUE<why>"
+    void reject_value(const Node& value, std::string_view key, fmt::format_string<Values...> why, Values&&... values) {
+        fail(value, key,
+             fmt::format("{} = {}{}", path(key), as_written(value), fmt::format(why, std::forward<Values>(values)...)));
+    }
+    template <class... Values>  // "KEY must be <what>, not VALUE"
+    void expect(const Node& value, std::string_view key, fmt::format_string<Values...> what, Values&&... values) {
+        fail(value, key,
+             fmt::format("{} must be {}, not {}", path(key), fmt::format(what, std::forward<Values>(values)...),
+                         as_written(value)));
+    }
+    template <class... Values>  // "OBJECT<why>", at the object
+    void reject_object(std::string_view key, fmt::format_string<Values...> why, Values&&... values) {
+        fail(*object_, key, object_name() + fmt::format(why, std::forward<Values>(values)...));
+    }
+    template <class... Values>  // a warning: "KEY<why>"
+    void warn(std::string_view key, fmt::format_string<Values...> why, Values&&... values) {
+        diagnostics_.warning(place(key).place, path(key) + fmt::format(why, std::forward<Values>(values)...));
+    }
 
     // Values by kind. `key` is the path of `node` inside this object, for messages. True: `out` was set.
     bool number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out);

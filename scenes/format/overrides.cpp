@@ -60,7 +60,7 @@ void apply_override(Node& root, const std::string& text, std::size_t source, std
 void set_value(Node& root, std::string_view path, Node value, std::vector<Message>& messages) {
     const Place place = value.place;
     const auto error = [&](std::string text) { messages.push_back({place, std::move(text), true}); };
-    const std::vector<std::string> keys = split_path(path);
+    const std::vector<std::string> keys = split(path);
     if (std::find(keys.begin(), keys.end(), "") != keys.end())
         return error("the path contains an empty key; write key.path=value");
 

@@ -47,23 +47,21 @@ struct CloseFile {
     }
 };
 
-void replace_all(std::string& text, std::string_view what, std::string_view by) {
-    for (std::size_t at = 0; (at = text.find(what, at)) != std::string::npos; at += by.size())
-        text.replace(at, what.size(), by);
-}
-
 }  // namespace
 
 bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
                       Scene& scene, std::vector<Message>& messages) {
     Node list = array_node({output});
     list.place = output.place;
+    const Node alone = object_node({{"outputs", std::move(list)}});
     scene.set_outputs({});
     // Comparisons change sections of the scene: of the resolved scene here, with its overrides.
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
     Diagnostics found;
-    read_outputs({scene, parsed.root, resolved, files}, found, list, scene);
+    const SceneContext context{scene, parsed.root, resolved, files};
+    ObjectReader reader(found, &alone, "", "the scene", &context);
+    visit_outputs(reader, scene);
     const bool fine = !found.any();
     messages = found.take();
     const std::string_view itself(prefix.data(), prefix.size() - (prefix.ends_with('.') ? 1 : 0));
@@ -72,13 +70,6 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
         replace_all(message.text, "outputs.0", itself);
     }
     return fine && !scene.outputs.empty();
-}
-
-void read_outputs(const SceneContext& context, Diagnostics& diagnostics, const Node& outputs, Scene& scene) {
-    Node alone = object_node();
-    add(alone, "outputs", outputs);
-    ObjectReader reader(diagnostics, &alone, "", "the scene", &context);
-    visit_outputs(reader, scene);
 }
 
 Reading read_scene(Source file, const std::vector<std::string>& overrides) {

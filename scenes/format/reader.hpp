@@ -39,10 +39,6 @@ Source load_source(const std::string& path);
 // The same for a name inside a scene file. Rejects standard input, and pipes and devices, which might never end.
 Source load_named_source(const std::string& path);
 
-// Reads the list `outputs` into a scene whose other keys have been read.
-class Diagnostics;
-struct SceneContext;
-void read_outputs(const SceneContext& context, Diagnostics& diagnostics, const Node& outputs, Scene& scene);
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its
 // folder. Messages put `prefix` before the names of its keys, such as "--" or "entries.fall.output.". False on errors.
 bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,

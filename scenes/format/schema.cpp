@@ -41,26 +41,21 @@ constexpr const char* kDefinitions = R"({
 
 // A panel that needs only its name, or a channel in a strip.
 Node panel_schema() {
-    Node names = array_node(), known = object_node(), out = object_node();
+    std::vector<std::string> names;
     for (const render::PanelType& type : render::panel_types())
-        if (!type.takes_channels) names.items.push_back(text_node(type.name));
-    add(known, "enum", std::move(names));
-    add(out, "anyOf",
-        array_node(
-            {std::move(known), node_of(R"({"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]})")}));
-    return out;
+        if (!type.takes_channels) names.emplace_back(type.name);
+    return object_node(
+        {{"anyOf", array_node({object_node({{"enum", texts_node(names)}}),
+                               node_of(R"({"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]})")})}});
 }
 
 Node channel_schema() {
-    Node names = array_node();
+    std::vector<std::string> names;
     for (const sim::Channel& channel : sim::all_channels({}))
-        if (channel.kind != sim::ChannelKind::q) names.items.push_back(text_node(name(channel)));
-    Node known = object_node();
-    add(known, "enum", std::move(names));
-    Node out = object_node();
-    add(out, "anyOf", array_node({std::move(known), node_of(R"({"description": "A coordinate of the beam, q1 … qN.",
-        "type": "string", "pattern": "^q[1-9][0-9]*$"})")}));
-    return out;
+        if (channel.kind != sim::ChannelKind::q) names.push_back(name(channel));
+    return object_node({{"anyOf", array_node({object_node({{"enum", texts_node(names)}}),
+                                              node_of(R"({"description": "A coordinate of the beam, q1 … qN.",
+        "type": "string", "pattern": "^q[1-9][0-9]*$"})")})}});
 }
 
 class SchemaWriter {
@@ -71,9 +66,8 @@ class SchemaWriter {
         add(definitions_, "channel", channel_schema());
         object(scene);  // first pass: counts repeated properties
         counted_ = true;
-        Node out = object_node();
-        add(out, "$schema", text_node("https://json-schema.org/draft/2020-12/schema"));
-        add(out, "title", text_node("beamcam scene"));
+        Node out = object_node({{"$schema", text_node("https://json-schema.org/draft/2020-12/schema")},
+                                {"title", text_node("beamcam scene")}});
         append(out, object(scene));
         add(out, "$defs", std::move(definitions_));
         return out;
@@ -83,36 +77,27 @@ class SchemaWriter {
     static void append(Node& out, Node more) {
         for (Member& member : more.members) out.members.add(std::move(member));
     }
-    static Node reference(const std::string& name) {
-        Node out = object_node();
-        add(out, "$ref", text_node("#/$defs/" + name));
-        return out;
-    }
+    static Node reference(const std::string& name) { return object_node({{"$ref", text_node("#/$defs/" + name)}}); }
     static Node one_of(const char* choice, std::vector<Node> all) {
-        if (all.size() == 1) return std::move(all.front());
-        Node out = object_node();
-        add(out, choice, array_node(std::move(all)));
-        return out;
+        return all.size() == 1 ? std::move(all.front()) : object_node({{choice, array_node(std::move(all))}});
     }
 
     Node object(const DescribedObject& shape) {
         ++depth_;
-        Node properties = object_node(), needed = array_node(), out = object_node();
+        Node properties = object_node(), needed = array_node();
         for (const auto& [tag, word] : shape.tags) {
-            Node constant = object_node();
-            add(constant, "const", text_node(word));
-            add(properties, tag, std::move(constant));
+            add(properties, tag, object_node({{"const", text_node(word)}}));
             needed.items.push_back(text_node(tag));
         }
         for (const DescribedKey& key : shape.keys) {
             add(properties, key.name, shared(key.name, property(key)));
             if (key.required()) needed.items.push_back(text_node(key.name));
         }
-        add(out, "description", text_node(shape.meaning));
-        add(out, "type", text_node("object"));
-        add(out, "properties", std::move(properties));
-        add(out, "patternProperties", node_of(R"({"^x-": true})"));
-        add(out, "additionalProperties", boolean_node(false));
+        Node out = object_node({{"description", text_node(shape.meaning)},
+                                {"type", text_node("object")},
+                                {"properties", std::move(properties)},
+                                {"patternProperties", node_of(R"({"^x-": true})")},
+                                {"additionalProperties", boolean_node(false)}});
         if (!needed.items.empty()) add(out, "required", std::move(needed));
         const Node& known = out.find("properties")->value;
         std::vector<Node> together;
@@ -157,11 +142,11 @@ class SchemaWriter {
     }
 
     Node property(const DescribedKey& key) {
-        Node out = object_node(), schema = value(key);
+        Node schema = value(key);
         std::string meaning = key.meaning;
         if (!key.unit.empty()) meaning += fmt::format(" In {}, or a text with a unit.", key.unit);
         remove(schema, "description");
-        add(out, "description", text_node(meaning));
+        Node out = object_node({{"description", text_node(meaning)}});
         append(out, std::move(schema));
         if (key.value && !key.required()) add(out, "default", *key.value);
         return out;
@@ -186,36 +171,6 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string one_line(const Node& node) {
-    std::string out;
-    for (const Node& item : node.items) out += (out.empty() ? "" : ", ") + one_line(item);
-    if (node.kind == Node::Kind::array) return "[" + out + "]";
-    for (const Member& member : node.members)
-        out += (out.empty() ? "" : ", ") + one_line(text_node(member.key)) + ": " + one_line(member.value);
-    if (node.kind == Node::Kind::object) return "{" + out + "}";
-    out = to_text(node);
-    out.pop_back();  // the end of the line
-    return out;
-}
-
-namespace {
-
-// JSON with line breaks only where a line would be too long.
-std::string folded(const Node& node, std::size_t indent) {
-    constexpr std::size_t kWidth = 120;
-    std::string line = one_line(node), out;
-    if (indent + line.size() <= kWidth || (node.items.empty() && node.members.empty())) return line;
-    const std::string margin(indent + 2, ' ');
-    for (const Node& item : node.items) out += (out.empty() ? "" : ",\n") + margin + folded(item, indent + 2);
-    for (const Member& member : node.members)
-        out += (out.empty() ? "" : ",\n") + margin + one_line(text_node(member.key)) + ": " +
-               folded(member.value, indent + 2);
-    const bool array = node.kind == Node::Kind::array;
-    return (array ? "[\n" : "{\n") + out + "\n" + std::string(indent, ' ') + (array ? "]" : "}");
-}
-
-}  // namespace
-
-std::string schema_text() { return folded(SchemaWriter().write(scene_format()), 0) + "\n"; }
+std::string schema_text() { return folded_text(SchemaWriter().write(scene_format()), 120); }
 
 }  // namespace beamcam::scenes

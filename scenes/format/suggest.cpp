@@ -16,8 +16,7 @@ std::string folded(std::string_view word) {
     return out;
 }
 
-}  // namespace
-
+// Optimal string alignment distance in bytes: exchanging two neighbours counts once.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     const std::size_t row = b.size() + 1;
     std::vector<std::size_t> table((a.size() + 1) * row);
@@ -32,6 +31,8 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
         }
     return d(a.size(), b.size());
 }
+
+}  // namespace
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
     constexpr std::size_t kLongest = 64;  // a longer word is not a typing error

@@ -7,9 +7,6 @@
 
 namespace beamcam::scenes {
 
-// Optimal string alignment distance in bytes: exchanging two neighbours counts once.
-std::size_t edit_distance(std::string_view a, std::string_view b);
-
 // `; did you mean "length"?` if a known word is similar enough, else "".
 std::string suggestion(std::string_view word, const std::vector<std::string>& known);
 // The same, or `; the choices are a, b, c`.

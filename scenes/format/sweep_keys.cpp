@@ -49,9 +49,7 @@ static ValueFormat value_format(Number& value, const std::string& of) {
 
 static ValueFormat values_format(std::vector<double>& values, const std::string& of) {
     const auto read = [&values, &of](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::array || node.items.empty())
-            return r.fail(node, key,
-                          fmt::format("{} must be a list of numbers, not {}", r.path(key), as_written(node)));
+        if (node.kind != Node::Kind::array || node.items.empty()) return r.expect(node, key, "a list of numbers");
         r.numbers_value(node, key, dimension_of(of, r), values);
     };
     return {"list of numbers, or texts with the unit of the key",
@@ -100,12 +98,9 @@ std::string set_section(std::string_view channel, sim::Sampling& sampling, const
 ValueFormat sample_format(sim::Sampling& sampling) {
     const auto read = [&sampling](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::string)
-            return r.fail(
-                node, key,
-                fmt::format("{} must be \"impacts\", \"apexes\" or {{\"section\": CHANNEL, \"at\": VALUE}}, not {}",
-                            r.path(key), as_written(node)));
+            return r.expect(node, key, "\"impacts\", \"apexes\" or {{\"section\": CHANNEL, \"at\": VALUE}}");
         if (const std::string problem = parse_sample(node.text, r.context().scene.problem, sampling); !problem.empty())
-            r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), as_written(node), problem));
+            r.reject_value(node, key, ": {}", problem);
     };
     const auto write = [&sampling]() -> std::optional<Node> {
         const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes;
@@ -125,7 +120,7 @@ void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
              "Direction in which the channel passes the value; not used for cam_angle.");
     v.check([&sampling, channel](ObjectReader& r) {
         const std::string problem = set_section(channel, sampling, r.context().scene.problem);
-        if (!problem.empty()) r.fail("section", fmt::format("{}: {}", r.path("section"), problem));
+        if (!problem.empty()) r.reject("section", ": {}", problem);
     });
 }
 
@@ -137,7 +132,7 @@ ValueFormat seed_format(SweepSeeds& seeds) {
         const std::string problem = node.kind == Node::Kind::string || is_list
                                         ? parse_seeds(text, seeds)
                                         : "write \"same\", \"carry-up\", \"carry-down\" or \"random:N\"";
-        if (!problem.empty()) r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), as_written(node), problem));
+        if (!problem.empty()) r.reject_value(node, key, ": {}", problem);
     };
     const auto write = [&seeds]() -> std::optional<Node> {
         if (seeds.random > 0) return std::nullopt;
@@ -191,7 +186,7 @@ void visit(SceneVisitor& v, Sweep& sweep) {
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
             if (!r.diagnostics().failed(r.path(problem.key)))  // else it has an error already
-                r.fail(problem.key, fmt::format("{}: {}", r.path(problem.key), problem.text));
+                r.reject(problem.key, ": {}", problem.text);
     });
 }
 

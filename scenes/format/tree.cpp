@@ -39,27 +39,43 @@ Node of_kind(Node::Kind kind) {
 
 using Json = nlohmann::ordered_json;
 
-Json json_of(const Node& node) {
-    Json out;
+// JSON of a value that is neither an array nor an object.
+std::string scalar_text(const Node& node) {
+    const auto text = [](const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace); };
     switch (node.kind) {
-        case Node::Kind::null:
-            break;
         case Node::Kind::boolean:
-            return node.boolean;
+            return node.boolean ? "true" : "false";
         case Node::Kind::number:
-            return node.text.empty() ? Json(node.number) : Json::parse(node.text);
+            return text(node.text.empty() ? Json(node.number) : Json::parse(node.text));
         case Node::Kind::string:
-            return node.text;
-        case Node::Kind::array:
-            out = Json::array();
-            for (const Node& item : node.items) out.push_back(json_of(item));
-            break;
-        case Node::Kind::object:
-            out = Json::object();
-            for (const Member& member : node.members) out[member.key] = json_of(member.value);
-            break;
+            return text(node.text);
+        default:
+            return "null";
     }
-    return out;
+}
+
+constexpr std::size_t kOneLine = std::string::npos;
+
+// Lines are at most `width` long where that is possible; 0: each value has its line.
+std::string json_text(const Node& node, std::size_t indent, std::size_t width) {
+    const bool array = node.kind == Node::Kind::array;
+    if (!array && node.kind != Node::Kind::object) return scalar_text(node);
+    const auto joined = [&](const std::string& between, std::size_t inner, std::size_t inner_width) {
+        std::string out;
+        for (const Node& item : node.items) out += (out.empty() ? "" : between) + json_text(item, inner, inner_width);
+        for (const Member& member : node.members)
+            out += (out.empty() ? "" : between) + scalar_text(text_node(member.key)) + ": " +
+                   json_text(member.value, inner, inner_width);
+        return out;
+    };
+    const char *open = array ? "[" : "{", *close = array ? "]" : "}";
+    const bool empty = node.items.empty() && node.members.empty();
+    if (width > 0 || empty) {
+        std::string line = open + joined(", ", 0, kOneLine) + close;
+        if (empty || width == kOneLine || indent + line.size() <= width) return line;
+    }
+    const std::string margin = "\n" + std::string(indent + 2, ' ');
+    return open + margin + joined("," + margin, indent + 2, width) + "\n" + std::string(indent, ' ') + close;
 }
 
 }  // namespace
@@ -94,7 +110,16 @@ Node numbers_node(const std::vector<double>& values) {
     for (const double value : values) node.items.push_back(number_node(value));
     return node;
 }
-Node object_node() { return of_kind(Node::Kind::object); }
+Node texts_node(const std::vector<std::string>& values) {
+    Node node = array_node();
+    for (const std::string& value : values) node.items.push_back(text_node(value));
+    return node;
+}
+Node object_node(std::vector<std::pair<std::string, Node>> members) {
+    Node node = of_kind(Node::Kind::object);
+    for (auto& [key, value] : members) add(node, std::move(key), std::move(value));
+    return node;
+}
 void add(Node& object, std::string key, Node value) { object.members.add({std::move(key), {}, std::move(value)}); }
 
 void remove(Node& object, std::string_view key) {
@@ -104,9 +129,9 @@ void remove(Node& object, std::string_view key) {
     object.members = std::move(kept);
 }
 
-std::string to_text(const Node& root) {
-    return json_of(root).dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
+std::string to_text(const Node& root) { return json_text(root, 0, 0) + "\n"; }
+std::string one_line(const Node& root) { return json_text(root, 0, kOneLine); }
+std::string folded_text(const Node& root, std::size_t width) { return json_text(root, 0, width) + "\n"; }
 
 const char* name(Node::Kind kind) {
     switch (kind) {
@@ -126,14 +151,19 @@ const char* name(Node::Kind kind) {
     return "?";
 }
 
-std::vector<std::string> split_path(std::string_view path) {
-    std::vector<std::string> names;
-    for (std::size_t begin = 0; begin <= path.size();) {
-        const std::size_t end = std::min(path.find('.', begin), path.size());
-        names.emplace_back(path.substr(begin, end - begin));
+std::vector<std::string> split(std::string_view text, char separator) {
+    std::vector<std::string> parts;
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(separator, begin), text.size());
+        parts.emplace_back(text.substr(begin, end - begin));
         begin = end + 1;
     }
-    return names;
+    return parts;
+}
+
+void replace_all(std::string& text, std::string_view from, std::string_view to) {
+    for (std::size_t at = text.find(from); at != std::string::npos; at = text.find(from, at + to.size()))
+        text.replace(at, from.size(), to);
 }
 
 const Node* child(const Node& node, std::string_view name) {

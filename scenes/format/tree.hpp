@@ -6,7 +6,7 @@
 #include <map>
 #include <string>
 #include <string_view>
-#include <variant>
+#include <utility>
 #include <vector>
 
 #include "scenes/format/source.hpp"
@@ -64,15 +64,21 @@ Node boolean_node(bool value);
 Node text_node(std::string value);
 Node array_node(std::vector<Node> items = {});
 Node numbers_node(const std::vector<double>& values);
-Node object_node();
+Node texts_node(const std::vector<std::string>& values);
+Node object_node(std::vector<std::pair<std::string, Node>> members = {});
 void add(Node& object, std::string key, Node value);
 void remove(Node& object, std::string_view key);
-std::string to_text(const Node& root);  // JSON, indented by two spaces; parsed numbers keep their spelling
+// JSON: with a line for each value; on one line, without the end of the line; with line breaks only where a line would
+// be longer than `width`.
+std::string to_text(const Node& root);
+std::string one_line(const Node& root);
+std::string folded_text(const Node& root, std::size_t width);
 
 const char* name(Node::Kind kind);  // "a number", "an object", …
 
 // "cam.centre.0" as {"cam", "centre", "0"}.
-std::vector<std::string> split_path(std::string_view path);
+std::vector<std::string> split(std::string_view text, char separator = '.');
+void replace_all(std::string& text, std::string_view from, std::string_view to);
 // The member or, by its index from 0, the item of this name; null if there is none.
 const Node* child(const Node& node, std::string_view name);
 Node* child(Node& node, std::string_view name);

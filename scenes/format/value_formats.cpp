@@ -20,26 +20,27 @@ namespace {
 
 using output::number_in;
 
+constexpr sim::Range kFromStart{0, sim::Range::kInfinity, false, false, "is negative; times begin at 0"};
 // Below 16 px nothing can be drawn; 16384 px is OpenGL's largest viewport.
 constexpr int kSmallestSide = 16, kLargestSide = 16384;
 constexpr double kSlowestFrameRate = 0.1, kFastestFrameRate = 1000;  // [Hz]; players fail long before
 
-// The format of a value that is always present, by the format of an optional value.
-template <class T>
-ValueFormat of_present(T& value, ValueFormat (*format)(std::optional<T>&)) {
-    std::optional<T> unused;
-    ValueFormat out = format(unused);
-    out.read = [&value, format](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<T> read = value;
-        format(read).read(r, node, key);
-        value = read.value_or(value);
+// The format of `value`, which is a T or a std::optional<T>. `read` returns the T, or reports why there is none.
+template <class Value, class Read, class Write>
+ValueFormat format_of(Value& value, const char* type, std::string schema, Read read, Write write) {
+    const auto write_present = [&value, write]() -> std::optional<Node> {
+        if constexpr (requires { value.has_value(); })
+            return value ? write(*value) : std::nullopt;
+        else
+            return write(value);
     };
-    out.write = [&value, format] {
-        std::optional<T> present = value;
-        return format(present).write();
+    const auto read_into = [&value, read](ObjectReader& r, const Node& node, const std::string& key) {
+        if (const auto given = read(r, node, key)) value = *given;
     };
-    return out;
+    return {type, std::move(schema), read_into, write_present};
 }
+
+std::string text_of(const Node& node) { return node.kind == Node::Kind::string ? node.text : ""; }
 
 // ---- files -------------------------------------------------------------------------------------
 
@@ -64,13 +65,14 @@ std::string problem_with_name(const std::string& name, const std::vector<const c
                : "only the output \"frames\" can have '#' in its name; choose another name";
 }
 
-ValueFormat file_format(std::string& file, const std::vector<const char*>& endings, bool numbered) {
+}  // namespace
+
+ValueFormat file_format(std::string& file, std::initializer_list<const char*> allowed, bool numbered) {
+    const std::vector<const char*> endings(allowed);
     const auto read = [&file, endings, numbered](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::string)
-            return r.fail(node, key,
-                          fmt::format("{} must be a file name in quotes, not {}", r.path(key), as_written(node)));
+        if (node.kind != Node::Kind::string) return r.expect(node, key, "a file name in quotes");
         if (std::string problem = problem_with_name(node.text, endings, numbered); !problem.empty())
-            return r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), problem));
+            return r.reject_value(node, key, ": {}", problem);
         file = node.text;
     };
     const auto write = [&file]() -> std::optional<Node> {
@@ -79,14 +81,31 @@ ValueFormat file_format(std::string& file, const std::vector<const char*>& endin
     return {"file name", schema_of_file(endings, numbered), read, write};
 }
 
-}  // namespace
-
-ValueFormat file_format(std::string& file, std::initializer_list<const char*> endings) {
-    return file_format(file, std::vector(endings), false);
+void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const char*> endings, const char* ending,
+                const char* meaning, const char* note) {
+    const std::string text =
+        fmt::format("{}; by default NAME{}, where NAME is the name of the scene.{}", meaning, ending, note);
+    v.value("file", file_format(file, endings, is_numbered(ending)), text.c_str());
+    v.check([&file, ending](ObjectReader& r) {
+        if (file.empty()) file = r.context().scene.name + ending;
+    });
 }
-ValueFormat numbered_file_format(std::string& file) { return file_format(file, {".png"}, true); }
+
+void visit_rows(SceneVisitor& v, double& rate, std::vector<double>& times) {
+    v.number(sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
+             "Rows at the times k/rate, and at the end.");
+    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
+    v.exclusive("rate", "times");
+}
+
+void visit_exaggeration(SceneVisitor& v, std::optional<double>& factor, const char* meaning) {
+    v.number(sim::written_if(factor.has_value(), "exaggeration"), factor, sim::kPlainNumber,
+             sim::between(1, 1e6, "is outside 1 (true shape) … 1e6"), meaning, "auto");
+}
 
 // ---- size and frame rate -----------------------------------------------------------------------
+
+namespace {
 
 std::optional<Size> parse_size(std::string_view text) {
     const std::size_t x = text.find('x');
@@ -97,30 +116,17 @@ std::optional<Size> parse_size(std::string_view text) {
     return fits ? std::optional(Size{*width, *height}) : std::nullopt;
 }
 
-ValueFormat size_format(Size& size) {
-    const auto read = [&size](ObjectReader& r, const Node& node, const std::string& key) {
-        if (const auto parsed = node.kind == Node::Kind::string ? parse_size(node.text) : std::nullopt) {
-            size = *parsed;
-            return;
-        }
-        if (node.kind != Node::Kind::array || node.items.size() != 2)
-            return r.fail(node, key,
-                          fmt::format("{} must be [width, height] or \"WIDTHxHEIGHT\" in pixels, {} to {} each, not {}",
-                                      r.path(key), kSmallestSide, kLargestSide, as_written(node)));
-        Size given;
-        const bool fine = r.integer_value(node.items[0], key + ".0", kSmallestSide, kLargestSide, given.width) &
-                          r.integer_value(node.items[1], key + ".1", kSmallestSide, kLargestSide, given.height);
-        if (fine) size = given;
-    };
-    return {
-        "[width, height] or \"1280x720\"",
-        fmt::format(
-            R"-({{"anyOf": [{{"type": "array", "items": {{"type": "integer", "minimum": {}, "maximum": {}}}, )-"
-            R"-("minItems": 2, "maxItems": 2}}, {{"type": "string", "pattern": "^[0-9]{{2,5}}x[0-9]{{2,5}}$"}}]}})-",
-            kSmallestSide, kLargestSide),
-        read, [&size] {
-            return array_node({integer_node(size.width), integer_node(size.height)});
-        }};
+std::optional<Size> read_size(ObjectReader& r, const Node& node, const std::string& key) {
+    if (const auto parsed = parse_size(text_of(node))) return parsed;
+    Size given;
+    if (node.kind != Node::Kind::array || node.items.size() != 2) {
+        r.expect(node, key, "[width, height] or \"WIDTHxHEIGHT\" in pixels, {} to {} each", kSmallestSide,
+                 kLargestSide);
+        return std::nullopt;
+    }
+    const bool fine = r.integer_value(node.items[0], key + ".0", kSmallestSide, kLargestSide, given.width) &
+                      r.integer_value(node.items[1], key + ".1", kSmallestSide, kLargestSide, given.height);
+    return fine ? std::optional(given) : std::nullopt;
 }
 
 std::optional<FrameRate> parse_frame_rate(std::string_view text) {
@@ -142,31 +148,49 @@ std::optional<FrameRate> parse_frame_rate(std::string_view text) {
     return FrameRate{rate.numerator / divisor, rate.denominator / divisor};
 }
 
+std::optional<FrameRate> read_frame_rate(ObjectReader& r, const Node& node, const std::string& key) {
+    const bool readable = node.kind == Node::Kind::number || node.kind == Node::Kind::string;
+    const auto rate = readable ? parse_frame_rate(node.text) : std::nullopt;
+    if (!rate)
+        r.reject_value(node, key,
+                       " is not a frame rate; write {} … {} frames a second, or a fraction such as \"30000/1001\"",
+                       kSlowestFrameRate, kFastestFrameRate);
+    return rate;
+}
+
+}  // namespace
+
+ValueFormat size_format(Size& size) {
+    const auto write = [](const Size& one) {
+        return std::optional(array_node({integer_node(one.width), integer_node(one.height)}));
+    };
+    return format_of(
+        size, "[width, height] or \"1280x720\"",
+        fmt::format(
+            R"-({{"anyOf": [{{"type": "array", "items": {{"type": "integer", "minimum": {}, "maximum": {}}}, )-"
+            R"-("minItems": 2, "maxItems": 2}}, {{"type": "string", "pattern": "^[0-9]{{2,5}}x[0-9]{{2,5}}$"}}]}})-",
+            kSmallestSide, kLargestSide),
+        read_size, write);
+}
+
 ValueFormat frame_rate_format(FrameRate& rate) {
-    const auto read = [&rate](ObjectReader& r, const Node& node, const std::string& key) {
-        const bool readable = node.kind == Node::Kind::number || node.kind == Node::Kind::string;
-        if (const auto parsed = readable ? parse_frame_rate(node.text) : std::nullopt)
-            rate = *parsed;
-        else
-            r.fail(node, key,
-                   fmt::format("{} = {} is not a frame rate; write {} … {} frames a second, or a fraction such as "
-                               "\"30000/1001\"",
-                               r.path(key), as_written(node), kSlowestFrameRate, kFastestFrameRate));
+    const auto write = [](const FrameRate& one) {
+        return std::optional(one.denominator == 1 ? integer_node(one.numerator)
+                                                  : text_node(fmt::format("{}/{}", one.numerator, one.denominator)));
     };
-    const auto write = [&rate] {
-        return rate.denominator == 1 ? integer_node(rate.numerator)
-                                     : text_node(fmt::format("{}/{}", rate.numerator, rate.denominator));
-    };
-    return {"number or \"30000/1001\"",
-            fmt::format(R"({{"oneOf": [{{"type": "number", "minimum": {}, "maximum": {}}}, {{"type": "string", )"
-                        R"("pattern": "^(?!0+(\\.0*)?(/|$))[0-9]+(\\.[0-9]+|/[0-9]*[1-9][0-9]*)?$"}}]}})",
-                        kSlowestFrameRate, kFastestFrameRate),
-            read, write};
+    return format_of(
+        rate, "number or \"30000/1001\"",
+        fmt::format(R"({{"oneOf": [{{"type": "number", "minimum": {}, "maximum": {}}}, {{"type": "string", )"
+                    R"("pattern": "^(?!0+(\\.0*)?(/|$))[0-9]+(\\.[0-9]+|/[0-9]*[1-9][0-9]*)?$"}}]}})",
+                    kSlowestFrameRate, kFastestFrameRate),
+        read_frame_rate, write);
 }
 
 // ---- instants and speed ------------------------------------------------------------------------
 
-std::optional<Instant> parse_instant(std::string_view text) {
+namespace {
+
+std::optional<Instant> parse_event(std::string_view text) {
     if (text == "last") return Instant{.kind = Instant::Kind::last};
     for (const EventWord& event : kEventWords) {
         if (!text.starts_with(event.word)) continue;
@@ -179,77 +203,65 @@ std::optional<Instant> parse_instant(std::string_view text) {
     return std::nullopt;
 }
 
-bool names_event(std::string_view text) {
+std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std::string& key) {
+    const std::string text = text_of(node);
     const auto begins = [&](const EventWord& event) { return text.starts_with(event.word); };
-    return text.starts_with("last") || std::ranges::any_of(kEventWords, begins);
+    if (text.starts_with("last") || std::ranges::any_of(kEventWords, begins)) {
+        const auto event = parse_event(text);
+        if (!event)
+            r.reject_value(node, key, ": events are counted from 1: impact:1, collision:2, apex:1, release:3, touch");
+        return event;
+    }
+    double t = 0;
+    const bool fine = r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t);
+    return fine ? std::optional(Instant{.t = t}) : std::nullopt;
 }
 
-namespace {
-
-std::optional<Node> written(const std::optional<Instant>& at) {
-    if (!at) return std::nullopt;
-    if (at->kind == Instant::Kind::time) return number_node(at->t);
+std::optional<Node> written(const Instant& at) {
+    if (at.kind == Instant::Kind::time) return number_node(at.t);
     for (const EventWord& event : kEventWords)
-        if (event.kind == at->kind) return text_node(fmt::format("{}:{}", event.word, at->number));
+        if (event.kind == at.kind) return text_node(fmt::format("{}:{}", event.word, at.number));
     return text_node("last");
+}
+
+template <class Value>
+ValueFormat format_of_instant(Value& at) {
+    return format_of(at, "time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"",
+                     R"({"$ref": "#/$defs/instant"})", read_instant, written);
+}
+
+template <class Time>  // double, or std::optional<double>
+ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
+    static std::optional<Instant> none;
+    ValueFormat out = format_of_instant(none);
+    out.read = [&](ObjectReader& r, const Node& node, const std::string& key) {
+        const auto at = read_instant(r, node, key);
+        if (!at) return;
+        event = at->is_event() ? at : std::nullopt;
+        if (at->kind == Instant::Kind::time)
+            time = at->t;
+        else if constexpr (requires { time.reset(); })
+            time.reset();
+    };
+    out.write = [&]() -> std::optional<Node> {
+        const std::optional<double> t = time;
+        return event ? written(*event) : t ? std::optional(number_node(*t)) : std::nullopt;
+    };
+    return out;
 }
 
 }  // namespace
 
-ValueFormat instant_format(std::optional<Instant>& at) {
-    const auto read = [&at](ObjectReader& r, const Node& node, const std::string& key) {
-        double t = 0;
-        if (node.kind == Node::Kind::string && names_event(node.text)) {
-            if (const auto instant = parse_instant(node.text))
-                at = instant;
-            else
-                r.fail(node, key, fmt::format("{} = {}: {}", r.path(key), in_quotes(node.text), kEventsCount));
-        } else if (r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t)) {
-            at = {.kind = Instant::Kind::time, .t = t};
-        }
-    };
-    return {"time, \"impact:N\", \"collision:N\", \"apex:N\", \"touch\", \"release\" or \"last\"",
-            R"({"$ref": "#/$defs/instant"})", read, [&at] { return written(at); }};
-}
-
-ValueFormat instant_format(Instant& at) { return of_present(at, instant_format); }
-
-void set_bound(const Instant& at, std::optional<double>& time, std::optional<Instant>& event) {
-    event.reset();
-    time.reset();
-    if (at.is_event())
-        event = at;
-    else if (at.kind == Instant::Kind::time)
-        time = at.t;
-}
-
+ValueFormat instant_format(Instant& at) { return format_of_instant(at); }
+ValueFormat instant_format(std::optional<Instant>& at) { return format_of_instant(at); }
+ValueFormat bound_format(double& time, std::optional<Instant>& event) { return format_of_bound(time, event); }
 ValueFormat bound_format(std::optional<double>& time, std::optional<Instant>& event) {
-    std::optional<Instant> unused;
-    ValueFormat out = instant_format(unused);
-    out.read = [&](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<Instant> read;
-        instant_format(read).read(r, node, key);
-        if (read) set_bound(*read, time, event);
-    };
-    out.write = [&] { return event ? written(event) : time ? written(Instant{.t = *time}) : std::nullopt; };
-    return out;
-}
-
-ValueFormat bound_format(double& time, std::optional<Instant>& event) {
-    std::optional<double> unused;
-    ValueFormat out = bound_format(unused, event);
-    out.read = [&](ObjectReader& r, const Node& node, const std::string& key) {
-        std::optional<double> read;
-        bound_format(read, event).read(r, node, key);
-        time = read.value_or(time);
-    };
-    out.write = [&] { return event ? written(event) : written(Instant{.t = time}); };
-    return out;
+    return format_of_bound(time, event);
 }
 
 ValueFormat speed_format(Speed& speed) {
     const auto read = [&speed](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind == Node::Kind::string && node.text == "impacts")
+        if (text_of(node) == "impacts")
             speed.around = SlowMotion{}, speed.intervals.clear();
         else
             r.ranged_value(node, key, sim::dimension::kNone, kSpeedRange, speed.factor);
@@ -267,48 +279,50 @@ ValueFormat speed_format(Speed& speed) {
 
 namespace {
 
-constexpr std::pair<render::Anchor::Kind, const char*> kAnchors[] = {{render::Anchor::Kind::all, "all"},
-                                                                     {render::Anchor::Kind::tip, "tip"},
-                                                                     {render::Anchor::Kind::contact, "contact"},
-                                                                     {render::Anchor::Kind::cam, "cam"},
-                                                                     {render::Anchor::Kind::hub, "hub"}};
+constexpr sim::Named<render::Anchor::Kind> kAnchors[] = {{render::Anchor::Kind::all, "all"},
+                                                         {render::Anchor::Kind::tip, "tip"},
+                                                         {render::Anchor::Kind::contact, "contact"},
+                                                         {render::Anchor::Kind::cam, "cam"},
+                                                         {render::Anchor::Kind::hub, "hub"}};
 
-std::optional<Node> written(const std::optional<render::Anchor>& anchor) {
-    if (!anchor) return std::nullopt;
-    for (const auto& [kind, name] : kAnchors)
-        if (anchor->kind == kind) return text_node(name);
-    return numbers_node({anchor->place.x, anchor->place.y});
+std::optional<render::Anchor> read_anchor(ObjectReader& r, const Node& node, const std::string& key) {
+    if (node.kind == Node::Kind::array && node.items.size() == 2) {
+        sim::Vec2 at;
+        const bool fine = r.number_value(node.items[0], key + ".0", sim::dimension::kLength, at.x) &&
+                          r.number_value(node.items[1], key + ".1", sim::dimension::kLength, at.y);
+        return fine ? std::optional(render::Anchor{render::Anchor::Kind::place, at}) : std::nullopt;
+    }
+    std::vector<std::string> names;
+    for (const auto& [kind, name] : kAnchors) {
+        if (text_of(node) == name) return render::Anchor{kind, {}};
+        names.emplace_back(name);
+    }
+    r.reject_value(node, key, " is neither a place [x, y] nor a part of the mechanism{}",
+                   suggestion_or_list(node.text, names));
+    return std::nullopt;
+}
+
+template <class Value>
+ValueFormat format_of_anchor(Value& anchor) {
+    const auto write = [](const render::Anchor& one) -> std::optional<Node> {
+        for (const auto& [kind, name] : kAnchors)
+            if (one.kind == kind) return text_node(name);
+        return numbers_node({one.place.x, one.place.y});
+    };
+    return format_of(anchor, "\"all\", \"tip\", \"contact\", \"cam\", \"hub\" or [x, y]",
+                     R"({"$ref": "#/$defs/anchor"})", read_anchor, write);
 }
 
 }  // namespace
 
-ValueFormat anchor_format(std::optional<render::Anchor>& anchor) {
-    const auto read = [&anchor](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind == Node::Kind::array && node.items.size() == 2) {
-            sim::Vec2 at;
-            if (r.number_value(node.items[0], key + ".0", sim::dimension::kLength, at.x) &&
-                r.number_value(node.items[1], key + ".1", sim::dimension::kLength, at.y))
-                anchor = {render::Anchor::Kind::place, at};
-            return;
-        }
-        std::vector<std::string> names;
-        for (const auto& [kind, name] : kAnchors) {
-            if (node.kind == Node::Kind::string && node.text == name) return void(anchor = {kind, {}});
-            names.emplace_back(name);
-        }
-        r.fail(node, key,
-               fmt::format("{} = {} is neither a place [x, y] nor a part of the mechanism{}", r.path(key),
-                           as_written(node), suggestion_or_list(node.text, names)));
-    };
-    return {"\"all\", \"tip\", \"contact\", \"cam\", \"hub\" or [x, y]", R"({"$ref": "#/$defs/anchor"})", read,
-            [&anchor] { return written(anchor); }};
-}
-
-ValueFormat anchor_format(render::Anchor& anchor) { return of_present(anchor, anchor_format); }
+ValueFormat anchor_format(render::Anchor& anchor) { return format_of_anchor(anchor); }
+ValueFormat anchor_format(std::optional<render::Anchor>& anchor) { return format_of_anchor(anchor); }
 
 // ---- colours, parts of the picture -------------------------------------------------------------
 
-static std::optional<std::uint32_t> color_of(std::string_view text) {
+namespace {
+
+std::optional<std::uint32_t> parse_color(std::string_view text) {
     if (text.size() != 7 || text.front() != '#') return std::nullopt;
     std::uint32_t value = 0;
     const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), value, 16);
@@ -316,74 +330,60 @@ static std::optional<std::uint32_t> color_of(std::string_view text) {
     return value;
 }
 
-ValueFormat color_format(std::optional<std::uint32_t>& color) {
-    const auto read = [&color](ObjectReader& r, const Node& node, const std::string& key) {
-        color = node.kind == Node::Kind::string ? color_of(node.text) : std::nullopt;
-        if (!color)
-            r.fail(
-                node, key,
-                fmt::format("{} = {} is not a colour; write for example \"#0072b2\"", r.path(key), as_written(node)));
-    };
-    const auto write = [&color]() -> std::optional<Node> {
-        if (!color) return std::nullopt;
-        return text_node(fmt::format("#{:06x}", *color));
-    };
-    return {"\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read, write};
-}
+Node color_node(std::uint32_t color) { return text_node(fmt::format("#{:06x}", color)); }
 
-bool set_background(std::string_view text, render::View& view) {
-    view.transparent = text == "transparent";
-    view.paper.reset();
-    if (view.transparent || text == "paper") return true;
-    view.paper = color_of(text);
-    return view.paper.has_value();
+}  // namespace
+
+ValueFormat color_format(std::optional<std::uint32_t>& color) {
+    const auto read = [](ObjectReader& r, const Node& node, const std::string& key) {
+        const auto given = parse_color(text_of(node));
+        if (!given) r.reject_value(node, key, " is not a colour; write for example \"#0072b2\"");
+        return given;
+    };
+    return format_of(color, "\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read,
+                     [](std::uint32_t one) { return std::optional(color_node(one)); });
 }
 
 ValueFormat background_format(render::View& view) {
     const auto read = [&view](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::string || !set_background(node.text, view))
-            r.fail(node, key,
-                   fmt::format("{} = {} is not a background; write \"paper\", \"transparent\" or a colour such as "
-                               "\"#f4f1ea\"",
-                               r.path(key), as_written(node)));
+        const std::string text = text_of(node);
+        view.transparent = text == "transparent";
+        view.paper = parse_color(text);
+        if (!view.transparent && !view.paper && text != "paper")
+            r.reject_value(node, key,
+                           " is not a background; write \"paper\", \"transparent\" or a colour such as \"#f4f1ea\"");
     };
     const auto write = [&view] {
-        return text_node(view.paper ? fmt::format("#{:06x}", *view.paper) : view.transparent ? "transparent" : "paper");
+        return view.paper ? color_node(*view.paper) : text_node(view.transparent ? "transparent" : "paper");
     };
     return {"\"paper\", \"transparent\" or \"#rrggbb\"",
             R"({"anyOf": [{"enum": ["paper", "transparent"]}, {"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"}]})",
             read, write};
 }
 
-std::optional<render::Shown> shown_preset(std::string_view name) {
-    if (name == "all") return render::Shown{};
-    if (name == "talk") return render::Shown{.parameters = false, .accuracy = false};
-    if (name == "paper") return render::Shown{.title = false, .parameters = false, .accuracy = false};
-    if (name == "clean") return render::Shown{false, false, false, false, false, false};
-    return std::nullopt;
-}
-
-static render::Shown sized(render::Shown show, double size) {
-    show.size = size;
-    return show;
-}
-
 ValueFormat show_format(render::Shown& show) {
-    const auto read = [&show](ObjectReader& r, const Node& node, const std::string& key) {
-        const auto preset = node.kind == Node::Kind::string ? shown_preset(node.text) : std::nullopt;
-        if (preset)
-            show = sized(*preset, show.size);
-        else
-            r.fail(node, key,
-                   fmt::format("{} = {} is not a preset{}", r.path(key), as_written(node),
-                               suggestion_or_list(node.text, {std::begin(kPresets), std::end(kPresets)})));
+    static const std::pair<std::string, render::Shown> kPresets[] = {
+        {"all", {}},
+        {"talk", {.parameters = false, .accuracy = false}},
+        {"paper", {.title = false, .parameters = false, .accuracy = false}},
+        {"clean", {false, false, false, false, false, false}}};
+    static const std::vector<std::string> kNames{"all", "talk", "paper", "clean"};
+    // Presets do not change the size of the text.
+    const auto sized = [](render::Shown preset, double size) {
+        preset.size = size;
+        return preset;
     };
-    const auto write = [&show]() -> std::optional<Node> {
-        for (const char* name : kPresets)
-            if (show == sized(*shown_preset(name), show.size)) return text_node(name);
+    const auto read = [&show, sized](ObjectReader& r, const Node& node, const std::string& key) {
+        for (const auto& [name, preset] : kPresets)
+            if (text_of(node) == name) return void(show = sized(preset, show.size));
+        r.reject_value(node, key, " is not a preset{}", suggestion_or_list(node.text, kNames));
+    };
+    const auto write = [&show, sized]() -> std::optional<Node> {
+        for (const auto& [name, preset] : kPresets)
+            if (show == sized(preset, show.size)) return text_node(name);
         return std::nullopt;
     };
-    return {"preset or object", fmt::format(R"({{"enum": ["{}"]}})", fmt::join(kPresets, "\", \"")), read, write};
+    return {"preset or object", one_line(object_node({{"enum", texts_node(kNames)}})), read, write};
 }
 
 // ---- channels ----------------------------------------------------------------------------------
@@ -397,20 +397,15 @@ std::vector<std::string> channel_names(const std::vector<sim::Channel>& channels
 void read_channels(ObjectReader& r, const Node& node, const std::string& key, const std::vector<sim::Channel>& allowed,
                    std::vector<sim::Channel>& out) {
     if (node.kind != Node::Kind::array || node.items.empty())
-        return r.fail(node, key,
-                      fmt::format("{} must be an array of names such as [\"theta\", \"gap\"], not {}", r.path(key),
-                                  as_written(node)));
+        return r.expect(node, key, "an array of names such as [\"theta\", \"gap\"]");
     const std::vector<std::string> names = channel_names(allowed);
     for (std::size_t i = 0; i < node.items.size(); ++i) {
         const Node& item = node.items[i];
         const std::string at = fmt::format("{}.{}", key, i);
-        const auto fail = [&](const std::string& problem) {
-            r.fail(item, at, fmt::format("{} = {} {}", r.path(at), as_written(item), problem));
-        };
+        const auto fail = [&](const std::string& problem) { r.reject_value(item, at, " {}", problem); };
         const auto found = std::ranges::find(names, item.text);
         if (item.kind != Node::Kind::string)
-            r.fail(item, at,
-                   fmt::format("{} must be the name of a channel in quotes, not {}", r.path(at), as_written(item)));
+            r.expect(item, at, "the name of a channel in quotes");
         else if (found == names.end())
             fail(sim::channel_named(item.text) ? "is not a coordinate of this beam"
                                                : "is not a channel" + suggestion_or_list(item.text, names));
@@ -428,16 +423,15 @@ ValueFormat channels_format(std::vector<sim::Channel>& channels) {
     };
     const auto write = [&channels]() -> std::optional<Node> {
         if (channels.empty()) return std::nullopt;
-        Node names = array_node();
-        for (std::string& name : channel_names(channels)) names.items.push_back(text_node(std::move(name)));
-        return names;
+        return texts_node(channel_names(channels));
     };
     return {"[channel, …]",
             R"({"type": "array", "minItems": 1, "uniqueItems": true, "items": {"$ref": "#/$defs/channel"}})", read,
             write};
 }
 
-std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem) {
+// One panel for each unit, in order of first occurrence.
+static std::vector<SeriesPanel> panels_by_unit(const std::vector<sim::Channel>& channels, const sim::Problem& problem) {
     std::vector<SeriesPanel> panels;
     for (const sim::Channel& channel : channels) {
         const auto same = std::ranges::find(
@@ -468,9 +462,8 @@ ValueFormat abscissa_format(std::string& against) {
         std::vector<std::string> known = channel_names(all_channels(r.context().scene.problem));
         known.insert(known.begin(), {"turns", "phase", "frequency"});
         if (node.kind != Node::Kind::string || std::ranges::find(known, node.text) == known.end())
-            return r.fail(node, key,
-                          fmt::format("{} = {} is neither \"turns\", \"phase\", \"frequency\" nor a channel{}",
-                                      r.path(key), as_written(node), suggestion_or_list(node.text, known)));
+            return r.reject_value(node, key, " is neither \"turns\", \"phase\", \"frequency\" nor a channel{}",
+                                  suggestion_or_list(node.text, known));
         against = node.text;
     };
     return {"channel, \"turns\", \"phase\" or \"frequency\"",

@@ -96,11 +96,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
         is_picture(one) || std::holds_alternative<FigureOutput>(one) || std::holds_alternative<SummaryOutput>(one);
     if (!shows_data) inputs.data.clear();
     for (const Measurement& each : inputs.data) other += "\n" + each.digest;
-    std::visit(
-        [&other](const auto& o) {
-            if constexpr (std::is_base_of_v<Picture, std::decay_t<decltype(o)>>) other += o.logo_digest;
-        },
-        one);
+    if (const auto* picture = std::get_if<PictureOutput>(&one)) other += picture->logo_digest;
     if (figure) {  // not part of the scene
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
         other += fmt::format("\n{}", epoch ? epoch : "");

@@ -6,7 +6,7 @@
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
-#include "scenes/plan/figure_times.hpp"
+#include "scenes/plan/output_times.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
@@ -88,24 +88,21 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
     v.list(key("panels"), panels, "Of \"series\": the panels, from top to bottom.");
     v.exclusive("channels", "panels");
-    v.value(
-        key("x"), abscissa_format(series.against),
-        "Of \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), \"frequency\" "
-        "(amplitude spectra with a Hann window), or a channel.");
+    v.value(key("x"), abscissa_format(series.against),
+            "Of \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), "
+            "\"frequency\" (amplitude spectra with a Hann window), or a channel.");
     v.number(key("x_low"), series.x_low, sim::kPlainNumber, sim::kAny,
              "Of \"series\": lower end of the abscissa, in SI units.");
     v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny,
              "Of \"series\": upper end of the abscissa, in SI units.");
-    v.value(
-        sim::written_if(interval && !series.at, "from"), bound_format(series.from, series.from_event),
-        "Of \"series\", \"kymograph\", \"spectrogram\", \"strobe\", \"impact-maps\" and \"impact-histograms\": first "
-        "instant. Events are those of the first motion of the figure.");
+    v.value(sim::written_if(interval && !series.at, "from"), bound_format(series.from, series.from_event),
+            "Of \"series\", \"kymograph\", \"spectrogram\", \"strobe\", \"impact-maps\" and \"impact-histograms\": "
+            "first instant. Events are those of the first motion of the figure.");
     v.value(sim::written_if(interval && !series.at, "to"), bound_format(series.to, series.to_event),
             "Last instant; by default the end of the scene.");
     v.value(sim::written_if(figure == "strobe", "at"), instant_format(series.at),
             "Of \"strobe\", in place of \"from\" and \"to\": the only instant of the figure, a line drawing for print "
-            "with the "
-            "bodies to scale and the contact force.");
+            "with the bodies to scale and the contact force.");
     v.exclusive("at", "from");
     v.exclusive("at", "to");
     v.boolean(key("impacts"), series.impacts, "Of \"series\": vertical lines at the beginnings of impacts.");
@@ -116,11 +113,9 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     List notes = SceneVisitor::items_of(series.notes);
     notes.max_size = 12, notes.of = "notes", notes.example = "[{\"at\": \"impact:1\", \"text\": \"first touch\"}]";
     v.list(key("notes"), notes, "Of \"series\": vertical lines with a text.");
-    List compare = SceneVisitor::items_of(series.compare);
-    compare.min_size = 2, compare.max_size = kMostCompared, compare.of = "motions";
-    compare.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
     v.constrain_schema(series_constraint().c_str());
-    v.list(key("compare"), compare, "Of \"series\": the motions of the figure, as in pictures.");
+    v.list(key("compare"), compared_motions(series.compare),
+           "Of \"series\": the motions of the figure, as in pictures.");
     v.choice(key("comparison"), series.apart, {{false, "overlay"}, {true, "panels"}},
              "Of \"series\": overlay: all motions in each panel; panels: separate panels for each motion, with equal "
              "scales.");
@@ -141,7 +136,7 @@ void FigureOutput::visit(SceneVisitor& v) {
     v.choice("font", serif, {{false, "sans"}, {true, "serif"}},
              "Liberation Sans, similar to Arial, or Liberation Serif, similar to Times.");
     v.choice("theme", dark, {{false, "light"}, {true, "dark"}}, "Colours for white paper, or for dark slides.");
-    v.choice("lang", lang, {{Lang::en, "en"}, {Lang::zh, "zh"}}, "Language of labels and caption.");
+    v.choice("lang", lang, kLanguages, "Language of labels and caption.");
     v.number("width", width, dim::kLength,
              between(0.03, 1, "is outside 30 … 1000 mm; a plain number is in metres, \"90 mm\" says its unit"),
              "Width; by default that of the column.");

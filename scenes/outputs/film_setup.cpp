@@ -27,21 +27,21 @@ std::shared_ptr<PoseSpool> stored(const std::vector<sim::Pose>& held, const sim:
     return poses;
 }
 
-render::Motion motion_of(const sim::Problem& problem, sim::Result& result, std::size_t poses, std::size_t chart,
-                         std::optional<std::size_t> trace) {
+render::Motion motion_of(const Pictures& p, const sim::Problem& problem, const PictureRequests& at,
+                         const StoredPoses& poses, sim::Result& result) {
     render::Motion motion;
     motion.problem = problem;
-    motion.poses = std::move(result.poses[poses]);
-    motion.chart = std::move(result.tables[chart]);
-    if (trace) motion.trace = std::move(result.tables[*trace]);
+    motion.poses = std::move(result.poses[at.poses]);
+    motion.chart = std::move(result.tables[at.chart]);
+    if (at.trace) motion.trace = std::move(result.tables[*at.trace]);
     motion.impacts = result.impacts;
+    motion.stored = poses.frames;
+    motion.survey = poses.survey;
+    motion.exposures = p.view.poses();
+    if (p.horizon)  // curves are paler where θ is not reproducible
+        for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
+            motion.unreliable.push_back({lost.from, lost.to});
     return motion;
-}
-
-// Makes the curves of a motion paler where θ is not reproducible.
-void mark_unreliable(const sim::Result& result, render::Motion& motion) {
-    for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
-        motion.unreliable.push_back({lost.from, lost.to});
 }
 
 // The intervals of a single motion; compared motions have different ones.
@@ -79,13 +79,8 @@ void add_compared(const Pictures& p, std::vector<sim::Result>& results, const st
         const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
         if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
         if (result.beyond_model) beyond = beyond_model(each.problem);
-        render::Motion motion =
-            motion_of(each.problem, result, 0, 0, each.problem.cam ? std::optional<std::size_t>(1) : std::nullopt);
+        render::Motion motion = motion_of(p, each.problem, each.of_picture, poses[i], result);
         motion.label = each.label;
-        motion.stored = poses[i].frames;
-        motion.survey = poses[i].survey;
-        motion.exposures = p.picture.view.poses();
-        if (p.picture.horizon) mark_unreliable(result, motion);
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
@@ -108,32 +103,31 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     const Pictures& p = plan.pictures[picture];
     render::FilmSetup setup;
     setup.title = scene.title;
-    setup.width = p.picture.size.width;
-    setup.height = p.picture.size.height;
-    setup.view = p.picture.view;
-    setup.logo = p.picture.logo_image;
+    setup.width = p.size.width;
+    setup.height = p.size.height;
+    setup.view = p.view;
+    setup.logo = p.logo_image;
     setup.units = scene.units;
-    setup.layout = p.picture.layout;
-    setup.comparison = p.picture.comparison;
+    setup.layout = p.layout;
+    setup.comparison = p.comparison;
     if (p.kind != Pictures::Kind::still) setup.fps = p.span.fps.value();
     setup.speeds = p.speeds;
     setup.slow_motion = is_slow_motion(p);
     setup.callouts = p.callouts;
     setup.data = data_of(scene);
     setup.moves = p.moves;
-    setup.view.strobe = p.picture.view.strobe_every.has_value();
+    setup.view.strobe = p.view.strobe_every.has_value();
     if (!p.compared.empty()) {
         add_compared(p, results.compared[picture], results.compared_poses[picture], setup);
         setup.accuracy_note += paler_note(setup);
         return setup;
     }
-    static_cast<render::Motion&>(setup) = motion_of(scene.problem, results.run, p.poses, p.chart, p.trace);
-    if (results.poses.empty())
-        setup.survey = stored(results.run.poses[p.survey], plan.simulation->request.poses[p.survey]);
+    StoredPoses poses;
+    if (results.poses.empty())  // the results contain the poses
+        poses.survey = stored(results.run.poses[p.of_scene.survey], plan.simulation->request.poses[p.of_scene.survey]);
     else
-        setup.stored = results.poses[picture].frames, setup.survey = results.poses[picture].survey;
-    setup.exposures = p.picture.view.poses();
-    if (p.picture.horizon) mark_unreliable(results.run, setup);
+        poses = results.poses[picture];
+    static_cast<render::Motion&>(setup) = motion_of(p, scene.problem, p.of_scene, poses, results.run);
     setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p)) + paler_note(setup);
     setup.impacts = results.seen_by(p).impacts;
     return setup;

@@ -7,11 +7,7 @@
 
 namespace beamcam::scenes {
 
-void ImpactsOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".json", ".csv"}),
-            "Name of the file; by default NAME-impacts.json, where NAME is the name of the scene.");
-    v.check([this](ObjectReader& r) { name_after_scene(r, file, "-impacts.json"); });
-}
+void ImpactsOutput::visit(SceneVisitor& v) { visit_file(v, file, {".json", ".csv"}, "-impacts.json"); }
 
 void ImpactsOutput::plan(Planner& planner, std::size_t output) const {
     const auto write = [](const DataSource& from) {

@@ -4,7 +4,6 @@
 #include <set>
 
 #include "output/files/atomic_file.hpp"
-#include "scenes/figures/figure_files.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
@@ -68,8 +67,7 @@ std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
     std::vector<fs::path> all;
     for (const Pictures& p : plan.pictures) std::ranges::move(files_of(p), std::back_inserter(all));
     for (const FigureFile& f : plan.figures)
-        for (const std::string& file : scenes::files_of(std::get<FigureOutput>(scene_.outputs[f.output])))
-            all.push_back(path_of(file));
+        for (const std::string& file : written_by(scene_.outputs[f.output])) all.push_back(path_of(file));
     for (const DataFile& d : plan.data)
         if (!is_stdout(d.file)) all.push_back(path_of(d.file));
     return all;

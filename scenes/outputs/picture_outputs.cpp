@@ -4,7 +4,7 @@
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
-#include "scenes/plan/picture_times.hpp"
+#include "scenes/plan/output_times.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
@@ -37,10 +37,8 @@ static void visit_camera(SceneVisitor& v, View& view) {
     v.number("zoom", view.shot.zoom, dim::kNone, kZooms, "Magnification of the mechanism; 1 shows all of its motion.");
     v.value("follow", anchor_format(view.shot.follow),
             "The point at the centre of the picture: of everything that the film shows (all), the tip, the contact "
-            "(where beam and "
-            "cam are nearest), the axis of the cam or of the hub, or a place [x, y]. The camera follows the mean over "
-            "a third "
-            "of a second of film time, so that it does not vibrate.");
+            "(where beam and cam are nearest), the axis of the cam or of the hub, or a place [x, y]. The camera "
+            "follows the mean over a third of a second of film time, so that it does not vibrate.");
     v.number("yaw", view.shot.yaw, dim::kAngle, kVisible,
              "In the solid view: yaw angle, to the right of the normal of the plane of motion.");
     v.number("pitch", view.shot.pitch, dim::kAngle, kVisible, "In the solid view: pitch angle, above the horizontal.");
@@ -52,20 +50,18 @@ static void visit_camera(SceneVisitor& v, View& view) {
 }
 
 static void visit(SceneVisitor& v, View& view) {
-    using render::Style, render::TraceColor;
-    v.choice(
-        "style", view.style, {{Style::lit, "lit"}, {Style::flat, "flat"}, {Style::solid, "solid"}},
-        "lit: shaded metal from the front (OpenGL); flat: a line drawing; solid: bodies in perspective with shadows "
-        "(OpenGL).");
+    using render::TraceColor;
+    v.choice("style", view.style, kStyles,
+             "lit: shaded metal from the front (OpenGL); flat: a line drawing; solid: bodies in perspective with "
+             "shadows (OpenGL).");
     v.choice("trace", view.trace, {{TraceColor::force, "force"}, {TraceColor::age, "age"}},
              "Colour of the contact's trace on the disc: the largest force, or the time since the last touch.");
-    v.choice(
-        "tip_path", view.tip_path, {{false, "recent"}, {true, "whole"}},
-        "recent: path of the tip during the last frames; whole: since the first instant of the film, in a still since "
-        "the start of the motion.");
+    v.choice("tip_path", view.tip_path, {{false, "recent"}, {true, "whole"}},
+             "recent: path of the tip during the last frames; whole: since the first instant of the film, in a still "
+             "since the start of the motion.");
     const bool moved = !(view.shot == render::Shot{}) || !view.keyframes.empty();
     v.object(
-        written_if(moved || view.style == Style::solid, "camera"),
+        written_if(moved || view.style == render::Style::solid, "camera"),
         [&view](sim::Visitor& inside) { visit_camera(static_cast<SceneVisitor&>(inside), view); }, "The camera.",
         nullptr);
     v.number("shutter", view.shutter, dim::kAngle,
@@ -73,19 +69,15 @@ static void visit(SceneVisitor& v, View& view) {
              "Motion blur: shutter angle; 360 deg is the time from frame to frame, 180 deg is usual for cameras.");
     v.number("strobe", view.strobe_every, dim::kTime, kPositive,
              "Multiple exposure: the picture also shows the beam at the multiples of this time; cam and hub are shown "
-             "at the "
-             "instant of the frame only.");
+             "at the instant of the frame only.");
     v.exclusive("shutter", "strobe");
     v.integer(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
               "Number of instants while the shutter is open, or of the latest flashes.");
     v.check([&view](ObjectReader& r) { check_view(r, view); });
-    v.number(
-        written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
-        between(1, 1e6, "is outside 1 (true shape) … 1e6"),
-        "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor that suits the "
-        "motion "
-        "during the film (at any frame rate), during the scene (stills at events) or before the instant of a still.",
-        "auto");
+    visit_exaggeration(v, view.exaggeration,
+                       "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor "
+                       "that suits the motion during the film (at any frame rate), during the scene (stills at events) "
+                       "or before the instant of a still.");
 }
 
 static void visit(SceneVisitor& v, render::Shown& show) {
@@ -104,32 +96,33 @@ static void visit(SceneVisitor& v, render::OwnColors& colors) {
     v.value("steel", color_format(colors.steel), "Bodies.");
 }
 
-static void visit_picture(SceneVisitor& v, Picture& picture) {
-    using render::Theme, render::Comparison, render::LayerOf;
-    v.object("view", picture.view, "View of the mechanism.");
-    v.choice("theme", picture.view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
+static void visit_theme(SceneVisitor& v, View& view) {
+    using render::Theme;
+    v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
              "Colour theme.");
+}
+
+static void visit_picture(SceneVisitor& v, Picture& picture) {
+    using render::Comparison, render::LayerOf;
+    v.object("view", picture.view, "View of the mechanism.");
+    visit_theme(v, picture.view);
     v.value(
         "background", background_format(picture.view),
         "paper: background of the theme; \"#rrggbb\": this colour; transparent: none, if the file format allows it.");
-    v.value_or_object(
-        "show", show_format(picture.view.show), SceneVisitor::keys_of(picture.view.show),
-        "The parts around the panels: all, a preset (talk: no parameters and accuracy; paper: only labels, legend and "
-        "clock; clean: none), or an object that removes parts. Without the legend the picture does not state the "
-        "factor of "
-        "the deflection.");
+    v.value_or_object("show", show_format(picture.view.show), SceneVisitor::keys_of(picture.view.show),
+                      "The parts around the panels: all, a preset (talk: no parameters and accuracy; paper: only "
+                      "labels, legend and clock; clean: none), or an object that removes parts. Without the legend the "
+                      "picture does not state the factor of the deflection.");
     v.object(written_if(picture.view.colors != render::OwnColors{}, "palette"),
              SceneVisitor::keys_of(picture.view.colors), "Colours that replace those of the theme.", nullptr);
     v.text(written_if(!picture.logo.empty(), "logo"), picture.logo,
            "A PNG picture, path relative to the scene's folder, in the lower right corner: at the height of the clock, "
-           "right of "
-           "the colour scales, or above them if they are below the clock.");
+           "right of the colour scales, or above them if they are below the clock.");
     v.choice(written_if(picture.view.layer != LayerOf::all, "layer"), picture.view.layer,
              {{LayerOf::all, "all"}, {LayerOf::mechanism, "mechanism"}, {LayerOf::charts, "charts"}},
              "Part of the picture that is drawn: the mechanism only, or everything else. With a transparent background "
-             "the two "
-             "layers combine to the whole picture.");
-    v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
+             "the two layers combine to the whole picture.");
+    v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, kLanguages,
              "Language of labels, subtitles and chapters.");
     v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
              between(0.5, 4, "is outside 0.5 … 4"),
@@ -147,17 +140,12 @@ static void visit_picture(SceneVisitor& v, Picture& picture) {
              {{Comparison::panels, "panels"}, {Comparison::ghosts, "ghosts"}},
              "panels: a separate mechanism for each motion; ghosts: one mechanism, with the motions after the first as "
              "outlines.");
-    List compare = SceneVisitor::items_of(picture.compare);
-    compare.min_size = 2, compare.max_size = kMostCompared, compare.of = "motions";
-    compare.example = "[{\"label\": \"flexible\"}, {\"label\": \"rigid\", \"set\": {\"beam.model\": \"rigid\"}}]";
-    v.list("compare", compare,
+    v.list("compare", compared_motions(picture.compare),
            "The motions that the picture shows at equal times: the mechanics of this or another scene, with changes. "
-           "The first "
-           "one is the main motion.");
-    v.boolean(
-        written_if(picture.horizon, "horizon"), picture.horizon,
-        "Curves against time are paler during the intervals in which θ is not reproducible; needs further runs with "
-        "tighter tolerances and another method.");
+           "The first one is the main motion.");
+    v.boolean(written_if(picture.horizon, "horizon"), picture.horizon,
+              "Curves against time are paler during the intervals in which θ is not reproducible; needs further runs "
+              "with tighter tolerances and another method.");
     v.check([&picture](ObjectReader& r) { check_picture(r, picture); });
 }
 
@@ -169,8 +157,7 @@ static void visit(SceneVisitor& v, SpeedInterval& interval) {
     v.number("factor", interval.factor, dim::kNone, kSpeedRange, "Playback speed in the interval; 1 is real time.");
     v.check([&interval](ObjectReader& r) {
         const bool times = interval.from.kind == Instant::Kind::time && interval.to.kind == Instant::Kind::time;
-        if (times && !(interval.from.t < interval.to.t))
-            r.fail("to", fmt::format("{} must be later than \"from\"", r.path("to")));
+        if (times && !(interval.from.t < interval.to.t)) r.reject("to", " must be later than \"from\"");
     });
 }
 
@@ -213,10 +200,9 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
     v.number(written_if(event.fade > 0, "fade"), event.fade, dim::kTime, kNotNegative,
              "Time of fading in and out, in film time.");
     v.check([&event](ObjectReader& r) { check_words(r, "text", event.text); });
-    v.number(
-        "show", event.show, dim::kTime, kNotNegative,
-        "Duration of the text in film time, at least the duration of the freeze. By default 1.5 s, or until the next "
-        "text.");
+    v.number("show", event.show, dim::kTime, kNotNegative,
+             "Duration of the text in film time, at least the duration of the freeze. By default 1.5 s, or until the "
+             "next text.");
 }
 
 static void visit_span(SceneVisitor& v, FrameSpan& span) {
@@ -227,8 +213,7 @@ static void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
     v.value_or_object(written_if(!span.duration, "speed"), speed_format(span.speed), SceneVisitor::keys_of(span.speed),
                       "Playback speed: a factor, where 1 is real time; \"impacts\": slow motion around impacts; or an "
-                      "object with the "
-                      "details.");
+                      "object with the details.");
     v.number("duration", span.duration, dim::kTime, kPositive,
              "Duration of the film with its freezes, in place of \"speed\".");
     v.exclusive("speed", "duration");
@@ -239,7 +224,9 @@ static void visit_span(SceneVisitor& v, FrameSpan& span) {
 
 // ---- the outputs -------------------------------------------------------------------------------
 
-void VideoOutput::visit(SceneVisitor& v) {
+namespace {
+
+void visit_video(SceneVisitor& v, PictureOutput& video) {
     using output::Codec;
     static const std::vector<Named<Codec>> kCodecs = [] {
         std::vector<Named<Codec>> all;
@@ -248,145 +235,91 @@ void VideoOutput::visit(SceneVisitor& v) {
             all.push_back({codec, output::name(codec)});
         return all;
     }();
-    v.value("file", file_format(file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}),
-            "Name of the file; by default NAME.mp4, where NAME is the name of the scene.");
-    v.check([this](ObjectReader& r) { set_default_codec(r, *this); });
-    visit_picture(v, *this);
-    visit_span(v, span);
-    v.value(
-        "poster", instant_format(span.poster),
-        "The first frame at or after this instant is also written as a picture: fall.png beside fall.mp4. For a time "
-        "outside the film the nearest frame.");
-    v.choice(written_if(subtitles != Subtitles::none, "subtitles"), subtitles,
+    visit_file(v, video.file, {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp"}, ".mp4");
+    v.check([&video](ObjectReader&) { set_default_codec(video); });
+    visit_picture(v, video);
+    visit_span(v, video.span);
+    v.value("poster", instant_format(video.span.poster),
+            "The first frame at or after this instant is also written as a picture: fall.png beside fall.mp4. For a "
+            "time outside the film the nearest frame.");
+    v.choice(written_if(video.subtitles != Subtitles::none, "subtitles"), video.subtitles,
              {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}},
              "A file with the impacts and texts of the film: fall.vtt beside fall.mp4.");
-    v.boolean(written_if(chapters, "chapters"), chapters, "Chapters at the impacts, in .mp4, .mov and .mkv.");
-    v.choice(sim::derived("codec"), encoding.codec, std::span<const Named<Codec>>(kCodecs),
+    v.boolean(written_if(video.chapters, "chapters"), video.chapters,
+              "Chapters at the impacts, in .mp4, .mov and .mkv.");
+    v.choice(sim::derived("codec"), video.encoding.codec, std::span<const Named<Codec>>(kCodecs),
              "Codec. The default depends on the ending: .mp4 h264 (or av1, hevc), .webm vp9 (av1), .mov prores (h264, "
-             "hevc), "
-             ".mkv ffv1 (h264, vp9, av1).");
+             "hevc), .mkv ffv1 (h264, vp9, av1).");
     v.integer(
-        "crf", encoding.crf, 0, 63,
+        "crf", video.encoding.crf, 0, 63,
         "Quality of h264 and hevc (up to 51), vp9 and av1: 0 is best; the defaults 18, 20, 24 and 26 look lossless.");
-    v.choice(written_if(encoding.codec == Codec::h264, "preset"), encoding.preset,
+    v.choice(written_if(video.encoding.codec == Codec::h264, "preset"), video.encoding.preset,
              {"ultrafast", "superfast", "veryfast", "faster", "fast", "medium", "slow", "slower", "veryslow"},
              "Preset of x264, from fast to small files; only for h264.");
-    v.choice(written_if(encoding.variable_rate, "rate_mode"), encoding.variable_rate,
+    v.choice(written_if(video.encoding.variable_rate, "rate_mode"), video.encoding.variable_rate,
              {{false, "constant"}, {true, "variable"}},
              "variable: an unchanged picture is encoded once and lasts up to 5 s; players show the same film, but some "
-             "editors "
-             "need a constant rate. Parts (--shard, --frames) are always constant.");
-    v.check([this](ObjectReader& r) { check_video(r, *this); });
+             "editors need a constant rate. Parts (--shard, --frames) are always constant.");
+    v.check([&video](ObjectReader& r) { check_video(r, video); });
 }
 
-void FramesOutput::visit(SceneVisitor& v) {
-    v.value("file", numbered_file_format(file),
-            "Name of the files with #### for the frame number; by default NAME-####.png, where NAME is the name of the "
-            "scene.");
-    visit_picture(v, *this);
-    visit_span(v, span);
-    v.check([this](ObjectReader& r) {
-        name_after_scene(r, file, "-####.png");
-        check_span(r, span, *this);
-    });
+void visit_frames(SceneVisitor& v, PictureOutput& p) {
+    visit_file(v, p.file, {".png"}, "-####.png", "Name of the files with #### for the frame number");
+    visit_picture(v, p);
+    visit_span(v, p.span);
+    v.check([&p](ObjectReader& r) { check_span(r, p.span, p); });
 }
 
-void StillOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".png"}),
-            "Name of the file; by default NAME.png, where NAME is the name of the scene. For a line drawing for print "
-            "use the "
-            "figure \"strobe\" with \"at\".");
-    visit_picture(v, *this);
-    v.value(required("at", "\"370 ms\""), instant_format(at), "The instant of the picture.");
-    v.check([this](ObjectReader& r) { name_after_scene(r, file, ".png"); });
+void visit_still(SceneVisitor& v, PictureOutput& p) {
+    visit_file(v, p.file, {".png"}, ".png", "Name of the file",
+               " For a line drawing for print use the figure \"strobe\" with \"at\".");
+    visit_picture(v, p);
+    v.value(required("at", "\"370 ms\""), instant_format(p.at), "The instant of the picture.");
 }
 
-void PageOutput::visit(SceneVisitor& v) {
-    using render::Theme;
-    v.value("file", file_format(file, {".html"}),
-            "Name of the file; by default NAME.html, where NAME is the name of the scene.");
-    v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
-             "Colour theme.");
-    v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
-             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor of the deflection, as in films.", "auto");
-    v.value("fps", frame_rate_format(span.fps),
-            "Poses per second from which the page is made, at least a thousand in all; poses that the page can "
-            "interpolate are "
-            "left out.");
-    v.value("from", bound_format(span.from, span.from_event), "First instant.");
-    v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
-    v.check([this](ObjectReader& r) {
-        name_after_scene(r, file, ".html");
-        check_span(r, span, *this);
-    });
-}
-
-void ModelOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".glb"}),
-            "Name of the file; by default NAME.glb, where NAME is the name of the scene.");
-    v.number(written_if(view.exaggeration.has_value(), "exaggeration"), view.exaggeration, sim::kPlainNumber,
-             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor of the deflection, as in films.", "auto");
-    v.value("fps", frame_rate_format(span.fps), "Poses per second; players interpolate between them.");
-    v.value("from", bound_format(span.from, span.from_event), "First instant.");
-    v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
-    v.check([this](ObjectReader& r) {
-        name_after_scene(r, file, ".glb");
-        check_span(r, span, *this);
-    });
-}
-
-namespace {
-
-template <class Output>
-Pictures pictures(Pictures::Kind kind, const Output& output, std::size_t index) {
-    Pictures p;
-    p.kind = kind;
-    p.output = index;
-    p.file = output.file;
-    p.picture = output;
-    return p;
+// A page or a model.
+void visit_document(SceneVisitor& v, PictureOutput& p, const char* ending, const char* rate) {
+    visit_file(v, p.file, {ending}, ending);
+    if (p.kind == PictureOutput::Kind::page) visit_theme(v, p.view);
+    visit_exaggeration(v, p.view.exaggeration, "Factor of the deflection, as in films.");
+    v.value("fps", frame_rate_format(p.span.fps), rate);
+    v.value("from", bound_format(p.span.from, p.span.from_event), "First instant.");
+    v.value("to", bound_format(p.span.to, p.span.to_event), "Last instant; by default the end of the scene.");
+    v.check([&p](ObjectReader& r) { check_span(r, p.span, p); });
 }
 
 }  // namespace
 
-void VideoOutput::plan(Planner& planner, std::size_t output) const {
-    Pictures p = pictures(Pictures::Kind::video, *this, output);
-    p.span = span;
-    p.encoding = encoding;
-    if (span.poster) p.poster_file = poster_file(*this);
-    p.subtitles = subtitles, p.chapters = chapters;
-    p.subtitles_file = subtitles_file(*this);
-    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
+void PictureOutput::visit(SceneVisitor& v) {
+    switch (kind) {
+        case Kind::video:
+            return visit_video(v, *this);
+        case Kind::frames:
+            return visit_frames(v, *this);
+        case Kind::still:
+            return visit_still(v, *this);
+        case Kind::page:
+            return visit_document(v, *this, ".html",
+                                  "Poses per second from which the page is made, at least a thousand in all; poses "
+                                  "that the page can interpolate are left out.");
+        case Kind::model:
+            return visit_document(v, *this, ".glb", "Poses per second; players interpolate between them.");
+    }
 }
 
-void FramesOutput::plan(Planner& planner, std::size_t output) const {
-    Pictures p = pictures(Pictures::Kind::frames, *this, output);
-    p.span = span;
-    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
-}
-
-void PageOutput::plan(Planner& planner, std::size_t output) const {
-    Pictures p = pictures(Pictures::Kind::page, *this, output);
-    p.picture.view = view;
-    p.picture.view.style = render::Style::flat;
-    p.span = span;
-    const double end = span.to.value_or(planner.scene().end_time);
-    p.span.fps = rate_of_page(span.fps, span.from, end);
+void PictureOutput::plan(Planner& planner, std::size_t output) const {
+    Pictures p;
+    static_cast<PictureOutput&>(p) = *this;
+    p.output = output;
+    double end = span.to.value_or(planner.scene().end_time);
+    if (kind == Kind::video) p.poster_file = poster_file(*this), p.subtitles_file = subtitles_file(*this);
+    if (kind == Kind::page || kind == Kind::model) p.view.style = render::Style::flat;
+    if (kind == Kind::page) p.span.fps = rate_of_page(span.fps, span.from, end);
+    if (kind == Kind::still) {
+        if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};
+        end = p.at.is_event() ? planner.scene().end_time : p.at.t;
+    }
     planner.add(std::move(p), end);
-}
-
-void ModelOutput::plan(Planner& planner, std::size_t output) const {
-    Pictures p = pictures(Pictures::Kind::model, *this, output);
-    p.picture.view.style = render::Style::flat;
-    p.span = span;
-    planner.add(std::move(p), span.to.value_or(planner.scene().end_time));
-}
-
-void StillOutput::plan(Planner& planner, std::size_t output) const {
-    Pictures p = pictures(Pictures::Kind::still, *this, output);
-    p.at = at;
-    if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};
-    planner.add(std::move(p), p.at.is_event() ? planner.scene().end_time : p.at.t);
 }
 
 }  // namespace beamcam::scenes

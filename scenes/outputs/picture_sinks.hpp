@@ -42,6 +42,8 @@ struct SinkFiles {
 };
 
 std::map<std::string, std::string> png_metadata(const SinkFiles& files);
+// With the keys of MP4; `scene` as JSON.
+std::map<std::string, std::string> film_metadata(const std::string& scene, const std::string& title);
 output::VideoOptions video_options(const Pictures& p);
 
 std::unique_ptr<PictureSink> make_video_sink(const Pictures& p, render::Film& film, const SinkFiles& files);

@@ -8,8 +8,8 @@ namespace beamcam::scenes {
 namespace {
 
 // The poses of a request go to disk as they are found.
-StoredPoses store_poses(sim::Request& request, std::size_t frames, std::size_t survey) {
-    sim::PoseRequest &all = request.poses[frames], &some = request.poses[survey];
+StoredPoses store_poses(sim::Request& request, const PictureRequests& of) {
+    sim::PoseRequest &all = request.poses[of.poses], &some = request.poses[of.survey];
     StoredPoses stored{std::make_shared<PoseSpool>(all), std::make_shared<PoseSpool>(some)};
     all.take = [to = stored.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
     some.take = [to = stored.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
@@ -28,8 +28,7 @@ void PlanMotions::request_all() {
     if (plan_.simulation) {
         std::vector<sim::Request> requests = requests_of(plan_);
         for (const Pictures& p : plan_.pictures)
-            results_.poses.push_back(p.compared.empty() ? store_poses(requests.front(), p.poses, p.survey)
-                                                        : StoredPoses{});
+            results_.poses.push_back(p.compared.empty() ? store_poses(requests.front(), p.of_scene) : StoredPoses{});
         own_ = motions_.request(problem_, std::move(requests));
     }
     request_others();
@@ -44,7 +43,7 @@ void PlanMotions::request_others() {
         std::vector<StoredPoses>& stored = results_.compared_poses.emplace_back();
         for (const ComparedMotion& each : p.compared) {
             sim::Request request = each.request;
-            stored.push_back(store_poses(request, 0, 1));
+            stored.push_back(store_poses(request, each.of_picture));
             others_.push_back(
                 motions_.request(each.problem, {std::move(request)}, fmt::format("{}, {}", p.file, each.label)));
         }

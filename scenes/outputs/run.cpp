@@ -40,8 +40,8 @@ void reject_clashes(std::span<const Scene> scenes) {
             for (const std::string& file : written_by(output)) claims.add(file, i);
     for (const auto& [later, earlier] : claims.clashes())
         throw NameClash(
-            fmt::format("{} of the scene {} and {} of the scene {} are the same file; rename one of them, "
-                        "or run the scenes one by one with different -o",
+            fmt::format("{} of the scene {} and {} of the scene {} are the same file; rename one of them, or run the "
+                        "scenes one by one with different -o",
                         later.file, scenes[later.owner].name, earlier.file, scenes[earlier.owner].name));
 }
 
@@ -88,8 +88,7 @@ void compute_motions(RunContext& context, const SceneRuns& all) {
 void report_times_and_work(const RunContext& context) {
     const Times& times = context.times;
     output::print_message(
-        "time: {:.2f} s in total; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion "
-        "{:.2f} s, "
+        "time: {:.2f} s in total; motion {:.2f} s, drawing {:.2f} s ({}; read back {:.2f} s), conversion {:.2f} s, "
         "encoding {:.2f} s, other files {:.2f} s\n",
         seconds_since(context.started), times.simulate, times.draw, counted(times.threads, "thread"), times.read_back,
         times.convert, times.encode, times.write);

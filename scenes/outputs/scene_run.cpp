@@ -189,19 +189,18 @@ void SceneRun::write_pictures(std::size_t picture) {
     if (p.kind == Pictures::Kind::page) return write_document(p, render::html_page(setup));
     if (p.kind == Pictures::Kind::model) return write_document(p, render::glb_model(setup));
     const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
-                       film_track(setup, p.picture.view.lang)};
+                       film_track(setup, p.view.lang)};
     render::Film film(std::move(setup));
-    if (const auto requested = p.picture.view.exaggeration; requested && film.exaggeration_reduced())
+    if (const auto requested = p.view.exaggeration; requested && film.exaggeration_reduced())
         context_.print(
-            "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam inside the cam or "
-            "far from its contact\n",
+            "warning: {} shows deflection ×{:g} instead of ×{:g}, which would draw the beam inside the cam or far from "
+            "its contact\n",
             p.file, film.exaggeration(), *requested);
-    if (film.exaggeration() > 1 && !p.picture.view.show.legend)
+    if (film.exaggeration() > 1 && !p.view.show.legend)
         context_.print("note: {} shows deflection ×{:g} without stating it; state it in the caption\n", p.file,
                        film.exaggeration());
     if (film.title_truncated())
-        context_.print("warning: {} shows only the beginning of the title: {}\n", p.file,
-                       why_text_is_omitted(p.picture.size));
+        context_.print("warning: {} shows only the beginning of the title: {}\n", p.file, why_text_is_omitted(p.size));
     if (const int empty = film.empty_frames(); empty > 0)
         context_.print(
             "warning: the mechanism is outside the picture in {1} of {2} of {0}; change \"follow\" or \"zoom\"\n",
@@ -221,8 +220,7 @@ void SceneRun::write_document(const Pictures& p, const std::string& bytes) {
 // Warns about requested parts that the picture does not show.
 void SceneRun::warn_of_omissions(const Pictures& p) const {
     if (!p.omitted_panels.empty())
-        context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels,
-                       why_panels_are_omitted(p.picture.size));
+        context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.size));
     constexpr std::size_t kFewFrames = 12;
     if (const std::size_t frames = plan_.times(p).size();
         (p.kind == Pictures::Kind::video || p.kind == Pictures::Kind::frames) && p.span.real_time() &&
@@ -236,12 +234,12 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
     if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // without text
     std::string written = scene_.title;
     for (const render::Callout& words : p.callouts) written += words.text;
-    for (const Compared& motion : p.picture.compare) written += motion.label;
+    for (const Compared& motion : p.compare) written += motion.label;
     if (const std::string lost = render::characters_without_font(written); !lost.empty())
         context_.print("warning: {} omits {}: no font has these characters\n", p.file, lost);
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = omitted_text(p, scene_); !what.empty())
-        context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.picture.size));
+        context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));
 }
 
 void SceneRun::write_partial_tables() {

@@ -12,18 +12,11 @@
 namespace beamcam::scenes {
 
 void ShapesOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".csv", ".npz"}),
-            "Name of the file; by default NAME-shapes.csv, where NAME is the name of the scene.");
-    v.number(sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
-             "Rows at the times k/rate, and at the end.");
-    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
-    v.exclusive("rate", "times");
+    visit_file(v, file, {".csv", ".npz"}, "-shapes.csv");
+    visit_rows(v, rate, times);
     v.integer("stations", stations, 2, 1001,
               "Number of points along the beam, equally spaced from the root to the tip.");
-    v.check([this](ObjectReader& r) {
-        name_after_scene(r, file, "-shapes.csv");
-        limit_rows(r, rate, stations);
-    });
+    v.check([this](ObjectReader& r) { limit_rows(r, rate, stations); });
 }
 
 void ShapesOutput::plan(Planner& planner, std::size_t output) const {

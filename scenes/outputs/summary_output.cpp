@@ -9,12 +9,10 @@
 namespace beamcam::scenes {
 
 void SummaryOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".json"}),
-            "Name of the file; by default NAME-summary.json, where NAME is the name of the scene.");
+    visit_file(v, file, {".json"}, "-summary.json");
     v.boolean("horizon", horizon,
               "Adds the intervals in which the motion is reproducible; needs further runs with tighter tolerances and "
               "another method.");
-    v.check([this](ObjectReader& r) { name_after_scene(r, file, "-summary.json"); });
 }
 
 void SummaryOutput::plan(Planner& planner, std::size_t output) const {

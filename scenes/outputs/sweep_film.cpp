@@ -15,15 +15,14 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
-#include "render/plot/user_text.hpp"
 #include "scenes/figures/bifurcation_diagram.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
+#include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/outputs/sweep_shots.hpp"
 #include "scenes/plan/planner.hpp"
-#include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 
@@ -153,10 +152,7 @@ class SweepFilm {
         options.fps = how_.fps.value();
         options.codec = *output::default_codec(std::filesystem::path(how_.file).extension().string());
         options.crf = how_.crf;
-        options.metadata = {{"comment", fmt::format("made by beamcam {}", kVersion)},
-                            {"beamcam-scene", to_json(grid_.scene())},
-                            {"beamcam-version", std::string(kVersion)}};
-        if (!scene_.title.empty()) options.metadata["title"] = render::plain_text(scene_.title);
+        options.metadata = film_metadata(to_json(grid_.scene()), scene_.title);
         return options;
     }
 
@@ -231,16 +227,13 @@ class SweepFilm {
 };
 
 void judge(ObjectReader& r, SweepFilmOutput& film) {
-    name_after_scene(r, film.file, "-sweep.mp4");
     const Scene& scene = r.context().scene;
     if (r.diagnostics().any()) return;
     if (!scene.sweep || scene.sweep->over.size() != 1)
-        return r.fail(*r.node(), "type",
-                      fmt::format("{}: the scene has no key \"sweep\" over one key; add it, or remove this output",
-                                  r.object_name()));
+        return r.reject_object("type", ": the scene has no key \"sweep\" over one key; add it, or remove this output");
     const output::Codec codec = *output::default_codec(std::filesystem::path(film.file).extension().string());
     const auto reject = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.fail(key, fmt::format("{}: {}", r.path(key), problem));
+        if (!problem.empty()) r.reject(key, ": {}", problem);
     };
     reject("size", output::size_problem(codec, film.size.width, film.size.height));
     if (std::max(film.size.width, film.size.height) < kLongSide ||
@@ -258,21 +251,16 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
 }  // namespace
 
 void SweepFilmOutput::visit(SceneVisitor& v) {
-    using render::Style;
-    v.value("file", file_format(file, kSweepFilmEndings),
-            "Name of the file; by default NAME-sweep.mp4, where NAME is the name of the scene.");
+    visit_file(v, file, kSweepFilmEndings, "-sweep.mp4");
     v.value("size", size_format(size), "Width and height in pixels, even.");
     v.value("fps", frame_rate_format(fps), "Frames per second.");
     v.number("duration", duration, dim::kTime, between(1, 3600, "is outside 1 s … 3600 s"),
              "Duration of the film; each value of the key that it shows takes about a second.");
     v.number("turns", turns, dim::kNone, between(0.01, 20, "is outside 0.01 … 20"),
              "Turns of the cam per second of the film.");
-    v.choice("style", style, {{Style::lit, "lit"}, {Style::flat, "flat"}, {Style::solid, "solid"}},
-             "Style of the mechanism, as in films.");
-    v.number(written_if(exaggeration.has_value(), "exaggeration"), exaggeration, sim::kPlainNumber,
-             between(1, 1e6, "is outside 1 (true shape) … 1e6"), "Factor of the deflection, as in films.", "auto");
-    v.choice(written_if(lang != Lang::en, "lang"), lang, {{Lang::en, "en"}, {Lang::zh, "zh"}},
-             "Language of the labels.");
+    v.choice("style", style, kStyles, "Style of the mechanism, as in films.");
+    visit_exaggeration(v, exaggeration, "Factor of the deflection, as in films.");
+    v.choice(written_if(lang != Lang::en, "lang"), lang, kLanguages, "Language of the labels.");
     v.text(written_if(!value.empty(), "value"), value,
            "Column of the samples that the diagram shows; by default v_n_before for impacts, else theta.");
     v.integer(written_if(crf.has_value(), "crf"), crf, 0, 63, "Quality, as in films.");

@@ -13,13 +13,10 @@
 namespace beamcam::scenes {
 
 void SweepOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".nc", ".csv", ".npz"}),
-            "Name of the file; by default NAME-sweep.nc, where NAME is the name of the scene.");
+    visit_file(v, file, {".nc", ".csv", ".npz"}, "-sweep.nc");
     v.check([this](ObjectReader& r) {
-        name_after_scene(r, file, "-sweep.nc");
         if (!r.context().scene.sweep && !r.diagnostics().any())
-            r.fail(*r.node(), "type",
-                   fmt::format("{}: the scene has no key \"sweep\"; add it, or remove this output", r.object_name()));
+            r.reject_object("type", ": the scene has no key \"sweep\"; add it, or remove this output");
     });
 }
 

@@ -13,21 +13,12 @@
 
 namespace beamcam::scenes {
 
-namespace dim = sim::dimension;
-
 void TrajectoryOutput::visit(SceneVisitor& v) {
-    v.value("file", file_format(file, {".csv", ".npz"}),
-            "Name of the file; by default NAME.csv, where NAME is the name of the scene.");
+    visit_file(v, file, {".csv", ".npz"}, ".csv");
     v.value("channels", channels_format(channels),
             "Columns, in this order; the time is always the first. By default all channels.");
-    v.number(sim::written_if(times.empty(), "rate"), rate, dim::kFrequency, sim::kPositive,
-             "Rows at the times k/rate, and at the end.");
-    v.numbers("times", times, dim::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
-    v.exclusive("rate", "times");
-    v.check([this](ObjectReader& r) {
-        name_after_scene(r, file, ".csv");
-        limit_rows(r, rate, 1);
-    });
+    visit_rows(v, rate, times);
+    v.check([this](ObjectReader& r) { limit_rows(r, rate, 1); });
 }
 
 namespace {
@@ -52,13 +43,11 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
     std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
     planner.simulate_until(*std::ranges::max_element(instants), file);
 
-    Node names = array_node();
-    for (const sim::Channel& channel : columns) names.items.push_back(text_node(name(channel)));
     DataFile data{output, file, "table", {}};
     data.content = fmt::format("{} rows of {} channels", instants.size(), columns.size());
     data.numbers = instants.size() * columns.size();
-    add(data.details, "rows", integer_node(static_cast<long>(instants.size())));
-    add(data.details, "channels", std::move(names));
+    data.details = object_node(
+        {{"rows", integer_node(static_cast<long>(instants.size()))}, {"channels", texts_node(channel_names(columns))}});
     const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
     data.table = index;
     data.write = [index](const DataSource& from) { return write_table(from, from.run.tables[index]); };

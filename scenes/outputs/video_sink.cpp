@@ -12,17 +12,6 @@
 namespace beamcam::scenes {
 namespace {
 
-// Metadata with the keys of MP4.
-std::map<std::string, std::string> film_metadata(const Pictures& p, const SinkFiles& to) {
-    std::map<std::string, std::string> all = {{"comment", fmt::format("made by beamcam {}", kVersion)},
-                                              {"beamcam-scene", to_json(to.scene)},
-                                              {"beamcam-version", std::string(kVersion)},
-                                              {"beamcam-accuracy", to.accuracy}};
-    if (!p.part.empty()) all["beamcam-frames"] = p.part;
-    if (!to.scene.title.empty()) all["title"] = render::plain_text(to.scene.title);
-    return all;
-}
-
 // The palette of a GIF, from some of its frames.
 std::vector<std::uint32_t> palette_of(render::Film& film) {
     constexpr int kSamples = 16;
@@ -39,7 +28,9 @@ std::vector<std::uint32_t> palette_of(render::Film& film) {
 output::VideoOptions options_of(const Pictures& p, render::Film& film, const SinkFiles& to) {
     output::VideoOptions options = video_options(p);
     if (options.codec == output::Codec::gif) options.palette = palette_of(film);
-    options.metadata = film_metadata(p, to);
+    options.metadata = film_metadata(to_json(to.scene), to.scene.title);
+    options.metadata["beamcam-accuracy"] = to.accuracy;
+    if (!p.part.empty()) options.metadata["beamcam-frames"] = p.part;
     if (p.chapters && p.part.empty()) options.chapters = to.track.chapters;
     return options;
 }
@@ -102,8 +93,8 @@ class VideoSink final : public PictureSink {
     }
     // The encoder has its own threads; a few drawing threads keep it busy.
     Crew crew(int most) const override {
-        if (p_.picture.view.style == render::Style::solid) return {most, most};
-        const int share = p_.picture.view.style == render::Style::flat ? 4 : 2;
+        if (p_.view.style == render::Style::solid) return {most, most};
+        const int share = p_.view.style == render::Style::flat ? 4 : 2;
         return {std::max(1, most / share), most,
                 [backlog = std::make_shared<EncoderBacklog>(video_)] { return (*backlog)(); }};
     }
@@ -138,13 +129,21 @@ class VideoSink final : public PictureSink {
 
 }  // namespace
 
+std::map<std::string, std::string> film_metadata(const std::string& scene, const std::string& title) {
+    std::map<std::string, std::string> all = {{"comment", fmt::format("made by beamcam {}", kVersion)},
+                                              {"beamcam-scene", scene},
+                                              {"beamcam-version", std::string(kVersion)}};
+    if (!title.empty()) all["title"] = render::plain_text(title);
+    return all;
+}
+
 output::VideoOptions video_options(const Pictures& p) {
     output::VideoOptions video;
-    video.width = p.picture.size.width;
-    video.height = p.picture.size.height;
+    video.width = p.size.width;
+    video.height = p.size.height;
     video.fps = p.span.fps.value();
     video.codec = p.encoding.codec;
-    video.transparent = p.picture.view.transparent;
+    video.transparent = p.view.transparent;
     video.crf = p.encoding.crf;
     video.preset = p.encoding.preset;
     video.variable_rate = p.encoding.variable_rate && p.part.empty();

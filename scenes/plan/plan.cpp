@@ -23,7 +23,7 @@ void Simulation::simulate_until(double t, const std::string& file) {
 
 bool Plan::needs_gl() const {
     return std::any_of(pictures.begin(), pictures.end(),
-                       [](const Pictures& p) { return p.picture.view.style != render::Style::flat; });
+                       [](const Pictures& p) { return p.view.style != render::Style::flat; });
 }
 
 bool Plan::needs_encoder() const {
@@ -50,17 +50,12 @@ std::optional<Cost> Plan::cost() const {
     return all;
 }
 
-std::size_t Plan::frames() const {
-    std::size_t count = 0;
-    for (const Pictures& p : pictures) count += p.draw.size();
-    return count;
-}
-
 std::vector<double> Plan::times(const Pictures& p) const {
-    const std::vector<double>& all =
-        p.compared.empty() ? simulation->request.poses[p.poses].times : p.compared.front().request.poses.front().times;
+    const sim::Request& request = p.compared.empty() ? simulation->request : p.compared.front().request;
+    const PictureRequests& at = p.compared.empty() ? p.of_scene : p.compared.front().of_picture;
+    const std::vector<double>& all = request.poses[at.poses].times;
     std::vector<double> out;
-    for (std::size_t i = 0; i < all.size(); i += p.picture.view.poses()) out.push_back(all[i]);
+    for (std::size_t i = 0; i < all.size(); i += p.view.poses()) out.push_back(all[i]);
     return out;
 }
 
@@ -101,15 +96,13 @@ std::string why_text_is_omitted(const Size& size) {
 }
 
 std::string omitted_text(const Pictures& p, const Scene& scene) {
-    const Picture& picture = p.picture;
     std::vector<const sim::Problem*> problems;
-    for (const Compared& each : picture.compare) problems.push_back(&each.problem);
+    for (const Compared& each : p.compare) problems.push_back(&each.problem);
     if (problems.empty()) problems.push_back(&scene.problem);
-    const int members = picture.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
-    return fmt::format("{}",
-                       fmt::join(render::omitted_text(picture.size.width, picture.size.height, picture.layout, members,
-                                                      scene.title, problems, picture.view.show, scene.units.rpm),
-                                 "; "));
+    const int members = p.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
+    return fmt::format("{}", fmt::join(render::omitted_text(p.size.width, p.size.height, p.layout, members, scene.title,
+                                                            problems, p.view.show, scene.units.rpm),
+                                       "; "));
 }
 
 void add_omitted_text(Plan& plan, const Scene& scene) {
@@ -117,7 +110,7 @@ void add_omitted_text(Plan& plan, const Scene& scene) {
     try {
         for (const Pictures& p : plan.pictures)
             if (const std::string what = omitted_text(p, scene); !what.empty())
-                notes.push_back({fmt::format("{} on {}", what, p.file), why_text_is_omitted(p.picture.size)});
+                notes.push_back({fmt::format("{} on {}", what, p.file), why_text_is_omitted(p.size)});
     } catch (const render::FontError&) {
         return;  // drawing reports this
     }
@@ -125,7 +118,7 @@ void add_omitted_text(Plan& plan, const Scene& scene) {
 }
 
 bool is_slow_motion(const Pictures& p) {
-    return p.picture.compare.empty() &&
+    return p.compare.empty() &&
            (p.span.speed.around || p.span.speed.factor <= 0.1 ||
             (p.span.duration && !p.ends_at_event() && p.end_time - p.span.from <= 0.1 * *p.span.duration));
 }

@@ -69,24 +69,26 @@ struct Variant {
     Simulation simulation;
 };
 
-// One of the motions that a picture compares: a separate run with the poses, chart and trace of that picture.
+// What a picture requests of a motion: indices into its request.
+struct PictureRequests {
+    std::size_t poses = 0;             // into Request::poses: the frames
+    std::size_t survey = 0;            // into Request::poses: for the choice of scales
+    std::size_t chart = 0;             // into Request::tables: channels of the panels
+    std::optional<std::size_t> trace;  // into Request::tables: t, contact_x, contact_s, contact_force; with a cam
+};
+
+// One of the motions that a picture compares: a separate run.
 struct ComparedMotion {
     std::string label;
     sim::Problem problem;
-    sim::Request request;  // poses: frames, survey; tables: chart and, with a cam, trace; further ones follow
-    std::optional<Cost> cost;
+    sim::Request request = {};
+    PictureRequests of_picture = {};
+    std::optional<Cost> cost = {};
 };
 
-// A film, sequence, still, page or model: pictures of the mechanism.
-struct Pictures {
-    enum class Kind { video, frames, still, page, model };
-    Kind kind = Kind::video;
-    std::size_t output = 0;  // index into the scene's outputs
-    std::string file;
-    Picture picture;
-    FrameSpan span;           // of video and frames
-    Instant at;               // of a still
-    Encoding encoding;        // of video
+// An output with pictures of the mechanism, as this run makes it.
+struct Pictures : PictureOutput {
+    std::size_t output = 0;   // index into the scene's outputs
     bool collisions = false;  // a strip shows one collision at a time
     bool times_known = true;  // false: they depend on events that have to be found first
     double end_time = 0;      // last time that it needs; an upper bound while times_known is false [s]
@@ -97,11 +99,9 @@ struct Pictures {
     std::string part;         // of a film: "30:60 of 0:90"; empty: all of it
     // Index into Simulation::ends; nullopt: it ends with the run, or compares motions.
     std::optional<std::size_t> until;
-    std::optional<int> poster;  // of a video: the frame that is also written to poster_file, as in `draw`
-    std::string poster_file;    // empty: none
-    Subtitles subtitles = Subtitles::none;
+    std::optional<int> poster;   // of a video: the frame that is also written to poster_file, as in `draw`
+    std::string poster_file;     // empty: none
     std::string subtitles_file;  // empty: none
-    bool chapters = false;
     std::vector<double> speeds;  // playback speed at each frame; empty in real time
     std::vector<render::Callout> callouts;
     std::vector<render::CameraMove> moves;
@@ -109,11 +109,7 @@ struct Pictures {
     std::string omitted_panels;                 // panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
     std::vector<ComparedMotion> compared;  // the motions of a comparison
-    // Indices into the scene's simulation, unless the picture compares motions:
-    std::size_t poses = 0;             // index into Request::poses: the frames
-    std::size_t survey = 0;            // index into Request::poses: for the choice of scales
-    std::size_t chart = 0;             // index into Request::tables: channels of the panels
-    std::optional<std::size_t> trace;  // index into Request::tables: t, contact_x, contact_s, contact_force; with a cam
+    PictureRequests of_scene;              // of the scene's motion, unless the picture compares motions
     std::optional<Cost> cost;
 
     bool makes_poster() const;  // the poster is among the drawn frames
@@ -176,7 +172,6 @@ struct Plan {
     bool needs_gl() const;                                      // a lit view
     bool needs_encoder() const;                                 // a video
     std::optional<Cost> cost() const;                           // sum of the known costs; amount: bytes
-    std::size_t frames() const;                                 // drawn altogether
     std::vector<double> times(const Pictures& pictures) const;  // of its frames; empty while they are unknown
 };
 
@@ -211,7 +206,7 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
 
 // Names in the plan: "lit", "video".
 const char* view_name(const render::View& view);
-const char* kind_name(Pictures::Kind kind);
+const char* kind_name(PictureOutput::Kind kind);
 std::string encoding_text(const Encoding& encoding);  // "H.264, crf 18, veryfast"
 
 // The plan for people and for programs.

@@ -7,12 +7,6 @@ namespace {
 
 Node count_node(std::size_t count) { return integer_node(static_cast<long>(count)); }
 
-Node stage_node(const char* name) {
-    Node stage = object_node();
-    add(stage, "stage", text_node(name));
-    return stage;
-}
-
 void add_cost(Node& stage, const std::optional<Cost>& cost, const char* amount) {
     if (!cost) return;
     add(stage, "seconds", number_node(cost->seconds));
@@ -20,26 +14,21 @@ void add_cost(Node& stage, const std::optional<Cost>& cost, const char* amount) 
 }
 
 Node file_stage(const char* name, const std::string& file, std::size_t output) {
-    Node stage = stage_node(name);
-    add(stage, "file", text_node(file));
-    add(stage, "output", count_node(output));
-    return stage;
+    return object_node({{"stage", text_node(name)}, {"file", text_node(file)}, {"output", count_node(output)}});
 }
 
 Node motion_stage(const sim::Problem& problem, const sim::Request& request, const std::string& because) {
-    Node stage = stage_node("simulate");
-    add(stage, "model", text_node(name(problem.beam.model)));
-    add(stage, "modes", integer_node(problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes));
-    add(stage, "until", number_node(request.end_time));
-    add(stage, "because", text_node(because));
-    return stage;
+    const bool rigid = problem.beam.model == sim::ModelKind::rigid;
+    return object_node({{"stage", text_node("simulate")},
+                        {"model", text_node(name(problem.beam.model))},
+                        {"modes", integer_node(rigid ? 0 : problem.beam.modes)},
+                        {"until", number_node(request.end_time)},
+                        {"because", text_node(because)}});
 }
 
 Node stage_of(const Simulation& simulation, const sim::Problem& problem) {
     Node stage = motion_stage(problem, simulation.request, simulation.until_because);
-    Node events = array_node();
-    for (const std::string& event : simulation.until_events) events.items.push_back(text_node(event));
-    if (!events.items.empty()) add(stage, "until_events", std::move(events));
+    if (!simulation.until_events.empty()) add(stage, "until_events", texts_node(simulation.until_events));
     add(stage, "horizon", boolean_node(simulation.horizon));
     add(stage, "from_cache", boolean_node(simulation.from_cache));
     add(stage, "keep", boolean_node(simulation.keep));
@@ -54,8 +43,8 @@ Node stage_of(const Pictures& p, const std::vector<double>& times) {
         add(stage, "from", number_node(times[static_cast<std::size_t>(p.draw.front())]));
         add(stage, "last", number_node(times[static_cast<std::size_t>(p.draw.back())]));
     }
-    add(stage, "size", array_node({integer_node(p.picture.size.width), integer_node(p.picture.size.height)}));
-    add(stage, "style", text_node(view_name(p.picture.view)));
+    add(stage, "size", array_node({integer_node(p.size.width), integer_node(p.size.height)}));
+    add(stage, "style", text_node(view_name(p.view)));
     if (p.kind != Pictures::Kind::still) add(stage, "fps", number_node(p.span.fps.value()));
     if (p.kind == Pictures::Kind::video) {
         add(stage, "codec", text_node(output::name(p.encoding.codec)));
@@ -71,10 +60,8 @@ Node stage_of(const Pictures& p, const std::vector<double>& times) {
 Node stages_of(const Plan& plan, const Scene& scene) {
     Node stages = array_node();
     const auto put = [&stages](Node stage) { stages.items.push_back(std::move(stage)); };
-    if (plan.events_until) {
-        put(stage_node("impacts"));
-        add(stages.items.back(), "until", number_node(*plan.events_until));
-    }
+    if (plan.events_until)
+        put(object_node({{"stage", text_node("impacts")}, {"until", number_node(*plan.events_until)}}));
     if (plan.simulation) put(stage_of(*plan.simulation, scene.problem));
     for (const Pictures& p : plan.pictures) {
         for (const ComparedMotion& motion : p.compared) {
@@ -103,11 +90,8 @@ std::string to_json(const Plan& plan, const Scene& scene) {
     Node out = object_node(), skipped = array_node();
     add(out, "stages", stages_of(plan, scene));
     add_cost(out, plan.cost(), "bytes");
-    for (const Skipped& each : plan.skipped) {
-        Node& entry = skipped.items.emplace_back(object_node());
-        add(entry, "what", text_node(each.what));
-        add(entry, "why", text_node(each.why));
-    }
+    for (const Skipped& each : plan.skipped)
+        skipped.items.push_back(object_node({{"what", text_node(each.what)}, {"why", text_node(each.why)}}));
     add(out, "skipped", std::move(skipped));
     return to_text(out);
 }

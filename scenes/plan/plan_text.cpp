@@ -5,37 +5,18 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/format/keys.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/film_times.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 const char* view_name(const render::View& view) {
-    switch (view.style) {
-        case render::Style::lit:
-            return "lit";
-        case render::Style::flat:
-            return "flat";
-        case render::Style::solid:
-            return "solid";
-    }
-    return "?";
+    return std::ranges::find(kStyles, view.style, &sim::Named<render::Style>::value)->name;
 }
 
-const char* kind_name(Pictures::Kind kind) {
-    switch (kind) {
-        case Pictures::Kind::video:
-            return "video";
-        case Pictures::Kind::frames:
-            return "frames";
-        case Pictures::Kind::page:
-            return "page";
-        case Pictures::Kind::model:
-            return "model";
-        case Pictures::Kind::still:
-            return "still";
-    }
-    return "?";
+const char* kind_name(PictureOutput::Kind kind) {
+    return std::ranges::find(kPictureTypes, kind, &PictureType::kind)->name;
 }
 
 std::string encoding_text(const Encoding& encoding) {
@@ -128,15 +109,15 @@ std::string pace_text(const Speed& speed) {
 
 std::string picture_text(const Pictures& p, const std::vector<double>& times) {
     std::string text = fmt::format("{}: {}{}", p.file, span_text(p, times), pace_text(p.span.speed));
-    text += fmt::format(", {} × {}, {}", p.picture.size.width, p.picture.size.height, view_name(p.picture.view));
-    if (p.picture.view.transparent) text += ", transparent";
+    text += fmt::format(", {} × {}, {}", p.size.width, p.size.height, view_name(p.view));
+    if (p.view.transparent) text += ", transparent";
     if (p.kind == Pictures::Kind::video) text += "; " + encoding_text(p.encoding);
     if (p.makes_poster())
         text +=
             fmt::format("; the frame at {:g} s also as {}", times[static_cast<std::size_t>(*p.poster)], p.poster_file);
     else if (!p.times_known && !p.poster_file.empty())
         text += fmt::format("; one of its frames also as {}", p.poster_file);
-    if (const double memory = memory_of(p.picture); memory >= kMuchMemory)
+    if (const double memory = memory_of(p); memory >= kMuchMemory)
         text += fmt::format("; needs {} of memory for each thread", size_text(memory));
     return text + file_cost(p.cost);
 }

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "scenes/motions/motion_store.hpp"
-#include "scenes/plan/picture_times.hpp"
+#include "scenes/plan/output_times.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/observe/recorder_set.hpp"
 
@@ -18,9 +18,9 @@ const std::vector<sim::Channel> kTraceChannels = {
     {ChannelKind::t, 0}, {ChannelKind::contact_x, 0}, {ChannelKind::contact_s, 0}, {ChannelKind::contact_force, 0}};
 
 std::vector<render::PanelSpec> panels_of(const Pictures& p, const sim::Problem& problem) {
-    if (p.picture.layout) return render::panels_of(*p.picture.layout);
-    const sim::Problem* shown = p.picture.compare.empty() ? &problem : &p.picture.compare.front().problem;
-    for (const Compared& each : p.picture.compare)
+    if (p.layout) return render::panels_of(*p.layout);
+    const sim::Problem* shown = p.compare.empty() ? &problem : &p.compare.front().problem;
+    for (const Compared& each : p.compare)
         if (!shown->cam) shown = &each.problem;
     return render::standard_panels(*shown, is_slow_motion(p));
 }
@@ -37,7 +37,7 @@ std::string omitted_panels(const Picture& picture) {
 
 // A strip of one collision at a time needs more rows than one of the whole time.
 bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
-    return p.picture.compare.empty() && problem.cam &&
+    return p.compare.empty() && problem.cam &&
            std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
 }
 
@@ -58,8 +58,8 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
 
 // Shards divide films, sequences and sweeps.
 bool is_shared(const Output& output) {
-    return std::holds_alternative<VideoOutput>(output) || std::holds_alternative<FramesOutput>(output) ||
-           std::holds_alternative<SweepOutput>(output);
+    using enum PictureOutput::Kind;
+    return picture_of(output, video) || picture_of(output, frames) || std::holds_alternative<SweepOutput>(output);
 }
 
 }  // namespace
@@ -133,12 +133,11 @@ void Planner::add(Pictures p, double end) {
         p.file = shard_file(p.file, selection_.shard, selection_.shards);
     const bool still = p.kind == Pictures::Kind::still;
     p.collisions = shows_collisions(p, scene_.problem);
-    const bool moves_by_events = std::ranges::any_of(p.picture.view.keyframes, &Instant::is_event, &Keyframe::at);
+    const bool moves_by_events = std::ranges::any_of(p.view.keyframes, &Instant::is_event, &Keyframe::at);
     p.times_known = !p.collisions && !moves_by_events && (still ? !p.at.is_event() : !p.span.needs_events());
     p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
-    p.omitted_panels = omitted_panels(p.picture);
-    if (!p.omitted_panels.empty())
-        skip("panels " + p.omitted_panels + " of " + p.file, why_panels_are_omitted(p.picture.size));
+    p.omitted_panels = omitted_panels(p);
+    if (!p.omitted_panels.empty()) skip("panels " + p.omitted_panels + " of " + p.file, why_panels_are_omitted(p.size));
     FilmTimes times;
     if (p.times_known) {
         times = times_of(p, {});
@@ -146,7 +145,7 @@ void Planner::add(Pictures p, double end) {
         add_skipped_frames(p, times.frames.size());
         if (p.draw.empty()) return;
     }
-    if (p.picture.compare.empty())
+    if (p.compare.empty())
         add_own_motion(p, end);
     else
         add_compared(p);
@@ -158,28 +157,30 @@ void Planner::add(Pictures p, double end) {
 }
 
 void Planner::add_own_motion(Pictures& p, double end) {
-    sim::Request& request = simulation_.request;
     p.ends_at_event() ? simulate_until(*p.span.to_event, p.file) : simulate_until(end, p.file);
-    if (p.picture.horizon) require_horizon();
-    p.poses = request.poses.size();
-    request.poses.push_back({});
-    p.survey = request.poses.size();
-    request.poses.push_back(survey());
-    p.chart = add_table({}, p.chart_channels);
-    request.tables[p.chart].curve = drawn_curve(panels_of(p, scene_.problem));
-    if (scene_.problem.cam) p.trace = add_table({}, kTraceChannels);
+    if (p.horizon) require_horizon();
+    p.of_scene = add_requests(p, scene_.problem, simulation_.request);
 }
 
 void Planner::add_compared(Pictures& p) {
-    for (const Compared& each : p.picture.compare) {
-        ComparedMotion motion{each.label, each.problem, {}, {}};
+    for (const Compared& each : p.compare) {
+        ComparedMotion& motion = p.compared.emplace_back(ComparedMotion{each.label, each.problem});
         motion.request.end_time = p.end_time;
-        motion.request.horizon = p.picture.horizon;
-        motion.request.poses = {{}, survey()};
-        motion.request.tables.push_back({{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))});
-        if (each.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
-        p.compared.push_back(std::move(motion));
+        motion.request.horizon = p.horizon;
+        motion.of_picture = add_requests(p, each.problem, motion.request);
     }
+}
+
+// The times follow (put_times).
+PictureRequests Planner::add_requests(const Pictures& p, const sim::Problem& problem, sim::Request& request) const {
+    PictureRequests added{request.poses.size(), request.poses.size() + 1, request.tables.size(), {}};
+    request.poses.push_back({});
+    request.poses.push_back(survey());
+    request.tables.push_back({{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))});
+    if (!problem.cam) return added;
+    added.trace = request.tables.size();
+    request.tables.push_back({{}, kTraceChannels});
+    return added;
 }
 
 void Planner::add(FigureFile figure) {

@@ -43,6 +43,7 @@ class Planner {
     void add_study(const Study& study, const FigureFile& figure);
     void add_own_motion(Pictures& p, double end);
     void add_compared(Pictures& p);
+    PictureRequests add_requests(const Pictures& p, const sim::Problem& problem, sim::Request& request) const;
     void add_skipped_frames(const Pictures& p, std::size_t count);
     void add_skipped_stages();
     void add_unread_channels();

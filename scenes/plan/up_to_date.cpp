@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "scenes/figures/figure_files.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -72,7 +71,7 @@ class UpToDateCheck {
     }
 
     void check_figure(const FigureFile& f) {
-        const auto files = files_of(std::get<FigureOutput>(scene_.outputs[f.output]));
+        const auto files = written_by(scene_.outputs[f.output]);
         if (std::ranges::all_of(files, [&](const std::string& file) { return is_up_to_date(file, f.output); }))
             found_.existing.finished.insert(f.output);
     }

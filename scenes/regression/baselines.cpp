@@ -222,21 +222,22 @@ class Reader {
             if (!entry.scene.sweep) return reject(entry, node, fmt::format("{}: the scene has no \"sweep\"", path));
             return true;
         }
+        using enum PictureOutput::Kind;
         std::vector<Message> messages;
         const bool fine = read_only_output(node, scene_name, path + ".", files_, entry.scene, messages);
         for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
         if (!fine) return false;
-        if (std::holds_alternative<VideoOutput>(entry.output())) {
+        if (picture_of(entry.output(), video)) {
             return reject(
                 entry, node,
                 fmt::format("{}: films are compared before they are encoded; write \"type\": \"frames\"", path));
         }
-        if (std::holds_alternative<PageOutput>(entry.output()) || std::holds_alternative<ModelOutput>(entry.output()))
+        if (picture_of(entry.output(), page) || picture_of(entry.output(), model))
             return reject(entry, node, fmt::format("{}: this type has no pictures; write \"type\": \"frames\"", path));
-        if (const auto* frames = std::get_if<FramesOutput>(&entry.output())) {
-            const double last = frames->span.to.value_or(entry.scene.end_time);
-            if ((last - frames->span.from) * frames->span.fps.value() > kMostPictures) {
+        if (const PictureOutput* sequence = picture_of(entry.output(), frames)) {
+            const double last = sequence->span.to.value_or(entry.scene.end_time);
+            if ((last - sequence->span.from) * sequence->span.fps.value() > kMostPictures) {
                 return reject(
                     entry, node,
                     fmt::format("{}: more than {} pictures; use \"from\" and \"to\", or fewer frames a second", path,
@@ -270,8 +271,8 @@ bool Baseline::has_pictures() const { return !file.empty() || !(is_sweep || is_d
 
 const Picture* Baseline::picture() const {
     if (!file.empty() || is_sweep) return nullptr;
-    if (const auto* still = std::get_if<StillOutput>(&output())) return still;
-    return std::get_if<FramesOutput>(&output());
+    const PictureOutput* still = picture_of(output(), PictureOutput::Kind::still);
+    return still ? still : picture_of(output(), PictureOutput::Kind::frames);
 }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }

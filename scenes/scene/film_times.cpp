@@ -146,10 +146,10 @@ void find_unreached_collisions(const FrameSpan& span, double to, const sim::Resu
 double frame_count(const TimeMap& map, double fps) {
     const double count = std::round(map.duration() * fps);
     if (count > kMostFrames)
-        throw render::PictureError(fmt::format(
-            "the film would have {:.0f} frames, but the maximum is {:.0f}; reduce \"to\" or \"fps\", or increase "
-            "\"speed\"",
-            count, kMostFrames));
+        throw render::PictureError(
+            fmt::format("the film would have {:.0f} frames, but the maximum is {:.0f}; reduce \"to\" or \"fps\", or "
+                        "increase \"speed\"",
+                        count, kMostFrames));
     if (!(count >= 1))
         throw render::PictureError("the film has no frame at this speed; reduce the speed, or increase \"fps\"");
     return count;

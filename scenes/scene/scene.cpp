@@ -11,11 +11,25 @@ const std::string& file_of(const Output& output) {
     return std::visit([](const auto& o) -> const std::string& { return o.file; }, output);
 }
 
-std::string poster_file(const VideoOutput& video) {
+PictureOutput PictureOutput::of(Kind kind) {
+    constexpr FrameRate kPosesOfPage{1000, 1};
+    PictureOutput picture;
+    picture.kind = kind;
+    if (kind == Kind::page) picture.span.fps = kPosesOfPage;
+    return picture;
+}
+
+Extent PictureOutput::extent() const {
+    const bool ends = kind == Kind::still ? at.kind == Instant::Kind::time : span.to.has_value();
+    return ends ? Extent::keys : Extent::scene;
+}
+
+std::string poster_file(const PictureOutput& video) {
+    if (!video.span.poster) return {};
     return std::filesystem::path(video.file).replace_extension(".png").generic_string();
 }
 
-std::string subtitles_file(const VideoOutput& video) {
+std::string subtitles_file(const PictureOutput& video) {
     if (video.subtitles == Subtitles::none) return {};
     const char* ending = video.subtitles == Subtitles::vtt ? ".vtt" : ".srt";
     return std::filesystem::path(video.file).replace_extension(ending).generic_string();
@@ -23,13 +37,13 @@ std::string subtitles_file(const VideoOutput& video) {
 
 std::vector<std::string> written_by(const Output& output) {
     std::vector<std::string> files{file_of(output)};
-    if (const auto* video = std::get_if<VideoOutput>(&output)) {
-        if (video->span.poster) files.push_back(poster_file(*video));
-        if (video->subtitles != Subtitles::none) files.push_back(subtitles_file(*video));
-    }
+    const auto add_unless_empty = [&files](std::initializer_list<std::string> beside) {
+        std::ranges::copy_if(beside, std::back_inserter(files), [](const std::string& file) { return !file.empty(); });
+    };
+    if (const auto* video = picture_of(output, PictureOutput::Kind::video))
+        add_unless_empty({poster_file(*video), subtitles_file(*video)});
     if (const auto* figure = std::get_if<FigureOutput>(&output))
-        for (const std::string& beside : {figure->data_file, figure->caption_file})
-            if (!beside.empty()) files.push_back(beside);
+        add_unless_empty({figure->data_file, figure->caption_file});
     return files;
 }
 
@@ -47,8 +61,11 @@ double memory_of(const Picture& picture) {
     return 0;
 }
 
-bool is_picture(const Output& output) {
-    return std::visit([](const auto& o) { return std::is_base_of_v<Picture, std::decay_t<decltype(o)>>; }, output);
+bool is_picture(const Output& output) { return std::holds_alternative<PictureOutput>(output); }
+
+const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind) {
+    const auto* picture = std::get_if<PictureOutput>(&output);
+    return picture && picture->kind == kind ? picture : nullptr;
 }
 
 bool is_data(const Output& output) {
@@ -72,8 +89,8 @@ std::vector<Instant> FrameSpan::instants() const {
 
 bool FrameSpan::needs_events() const { return speed.around || std::ranges::any_of(instants(), &Instant::is_event); }
 
-VideoOutput default_film(const Scene& scene) {
-    VideoOutput film;
+PictureOutput default_film(const Scene& scene) {
+    PictureOutput film;
     film.file = scene.name + ".mp4";
     return film;
 }

@@ -168,62 +168,37 @@ enum class Extent { keys, scene, run };
 // The output types. Each is implemented in one file in outputs/: `visit` describes its keys, `plan` adds its needs and
 // the writer of its file to the plan. A new type is such a file, a struct here, and an entry in Output.
 
-struct VideoOutput : Picture {
-    static constexpr const char *kType = "video", *kMeaning = "A film; the ending of its name selects the format.";
-    static constexpr bool kIsData = false;  // contains only numbers, not the title of the scene
-    std::string file;                       // relative to the output directory
-    FrameSpan span;
-    Encoding encoding;
+// Pictures of the mechanism.
+struct PictureOutput : Picture {
+    enum class Kind { video, frames, still, page, model };
+    static constexpr bool kIsData = false;  // true: it contains only numbers, not the title of the scene
+
+    Kind kind = Kind::video;
+    std::string file;                       // relative to the output directory; of frames with one run of '#'
+    FrameSpan span = {};                    // of all but stills
+    Instant at = {};                        // of a still
+    Encoding encoding = {};                 // this and the next two of a video
     Subtitles subtitles = Subtitles::none;  // a file beside it
     bool chapters = false;                  // in it, at impacts
 
-    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
+    static PictureOutput of(Kind kind);
+    Extent extent() const;
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;  // `output`: its index in the scene
 };
-struct FramesOutput : Picture {
-    static constexpr const char *kType = "frames", *kMeaning = "A sequence of PNG files.";
-    static constexpr bool kIsData = false;
-    std::string file;  // with one run of '#', replaced by the frame number
-    FrameSpan span;
-
-    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
-    void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
+struct PictureType {
+    PictureOutput::Kind kind;
+    const char *name, *meaning;
 };
-struct StillOutput : Picture {
-    static constexpr const char *kType = "still", *kMeaning = "One picture.";
-    static constexpr bool kIsData = false;
-    std::string file;
-    Instant at;
+inline constexpr PictureType kPictureTypes[] = {
+    {PictureOutput::Kind::video, "video", "A film; the ending of its name selects the format."},
+    {PictureOutput::Kind::frames, "frames", "A sequence of PNG files."},
+    {PictureOutput::Kind::still, "still", "One picture."},
+    // It leaves out poses that it can interpolate, and adapts to any window size.
+    {PictureOutput::Kind::page, "page", "A self-contained HTML page that plays the motion."},
+    {PictureOutput::Kind::model, "model",
+     "An animated three-dimensional model of the mechanism, for Blender and slides."}};
 
-    Extent extent() const { return at.kind == Instant::Kind::time ? Extent::keys : Extent::scene; }
-    void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
-};
-// The page leaves out poses that it can interpolate, and adapts to any window size.
-struct PageOutput : Picture {
-    static constexpr const char *kType = "page", *kMeaning = "A self-contained HTML page that plays the motion.";
-    static constexpr bool kIsData = false;
-    std::string file;  // .html
-    FrameSpan span{.fps = {1000, 1}};
-
-    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
-    void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
-};
-struct ModelOutput : Picture {
-    static constexpr const char *kType = "model",
-                                *kMeaning =
-                                    "An animated three-dimensional model of the mechanism, for Blender and slides.";
-    static constexpr bool kIsData = false;
-    std::string file;  // .glb
-    FrameSpan span;
-
-    Extent extent() const { return span.to ? Extent::keys : Extent::scene; }
-    void visit(SceneVisitor& v);
-    void plan(Planner& planner, std::size_t output) const;
-};
 struct TrajectoryOutput {
     static constexpr const char *kType = "trajectory", *kMeaning = "A table of channels against time.";
     static constexpr bool kIsData = true;
@@ -280,10 +255,10 @@ struct SweepOutput {
 };
 inline constexpr std::initializer_list<const char*> kSweepFilmEndings{".mp4", ".mov", ".mkv", ".webm"};
 struct SweepFilmOutput {
-    static constexpr const char *kType = "sweep-film",
-                                *kMeaning =
-                                    "A film of the scene's sweep over one key: a growing bifurcation diagram "
-                                    "beside the motion at that value.";
+    static constexpr const char
+        *kType = "sweep-film",
+        *kMeaning =
+            "A film of the scene's sweep over one key: a growing bifurcation diagram beside the motion at that value.";
     static constexpr bool kIsData = false;
     std::string file;  // .mp4, .mov, .mkv or .webm
     Size size;
@@ -367,19 +342,20 @@ struct FigureOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-using Output = std::variant<VideoOutput, FramesOutput, StillOutput, PageOutput, ModelOutput, FigureOutput,
-                            TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput, SweepFilmOutput, SummaryOutput>;
+using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput,
+                            SweepFilmOutput, SummaryOutput>;
 
 // Estimated memory of a drawing thread [bytes], and the value above which a warning is printed.
 double memory_of(const Picture& picture);
 constexpr double kMuchMemory = 1e9;
 
 const std::string& file_of(const Output& output);
-std::string poster_file(const VideoOutput& video);          // "fall.png" beside "fall.mp4"
-std::string subtitles_file(const VideoOutput& video);       // "fall.vtt"; empty: none
+std::string poster_file(const PictureOutput& video);        // "fall.png" beside "fall.mp4"; empty: none
+std::string subtitles_file(const PictureOutput& video);     // "fall.vtt"; empty: none
 std::vector<std::string> written_by(const Output& output);  // its file and its secondary files
 bool is_data(const Output& output);
 bool is_picture(const Output& output);
+const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind);  // null: it is none of this kind
 
 struct Scene {
     std::string name = "scene";  // the file's name without its ending
@@ -400,7 +376,7 @@ struct Scene {
 };
 
 // The output of a scene without outputs.
-VideoOutput default_film(const Scene& scene);
+PictureOutput default_film(const Scene& scene);
 
 // The scene as JSON in the scene format with all defaults. It reads back to the same scene, and is the metadata of
 // files made from it.

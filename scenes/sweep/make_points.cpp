@@ -106,8 +106,8 @@ std::optional<sim::InitialState> end_of(const output::StoredPoint& point) {
     const std::vector<double>& numbers = point.state;  // as numbers_of
     if (numbers.size() < 6) return std::nullopt;
     sim::InitialState s;
-    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2], static_cast<sim::FrictionState>(static_cast<int>(numbers[3])),
-               numbers[4]};
+    s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2],
+               static_cast<sim::FrictionState>(static_cast<int>(numbers[3])), numbers[4]};
     s.y.assign(numbers.begin() + 5, numbers.end());
     return s;
 }

@@ -14,7 +14,6 @@ namespace beamcam::scenes {
 // The tasks of this process: those with number ≡ `part` (mod `parts`).
 struct SweepPart {
     std::uint64_t part = 0, parts = 1;
-    bool has_task(std::uint64_t task) const { return task % parts == part; }
     bool whole() const { return parts == 1; }
 };
 std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part);  // true for its points

@@ -117,8 +117,8 @@ SweepPart part_argument(const std::string& text, const std::function<const char*
         return part_of(*number < first ? 0 : (*number - first) / step + 1, *count, text);
     }
     throw UsageError(
-        fmt::format("--shard {}: this is not an array task, since SLURM_ARRAY_TASK_ID, SGE_TASK_ID and "
-                    "PBS_ARRAY_INDEX are not set; write I/N",
+        fmt::format("--shard {}: this is not an array task, since SLURM_ARRAY_TASK_ID, SGE_TASK_ID and PBS_ARRAY_INDEX "
+                    "are not set; write I/N",
                     text));
 }
 

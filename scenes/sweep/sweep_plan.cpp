@@ -26,18 +26,16 @@ std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& fi
     const double columns = kCommonColumns + (grid.sampling().kind == sim::SampleKind::impacts ? 11 : 5);
     const double rows = std::max(cost.rows, static_cast<double>(grid.points()));
     if (json) {
-        Node out = object_node();
-        add(out, "points", integer_node(static_cast<long>(grid.points())));
-        add(out, "tasks", integer_node(static_cast<long>(grid.tasks())));
-        add(out, "threads", integer_node(used));
-        add(out, "seconds", number_node(seconds));
-        add(out, "rows", number_node(std::round(rows)));
-        add(out, "csv_bytes", number_node(std::round(rows * columns * kTextOfNumber)));
-        add(out, "npz_bytes", number_node(std::round(rows * columns * kNumber)));
         Node made = array_node();
         for (const PlannedFile& each : files) made.items.push_back(text_node(each.file));
-        add(out, "files", std::move(made));
-        return to_text(out);
+        return to_text(object_node({{"points", integer_node(static_cast<long>(grid.points()))},
+                                    {"tasks", integer_node(static_cast<long>(grid.tasks()))},
+                                    {"threads", integer_node(used)},
+                                    {"seconds", number_node(seconds)},
+                                    {"rows", number_node(std::round(rows))},
+                                    {"csv_bytes", number_node(std::round(rows * columns * kTextOfNumber))},
+                                    {"npz_bytes", number_node(std::round(rows * columns * kNumber))},
+                                    {"files", std::move(made)}}));
     }
     std::string text = "sweep\n";
     for (const output::SweepAxis& axis : grid.axes())

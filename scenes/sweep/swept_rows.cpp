@@ -35,10 +35,9 @@ SweptImpacts swept_impacts(const std::string& file, const std::string& key, doub
     const output::NamedTable table = sweep_table(file);
     const auto column = [&](const std::string& name) -> const std::vector<double>& {
         if (const std::vector<double>* found = table.find(name)) return *found;
-        throw UsageError(
-            fmt::format("--sweep {}: column {} is missing; write the file by beamcam sweep --over {}=... "
-                        "--sample impacts -o {}",
-                        file, name, key, file));
+        throw UsageError(fmt::format(
+            "--sweep {}: column {} is missing; write the file by beamcam sweep --over {}=... --sample impacts -o {}",
+            file, name, key, file));
     };
     const std::vector<double>&value = column(key), &speed = column("v_n_before");
     const std::vector<double>* kind = table.find("class");

@@ -179,7 +179,7 @@ TEST(OrbitsCommand, WritesASceneThatStaysOnTheOrbitAndWhoseFilmLoops) {
     ASSERT_TRUE(reading.scene) << reading.report();
     const Scene& scene = *reading.scene;
     ASSERT_EQ(scene.outputs.size(), 1u);
-    const auto& film = std::get<VideoOutput>(scene.outputs.front());
+    const auto& film = std::get<PictureOutput>(scene.outputs.front());
     const double period = 3 * 2 * std::numbers::pi / 12;
     EXPECT_DOUBLE_EQ(scene.end_time, 2 * period);
     EXPECT_DOUBLE_EQ(film.span.from, period);

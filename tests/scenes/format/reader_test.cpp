@@ -127,7 +127,7 @@ TEST(Reader, EveryOutputTypeIsRead) {
     ASSERT_TRUE(reading.scene) << reading.report();
     const std::vector<Output>& outputs = reading.scene->outputs;
     ASSERT_EQ(outputs.size(), 6u);
-    const auto& video = std::get<VideoOutput>(outputs[0]);
+    const auto& video = std::get<PictureOutput>(outputs[0]);
     EXPECT_EQ(video.file, "a.mp4");
     EXPECT_EQ(video.size, (Size{640, 360}));
     EXPECT_EQ(video.span.fps, (FrameRate{30000, 1001}));
@@ -138,9 +138,9 @@ TEST(Reader, EveryOutputTypeIsRead) {
     EXPECT_EQ(video.view.theme, render::Theme::dark);
     EXPECT_EQ(video.encoding.crf, 20);
     EXPECT_EQ(video.encoding.preset, "fast");
-    EXPECT_EQ(std::get<FramesOutput>(outputs[1]).span.fps, (FrameRate{10, 1}));
-    EXPECT_EQ(std::get<StillOutput>(outputs[2]).at.t, 0.37);
-    EXPECT_EQ(std::get<StillOutput>(outputs[2]).file, "scene.png");
+    EXPECT_EQ(std::get<PictureOutput>(outputs[1]).span.fps, (FrameRate{10, 1}));
+    EXPECT_EQ(std::get<PictureOutput>(outputs[2]).at.t, 0.37);
+    EXPECT_EQ(std::get<PictureOutput>(outputs[2]).file, "scene.png");
     const auto& table = std::get<TrajectoryOutput>(outputs[3]);
     EXPECT_EQ(table.channels, (std::vector<sim::Channel>{{sim::ChannelKind::q, 2}, {sim::ChannelKind::theta, 0}}));
     EXPECT_EQ(table.times, (std::vector<double>{1, 0.5}));
@@ -151,7 +151,7 @@ TEST(Reader, EveryOutputTypeIsRead) {
 TEST(Reader, PlatesAreLeftOutOneByOneOrByAPreset) {
     const auto view = [](const std::string& keys) {
         const Reading reading = read(R"({"outputs": [{"type": "still", "at": 0, )" + keys + "}]}");
-        return std::pair{reading.scene ? std::get<StillOutput>(reading.scene->outputs[0]).view : View{},
+        return std::pair{reading.scene ? std::get<PictureOutput>(reading.scene->outputs[0]).view : View{},
                          reading.report()};
     };
     EXPECT_EQ(view(R"("show": {"clock": false})").first.show, (render::Shown{.clock = false}));
@@ -251,15 +251,15 @@ TEST(Reader, TheEndingChoosesTheCodec) {
     const output::Codec expected[] = {output::Codec::vp9, output::Codec::gif, output::Codec::prores,
                                       output::Codec::ffv1};
     for (std::size_t i = 0; i < 4; ++i)
-        EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[i]).encoding.codec, expected[i]);
-    EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[1]).span.fps, (FrameRate{25, 1}));
+        EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[i]).encoding.codec, expected[i]);
+    EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[1]).span.fps, (FrameRate{25, 1}));
 }
 
 TEST(Reader, ComparedMotionsAreTheSceneWithChanges) {
     const Reading reading = read(R"({"beam": {"modes": 5}, "outputs": [{"type": "video", "compare": [{"label": "a"},
         {"label": "b", "set": {"cam.speed": 5, "beam.model": "rigid"}}, {"set": {"cam": null}}]}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
-    const auto& compared = std::get<VideoOutput>(reading.scene->outputs[0]).compare;
+    const auto& compared = std::get<PictureOutput>(reading.scene->outputs[0]).compare;
     ASSERT_EQ(compared.size(), 3u);
     EXPECT_EQ(compared[0].problem.beam.modes, 5);
     EXPECT_EQ(compared[0].problem.cam->speed, reading.scene->problem.cam->speed);
@@ -312,7 +312,7 @@ TEST(Override, ReplacesInsertsAndCountsInArrays) {
     EXPECT_EQ(reading.scene->problem.beam.modes, 7);
     EXPECT_DOUBLE_EQ(reading.scene->problem.cam->speed, 10 * std::acos(-1.0));
     EXPECT_TRUE(std::holds_alternative<sim::CoulombFriction>(reading.scene->problem.contact.friction));
-    EXPECT_EQ(std::get<VideoOutput>(reading.scene->outputs[0]).span.fps, (FrameRate{30, 1}));
+    EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[0]).span.fps, (FrameRate{30, 1}));
     EXPECT_EQ(reading.scene->problem.beam.model, sim::ModelKind::rigid);
     EXPECT_EQ(reading.scene->title, "a b");
 }
@@ -378,7 +378,7 @@ TEST(ComparedFiles, EachIsReadOnce) {
     const Reading reading = read_file_of(folder, "0.json");
     ASSERT_TRUE(reading.scene) << reading.report();
     folder.write("top.json", comparing("12.json", 7));
-    EXPECT_EQ(std::get<StillOutput>(read_file_of(folder, "top.json").scene->outputs[0]).compare[7].problem.beam.modes,
+    EXPECT_EQ(std::get<PictureOutput>(read_file_of(folder, "top.json").scene->outputs[0]).compare[7].problem.beam.modes,
               5);
 }
 

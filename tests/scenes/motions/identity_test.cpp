@@ -245,11 +245,8 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
     if (place.starts_with("/units/")) return is_picture(any) || sweep_film;
     if (place != "/time/end") return true;
     if (of_sweep) return false;
-    if (const auto* video = std::get_if<VideoOutput>(&any)) return !video->span.to;
-    if (const auto* frames = std::get_if<FramesOutput>(&any)) return !frames->span.to;
-    if (const auto* page = std::get_if<PageOutput>(&any)) return !page->span.to;
-    if (const auto* model = std::get_if<ModelOutput>(&any)) return !model->span.to;
-    if (const auto* still = std::get_if<StillOutput>(&any)) return still->at.kind != Instant::Kind::time;
+    if (const auto* still = picture_of(any, PictureOutput::Kind::still)) return still->at.kind != Instant::Kind::time;
+    if (const auto* pictures = std::get_if<PictureOutput>(&any)) return !pictures->span.to;
     if (const auto* table = std::get_if<TrajectoryOutput>(&any)) return table->times.empty();
     if (const auto* shapes = std::get_if<ShapesOutput>(&any)) return shapes->times.empty();
     if (const auto* figure = std::get_if<FigureOutput>(&any)) return !figure->series.to;

@@ -275,13 +275,13 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
         return result;
     });
     EXPECT_FALSE(p.events_until);
-    EXPECT_GT(p.frames(), 90u + 60u);  // real time, and 22 ms at a fiftieth
+    EXPECT_GT(p.pictures.front().draw.size(), 90u + 60u);  // real time, and 22 ms at a fiftieth
 }
 
 TEST(Films, RealTimeFilmsNeedNoFirstRun) {
     const Reading reading = testing::read(R"({"outputs": [{"type": "video", "speed": 0.25}]})");
     EXPECT_FALSE(plan(*reading.scene).events_until);
-    EXPECT_EQ(plan(*reading.scene).frames(), 360u);
+    EXPECT_EQ(plan(*reading.scene).pictures.front().draw.size(), 360u);
 }
 
 // What shows collisions one by one, as very slow films do of themselves, has to know them.
@@ -415,7 +415,7 @@ TEST(Films, ScalesComeFromTheSameInstantsAtAnyFrameRate) {
     const auto surveyed = [](const std::string& output) {
         const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [)" + output + "]}");
         const Plan made = plan(*reading.scene);
-        return made.simulation->request.poses.at(made.pictures.front().survey).times;
+        return made.simulation->request.poses.at(made.pictures.front().of_scene.survey).times;
     };
     const auto thirty = surveyed(R"({"type": "video", "fps": 30, "from": 0.2, "to": 0.4})"),
                sixty = surveyed(R"({"type": "video", "fps": 60, "from": 0.2, "to": 0.4})");
@@ -434,7 +434,7 @@ TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
         return sim::simulate(problem, request);
     });
     const auto& poses = made.simulation->request.poses;
-    EXPECT_EQ(poses.at(made.pictures[0].survey).times, poses.at(made.pictures[1].survey).times);
+    EXPECT_EQ(poses.at(made.pictures[0].of_scene.survey).times, poses.at(made.pictures[1].of_scene.survey).times);
 }
 
 // ---- how long films last, and what goes with them --------------------------------------------
@@ -443,7 +443,7 @@ FilmTimes times_in(const std::string& keys, const sim::Result& motion = {}) {
     const Reading reading =
         testing::read(R"({"time": {"end": 1}, "outputs": [{"type": "video", "fps": 30, )" + keys + "}]}");
     EXPECT_TRUE(reading.scene) << reading.report();
-    return film_times(std::get<VideoOutput>(reading.scene->outputs[0]).span, 1, motion);
+    return film_times(std::get<PictureOutput>(reading.scene->outputs[0]).span, 1, motion);
 }
 
 TEST(Films, LastAsLongAsIsWanted) {

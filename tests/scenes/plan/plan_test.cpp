@@ -34,7 +34,7 @@ std::string text_of(const std::string& scene_text) {
 TEST(Plan, WithoutOutputsNothingIsDone) {
     const Plan p = plan_of("[]");
     EXPECT_FALSE(p.simulation);
-    EXPECT_EQ(p.frames(), 0u);
+    EXPECT_TRUE(p.pictures.empty());
     EXPECT_FALSE(p.needs_gl());
     EXPECT_FALSE(p.needs_encoder());
 }
@@ -67,8 +67,9 @@ TEST(Plan, FramesStandAtMultiplesOfTheFramePeriod) {
     const Plan p = plan_of(R"([{"type": "frames", "fps": 10, "from": 0.2, "to": 0.5}])");
     EXPECT_EQ(p.pictures[0].first_frame, 2);
     EXPECT_THAT(p.simulation->request.poses[0].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
-    EXPECT_EQ(plan_of(R"([{"type": "video"}])", R"("time": {"end": 10},)").frames(), 600u);
-    EXPECT_EQ(plan_of(R"([{"type": "video", "fps": 29.97}])", R"("time": {"end": 10},)").frames(), 300u);
+    EXPECT_EQ(plan_of(R"([{"type": "video"}])", R"("time": {"end": 10},)").pictures.front().draw.size(), 600u);
+    EXPECT_EQ(plan_of(R"([{"type": "video", "fps": 29.97}])", R"("time": {"end": 10},)").pictures.front().draw.size(),
+              300u);
 }
 
 TEST(Plan, TableRowsAreMultiplesOfThePeriodAndTheEnd) {
@@ -93,8 +94,8 @@ TEST(Plan, AFlatViewNeedsNoOpenGl) {
 }
 
 TEST(Plan, WithoutACamThereIsNoTraceOfTheContact) {
-    EXPECT_FALSE(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0].trace);
-    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").pictures[0].trace);
+    EXPECT_FALSE(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0].of_scene.trace);
+    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").pictures[0].of_scene.trace);
 }
 
 TEST(Plan, OneSimulationServesEveryOutput) {
@@ -102,7 +103,7 @@ TEST(Plan, OneSimulationServesEveryOutput) {
         R"([{"type": "video", "file": "a.mp4"}, {"type": "still", "at": 0.2}, {"type": "trajectory"}, {"type": "summary"}])");
     EXPECT_EQ(p.simulation->request.poses.size(), 4U);   // of each its frames, and what its scales are chosen by
     EXPECT_EQ(p.simulation->request.tables.size(), 5u);  // chart and trace of each picture, and the table
-    EXPECT_NE(p.pictures[0].poses, p.pictures[1].poses);
+    EXPECT_NE(p.pictures[0].of_scene.poses, p.pictures[1].of_scene.poses);
 }
 
 // ---- golden texts ------------------------------------------------------------------------------

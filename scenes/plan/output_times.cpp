@@ -1,17 +1,135 @@
-#include "scenes/plan/picture_times.hpp"
+#include "scenes/plan/output_times.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
+#include <utility>
 
 #include "render/base/error.hpp"
-#include "scenes/plan/event_search.hpp"
-#include "scenes/plan/figure_times.hpp"
 #include "scenes/scene/time_map.hpp"
 #include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
+
+// ---- the search for events ---------------------------------------------------------------------
+
+namespace {
+
+using Bounds = std::vector<std::optional<Instant>>;  // events at which outputs begin or end
+
+// The events after which the run may end. The apex of a rebound is certain when the next collision begins. nullopt: the
+// whole motion is needed.
+std::optional<sim::EventCounts> enough_for(const Bounds& bounds) {
+    sim::EventCounts enough;
+    const auto raise = [](std::size_t& count, int number) {
+        count = std::max(count, static_cast<std::size_t>(number));
+    };
+    for (const std::optional<Instant>& each : bounds) {
+        switch (each.value_or(Instant{}).kind) {
+            case Instant::Kind::time:
+                break;
+            case Instant::Kind::last:
+                return std::nullopt;
+            case Instant::Kind::impact:
+                raise(enough.touches, each->number);
+                break;
+            case Instant::Kind::release:
+                raise(enough.releases, each->number);
+                break;
+            case Instant::Kind::collision:
+                raise(enough.collisions, each->number);
+                break;
+            case Instant::Kind::apex:
+                raise(enough.collisions, each->number + 1);
+                break;
+        }
+    }
+    return enough.touches + enough.releases + enough.collisions > 0 ? std::optional(enough) : std::nullopt;
+}
+
+Bounds bounds_of(const Pictures& p) { return {p.span.from_event, p.span.to_event}; }
+Bounds bounds_of(const SeriesKeys& keys) { return {keys.from_event, keys.to_event, keys.at}; }
+
+sim::Request events_request(double end, bool apexes) {
+    sim::Request request;
+    request.end_time = end;
+    request.apexes = apexes;
+    return request;
+}
+
+// The motion until the end of the request, or until all bounds are found. Without bounds: until the end.
+sim::Result find_events(const sim::Problem& problem, sim::Request request, const Bounds& bounds,
+                        const FindEvents& find) {
+    request.enough = enough_for(bounds);
+    sim::Result found = find(problem, request);
+    const auto lacks = [&](const std::optional<Instant>& at) { return at && !find_instant(*at, found); };
+    if (!(found.end_time < request.end_time) || std::ranges::none_of(bounds, lacks)) return found;
+    request.enough.reset();  // two successive collisions had no apex between them
+    return find(problem, request);
+}
+
+}  // namespace
+
+// ---- figures -----------------------------------------------------------------------------------
+
+void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& how) {
+    const Recipe* recipe = recipe_named(how.figure);
+    if (!recipe) throw std::logic_error("unknown figure: " + how.figure);
+    Studies studies;
+    figure.make = [make = recipe->prepare(scene, how, studies), height = how.series.height](const Results& results) {
+        render::figure::Figure made = make(results);
+        if (height) made.height = *height * 1e3;
+        return made;
+    };
+    figure.studies = studies.take();
+    const std::string own = Studies::key(scene.problem);
+    for (Study& study : figure.studies) study.of_scene = Studies::key(study.problem) == own;
+}
+
+static bool needs_apexes(const FigureOutput& how) {
+    for (const auto& each : {how.series.from_event, how.series.to_event, how.series.at})
+        if (each && each->kind == Instant::Kind::apex) return true;
+    return false;
+}
+
+FigureOutput with_event_times(FigureOutput how, const sim::Result& motion, double end_time) {
+    const auto text = [](const std::optional<Instant>& event, double t) {
+        return event ? fmt::format("{} at {:g} s", name_of(*event), t) : fmt::format("{:g} s", t);
+    };
+    const auto from_event = how.series.from_event, to_event = how.series.to_event;
+    SeriesKeys series = with_times(std::move(how.series), motion);
+    if (const auto at = std::exchange(series.at, {}))
+        series.from = at->kind == Instant::Kind::last ? end_time : instant_of(*at, motion), series.to = series.from;
+    const double end = series.to.value_or(end_time);
+    if (!(series.from < end) && !(how.figure == "strobe" && series.from == end))
+        throw render::PictureError(fmt::format("figure {}: \"from\" = {} is not before \"to\" = {}", how.figure,
+                                               text(from_event, series.from), text(to_event, end)));
+    how.series = std::move(series);
+    return how;
+}
+
+FigureOutput with_found_times(const FigureOutput& how, const Scene& scene, const FindEvents& find) {
+    const SeriesKeys& keys = how.series;
+    if (!keys.needs_events()) return with_event_times(how, {}, scene.end_time);
+    const sim::Problem& counted = keys.compare.empty() ? scene.problem : keys.compare.front().problem;
+    const sim::Request request = events_request(keys.to.value_or(scene.end_time), needs_apexes(how));
+    const bool ends_at_event = keys.to_event || keys.at;
+    return with_event_times(how, find_events(counted, request, ends_at_event ? bounds_of(keys) : Bounds(), find),
+                            scene.end_time);
+}
+
+FigureOutput without_events(FigureOutput how) {
+    SeriesKeys& keys = how.series;
+    if (keys.from_event || keys.at) keys.from = 0;
+    if (keys.to_event || keys.at) keys.to.reset();
+    keys.from_event.reset(), keys.to_event.reset(), keys.at.reset();
+    return how;
+}
+
+// ---- pictures ----------------------------------------------------------------------------------
+
 namespace {
 
 // End of the motion that determines the scales of a still [s]: its instant, or the end of the scene if it shows an
@@ -28,14 +146,14 @@ void end_at_event(Pictures& p, const sim::Result& motion) {
 bool needs_apexes(const Pictures& p) {
     std::vector<Instant> named = p.span.instants();
     named.push_back(p.at);
-    for (const Keyframe& key : p.picture.view.keyframes) named.push_back(key.at);
+    for (const Keyframe& key : p.view.keyframes) named.push_back(key.at);
     return std::ranges::any_of(named, [](const Instant& at) { return at.kind == Instant::Kind::apex; });
 }
 
 FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& motion) {
     const bool shortened = p.span.to || p.ends_at_event();
-    if (!times.frames.empty()) add_moves(times, p.picture.view, p.span.fps.value(), motion, shortened);
-    add_exposures(times, p.picture.view, p.span.fps.value(), p.end_time);
+    if (!times.frames.empty()) add_moves(times, p.view, p.span.fps.value(), motion, shortened);
+    add_exposures(times, p.view, p.span.fps.value(), p.end_time);
     return times;
 }
 
@@ -98,19 +216,17 @@ void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
     p.moves = std::move(times.moves);
     p.unreached_events = std::move(times.unreached_events);
     p.poster = times.poster;
-    std::vector<double>& poses = times.exposures.empty() ? times.frames : times.exposures;
-    for (ComparedMotion& other : p.compared) {
-        other.request.poses.front().times = poses;
-        other.request.poses.back().times = times.survey;
-        other.request.tables.front().times = times.chart;
-        if (other.problem.cam) other.request.tables[1].times = times.trace;
-    }
-    if (!p.compared.empty()) return;
-    request.poses[p.poses].times = std::move(poses);
-    request.poses[p.survey].times = std::move(times.survey);
-    request.tables[p.chart].times = std::move(times.chart);
-    if (p.trace) request.tables[*p.trace].times = std::move(times.trace);
+    const auto put = [&times](sim::Request& into, const PictureRequests& at) {
+        into.poses[at.poses].times = times.exposures.empty() ? times.frames : times.exposures;
+        into.poses[at.survey].times = times.survey;
+        into.tables[at.chart].times = times.chart;
+        if (at.trace) into.tables[*at.trace].times = times.trace;
+    };
+    for (ComparedMotion& other : p.compared) put(other.request, other.of_picture);
+    if (p.compared.empty()) put(request, p.of_scene);
 }
+
+// ---- all outputs -------------------------------------------------------------------------------
 
 namespace {
 
