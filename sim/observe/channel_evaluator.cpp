@@ -63,6 +63,7 @@ void ChannelEvaluator::set_gap(double gap) {
 }
 
 double ChannelEvaluator::value(Channel channel) {
+    if (needs_cam(channel.kind)) return system_.has_cam() ? value_with_cam(channel.kind) : kNan;
     switch (channel.kind) {
         case ChannelKind::t:
             return t_;
@@ -86,22 +87,9 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::work_drive:
             return ledger(kWorkDrive);
         case ChannelKind::energy_residual:
+        default:
             return energy_balance().total() - start_total_;
-        case ChannelKind::contact_force:
-        case ChannelKind::friction_force:
-        case ChannelKind::gap:
-        case ChannelKind::contact_x:
-        case ChannelKind::contact_s:
-        case ChannelKind::cam_angle:
-        case ChannelKind::energy_contact:
-        case ChannelKind::loss_contact:
-        case ChannelKind::loss_friction:
-        case ChannelKind::work_cam:
-        case ChannelKind::separation:
-        case ChannelKind::separation_paper:
-            break;
     }
-    return system_.has_cam() ? value_with_cam(channel.kind) : kNan;
 }
 
 // Across the tangent at the root, which is the hub's direction (S6).

@@ -1,5 +1,6 @@
 #include "sim/observe/channels.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <utility>
@@ -14,6 +15,7 @@ struct ChannelRow {
     bool needs_cam = false;
 };
 constexpr std::array kEntries{
+    // in the order of ChannelKind
     ChannelRow{ChannelKind::t, "t", "s"},
     ChannelRow{ChannelKind::theta, "theta", "rad"},
     ChannelRow{ChannelKind::theta_dot, "theta_dot", "rad/s"},
@@ -39,12 +41,9 @@ constexpr std::array kEntries{
     ChannelRow{ChannelKind::separation, "separation", "m/s^2", true},
     ChannelRow{ChannelKind::separation_paper, "separation_paper", "m/s^2", true},
 };
+static_assert(std::ranges::all_of(kEntries, [](const ChannelRow& e) { return &kEntries[std::size_t(e.kind)] == &e; }));
 
-const ChannelRow& entry(ChannelKind kind) {
-    for (const ChannelRow& e : kEntries)
-        if (e.kind == kind) return e;
-    return kEntries.front();
-}
+const ChannelRow& entry(ChannelKind kind) { return kEntries[static_cast<std::size_t>(kind)]; }
 
 }  // namespace
 
