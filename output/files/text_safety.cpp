@@ -41,11 +41,12 @@ std::string copy(std::string_view text, Replace replace) {
 }  // namespace
 
 Character first_character(std::string_view text) {
-    if (text.front() == '\0') return {1, 0};  // for GLib it ends the text
+    const auto first = static_cast<unsigned char>(text.front());
+    if (first < 0x80) return {1, first};  // most characters; and U+0000, which ends a text for GLib
     const gunichar code = g_utf8_get_char_validated(text.data(), static_cast<gssize>(text.size()));
     constexpr gunichar kInvalid = 0x80000000;  // and what is above it
     if (code >= kInvalid) return {};
-    return {static_cast<std::size_t>(g_utf8_skip[static_cast<unsigned char>(text.front())]), code};
+    return {static_cast<std::size_t>(g_utf8_skip[first]), code};
 }
 
 std::string visible(std::string_view text) {
