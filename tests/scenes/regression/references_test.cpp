@@ -98,8 +98,8 @@ TEST(References, AnUpdateReplacesWhatTheMarkerListsAndKeepsEverythingElse) {
     EXPECT_EQ(all.at("refs/a.old/x"), "mine too");
     EXPECT_FALSE(all.contains("refs/c/0001.png"));
     EXPECT_EQ(all.size(), 8u);  // and two markers
-    EXPECT_EQ(marked_files(scratch / "refs/a")->at("0000.png").pixels, "12ab");
-    EXPECT_FALSE(marked_files(scratch / "refs/a")->contains("notes.txt"));
+    EXPECT_EQ(marked_files(scratch / "refs/a").at("0000.png").pixels, "12ab");
+    EXPECT_FALSE(marked_files(scratch / "refs/a").contains("notes.txt"));
 }
 
 TEST(References, AFolderThatIsNotMarkedIsRefusedAndLeftAlone) {
@@ -192,7 +192,7 @@ TEST(References, WhatIsAddedLeavesAllElseAsItIs) {
     Contents all = contents(scratch.path());
     EXPECT_THAT(all.at("refs/a/.beamcam-reference"),
                 ::testing::HasSubstr(expected.at("refs/a/.beamcam-reference").substr(20)));
-    EXPECT_EQ(marked_files(scratch / "refs/a")->at("0000-0123456789ab.png").pixels, "34cd");
+    EXPECT_EQ(marked_files(scratch / "refs/a").at("0000-0123456789ab.png").pixels, "34cd");
     expected["refs/a/.beamcam-reference"] = all.at("refs/a/.beamcam-reference");
     EXPECT_EQ(all, expected);
     update(scratch, "new");  // and goes with them
