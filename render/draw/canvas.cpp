@@ -9,23 +9,9 @@
 #include <stdexcept>
 
 #include "render/draw/cairo_support.hpp"
-#include "render/draw/font_handles.hpp"
-#include "render/draw/formula.hpp"
+#include "render/draw/letters.hpp"
 
 namespace beamcam::render {
-
-std::string escape(std::string_view plain) {
-    char* escaped = g_markup_escape_text(plain.data(), static_cast<gssize>(plain.size()));
-    std::string out = escaped;
-    g_free(escaped);
-    return out;
-}
-
-// At 112 % the x-height of STIX equals that of Inter.
-std::string math(std::string_view symbol) {
-    return fmt::format("<span face='STIXGeneral,STIX Two Text' style='italic' weight='normal' size='112%'>{}</span>",
-                       symbol);
-}
 
 namespace {
 
@@ -40,34 +26,12 @@ void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> 
     cairo_surface_destroy(surface);
 }
 
-// Tabular digits, so that changing numbers do not jitter.
-LetterFace face_of(const TextStyle& style) {
-    return {.family = "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC",
-            .size = style.size,
-            .weight = style.weight,
-            .tabular = true,
-            .max_width = style.max_width};
-}
-
 constexpr double kHalo = 0.30,
                  kOutline = 0.18;  // widths relative to the size: of a text's own halo, and of the outline of all texts
 
-struct Metrics {
-    Box ink;          // relative to the baseline's start
-    double advance;   // [px]
-    double baseline;  // from the layout's top
-};
-
-Metrics metrics(PangoLayout* layout) {
-    PangoRectangle ink, logical;
-    pango_layout_get_extents(layout, &ink, &logical);
-    const double k = 1.0 / PANGO_SCALE, baseline = pango_layout_get_baseline(layout) * k;
-    return {{ink.x * k, ink.y * k - baseline, ink.width * k, ink.height * k}, logical.width * k, baseline};
-}
-
 }  // namespace
 
-Canvas::Canvas(Image& image, const Fonts& fonts) : image_(image), fonts_(fonts) {
+Canvas::Canvas(Image& image, const Fonts& fonts) : Painter(fonts), image_(image) {
     begin(surface_of(image), fmt::format("a picture of {}×{} pixels", image.width, image.height));
 }
 Canvas::~Canvas() noexcept(false) { end(); }
@@ -135,62 +99,53 @@ void Canvas::paint_pixels(const std::function<void(const PixelView&, DirtyTiles*
     cairo_surface_mark_dirty(surface);
 }
 
-std::string Canvas::drawable(std::string_view plain) const {
-    std::string out;
-    const char* end = plain.data() + plain.size();
-    for (const char* at = plain.data(); at < end; at = g_utf8_next_char(at)) {
-        const gunichar character = g_utf8_get_char_validated(at, end - at);
-        if (character >= gunichar(-2)) break;  // invalid UTF-8, which the scene reader has already rejected
-        const std::string one(at, static_cast<std::size_t>(g_utf8_next_char(at) - at));
-        // Joiners and variation selectors are not visible.
-        if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
-        if (character >= 0x80) {
-            if (pango_layout_get_unknown_glyphs_count(layout_of(fonts_, face_of({}), escape(one))) > 0) continue;
-        }
-        out += one;
-    }
-    return out;
+// Glyphs are placed at whole pixels. Cairo rounds points to 1/256 px first; the runs of a text share this rounding,
+// else they might be in different rows.
+Vec2 Canvas::rounded_start(Vec2 at, const SetLabel& label, const TextStyle& style) {
+    double baseline = 0;
+    for (const SetRun& run : label.runs) baseline = std::max(baseline, baseline_of(layout_of(*fonts_, run, style)));
+    cairo_move_to(cr_, at.x, at.y - baseline);
+    cairo_get_current_point(cr_, &at.x, &at.y);
+    cairo_new_path(cr_);
+    return at + Vec2{0, baseline};
 }
 
-Box Canvas::text(Vec2 baseline, const std::string& markup, const TextStyle& style) {
-    if (markup.empty()) return {baseline.x, baseline.y, 0, 0};
-    if (has_formula(markup)) {
-        if (style.align != HAlign::left)
-            baseline.x -= set_parts({}, markup, style, false).w * (style.align == HAlign::centre ? 0.5 : 1);
-        return set_parts(baseline, markup, style, true);
-    }
-    PangoLayout* layout = layout_of(fonts_, face_of(style), markup);
-    const Metrics m = metrics(layout);
-    double x = baseline.x;
-    if (style.align == HAlign::centre) x -= m.advance / 2;
-    if (style.align == HAlign::right) x -= m.advance;
-    cairo_move_to(cr_, x, baseline.y - m.baseline);
+void Canvas::write(const SetRun& run, Vec2 at, const TextStyle& style) {
+    cairo_move_to(cr_, at.x, std::floor(at.y + 0.5));
+    pango_cairo_show_layout_line(cr_, pango_layout_get_line_readonly(layout_of(*fonts_, run, style), 0));
+    new_path();
+}
+
+Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
+    const SetLabel label = set_text(*fonts_, markup, style);
+    if (style.align != HAlign::left) at.x -= label.width * (style.align == HAlign::centre ? 0.5 : 1);
+    Box ink = label.ink.box();
+    ink.x += at.x, ink.y += at.y;
     std::optional<Color> halo = style.halo;
     if (outline) halo = outline->faded(style.color.a);
-    const double wide = (outline ? kOutline : kHalo) * style.size;
     if (halo && halo->faded(0) == style.color.faded(0))
         halo.reset();  // a halo of the same colour would only thicken the letters
+    const double wide = (outline ? kOutline : kHalo) * style.size;
     if (halo) {
-        pango_cairo_layout_path(cr_, layout);
-        add_to_key('t', {x, baseline.y}, face_of(style).key(markup));
-        extend_path_box({x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h});
+        for (const SetRun& run : label.runs) {
+            PangoLayout* letters = layout_of(*fonts_, run, style);
+            const Vec2 from = at + Vec2{run.x, run.y};
+            cairo_move_to(cr_, from.x, from.y - baseline_of(letters));
+            pango_cairo_layout_path(cr_, letters);
+            add_to_key('t', {from.x, from.y}, face_of(run, style, fonts_->typefaces()).key(run.run.text));
+        }
+        extend_path_box(ink);
         uncased([&] { stroke({*halo, wide}); });
-        cairo_move_to(cr_, x, baseline.y - m.baseline);
     }
-    set_source(style.color);
-    pango_cairo_show_layout(cr_, layout);
-    new_path();
-    const Box ink{x + m.ink.x, baseline.y + m.ink.y, m.ink.w, m.ink.h};
-    mark_painted(ink.inset(halo ? -1 - wide / 2 : -1));  // glyphs are placed at whole pixels
-    if (record) record->push_back(ink);
-    return {x, ink.y, m.advance, ink.h};
+    draw_label(label, rounded_start(at, label, style), style);
+    mark_painted(ink.inset(halo ? -1 - wide / 2 : -1));
+    if (record && !label.runs.empty()) record->push_back(ink);
+    return {at.x, ink.y, label.width, ink.h};
 }
 
-Box Canvas::measure(const std::string& markup, const TextStyle& style) {
-    if (has_formula(markup)) return set_parts({}, markup, style, false);
-    PangoLayout* layout = layout_of(fonts_, face_of(style), markup);
-    const Metrics m = metrics(layout);
-    return {0, m.ink.y, m.advance, m.ink.h};
+Box Canvas::measure(std::string_view markup, const TextStyle& style) const {
+    const SetLabel label = set_text(*fonts_, markup, style);
+    return {0, label.ink.box().y, label.width, label.ink.box().h};
 }
 
 std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,

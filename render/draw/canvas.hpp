@@ -1,7 +1,7 @@
 // Drawing on an Image with Cairo and Pango: paths, strokes, text. Coordinates in pixels, y down.
 //
-// Text is Pango markup (`escape` user text) with formulas (formula.hpp). The boxes of drawn texts can be recorded, so
-// that tests can check that texts stay inside their panels and do not overlap.
+// Texts are markup (markup.hpp). The boxes of drawn texts can be recorded, so that tests can check that texts stay
+// inside their panels and do not overlap.
 #pragma once
 
 #include <functional>
@@ -21,9 +21,6 @@
 
 namespace beamcam::render {
 
-std::string escape(std::string_view plain);
-std::string math(std::string_view symbol);  // markup of an italic symbol: math("θ")
-
 class Canvas : public Painter {
   public:
     Canvas(Image& image, const Fonts& fonts);
@@ -41,23 +38,21 @@ class Canvas : public Painter {
     // Gives `paint` direct access to the pixels; it must mark the tiles that it changes. Not allowed within `clip`.
     void paint_pixels(const std::function<void(const PixelView&, DirtyTiles* touched)>& paint);
 
-    // The text without characters that no font has (mostly pictographs), which would be drawn as boxes.
-    std::string drawable(std::string_view plain) const;
-    Box text(Vec2 baseline, const std::string& markup, const TextStyle& style);
-    const Fonts& fonts() const { return fonts_; }
-    const Image& image() const { return image_; }                    // as drawn so far
-    Box measure(const std::string& markup, const TextStyle& style);  // at baseline (0, 0), left
+    // Returns the ink of the text, as wide as its advance.
+    Box text(Vec2 baseline, std::string_view markup, const TextStyle& style) override;
+    Box measure(std::string_view markup, const TextStyle& style) const override;
+    const Fonts& fonts() const { return *fonts_; }
+    const Image& image() const { return image_; }  // as drawn so far
 
     // Outline of all texts instead of their own halos, for pictures without paper.
     std::optional<Color> outline = {};
     std::vector<Box>* record = nullptr;  // collects the ink boxes of drawn texts
 
   private:
-    // Draws or measures a left-aligned text with formulas.
-    Box set_parts(Vec2 at, const std::string& markup, const TextStyle& style, bool draws);
+    Vec2 rounded_start(Vec2 at, const SetLabel& label, const TextStyle& style);
+    void write(const SetRun& run, Vec2 at, const TextStyle& style) override;
 
     const Image& image_;
-    const Fonts& fonts_;
 };
 
 // The first of the texts that is no wider than `room`; the last one if none is.

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "render/base/error.hpp"
-#include "render/draw/font_handles.hpp"
+#include "render/draw/letters.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -118,16 +118,6 @@ bool needs_cjk(std::string_view utf8) {
 
 std::vector<FontFile> font_files(Typefaces typefaces) { return files_of(typefaces, typefaces == Typefaces::print); }
 
-std::string missing_glyphs(std::string_view utf8) {
-    if (needs_cjk(utf8))
-        return fmt::format("no font of the figure can write \"{}\"; install the Debian package fonts-droid-fallback",
-                           utf8);
-    return fmt::format(
-        "no font of the figure can write \"{}\"; use other characters, or install the Debian packages "
-        "fonts-liberation and fonts-droid-fallback",
-        utf8);
-}
-
 // ---- the pool of font sets -----------------------------------------------------------------------
 
 namespace {
@@ -214,53 +204,6 @@ Fonts::Fonts(bool cjk, Typefaces typefaces) : typefaces_(typefaces) {
 void Fonts::PutBack::operator()(Handles* handles) const {
     handles->layouts.clear();
     font_pool().put(std::unique_ptr<Handles>(handles));
-}
-
-// ---- texts ---------------------------------------------------------------------------------------
-
-namespace {
-
-PangoWeight pango_weight(Weight weight) {
-    switch (weight) {
-        case Weight::regular:
-            return PANGO_WEIGHT_NORMAL;
-        case Weight::medium:
-            return PANGO_WEIGHT_MEDIUM;
-        case Weight::semibold:
-            return PANGO_WEIGHT_SEMIBOLD;
-        case Weight::bold:
-            return PANGO_WEIGHT_BOLD;
-    }
-    return PANGO_WEIGHT_NORMAL;
-}
-
-PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& markup) {
-    PangoLayout* layout = pango_layout_new(context);
-    PangoFontDescription* font = pango_font_description_new();
-    pango_font_description_set_family_static(font, face.family);
-    pango_font_description_set_style(font, face.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
-    pango_font_description_set_weight(font, pango_weight(face.weight));
-    pango_font_description_set_absolute_size(font, face.size * PANGO_SCALE);
-    pango_layout_set_font_description(layout, font);
-    pango_font_description_free(font);
-    pango_layout_set_single_paragraph_mode(layout, TRUE);
-    pango_layout_set_ellipsize(layout, face.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
-    pango_layout_set_width(layout, face.max_width > 0 ? static_cast<int>(face.max_width * PANGO_SCALE) : -1);
-    const std::string all = face.tabular ? "<span font_features='tnum=1'>" + markup + "</span>" : markup;
-    pango_layout_set_markup(layout, all.c_str(), static_cast<int>(all.size()));
-    return layout;
-}
-
-}  // namespace
-
-std::string LetterFace::key(std::string_view markup) const {
-    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0)};
-    return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers).append(markup);
-}
-
-PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& markup) {
-    const Fonts::Handles& handles = fonts.handles();
-    return handles.layouts.get(face.key(markup), [&] { return make_layout(handles.context, face, markup); });
 }
 
 }  // namespace beamcam::render

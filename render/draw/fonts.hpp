@@ -22,8 +22,8 @@ bool needs_cjk(std::string_view utf8);
 // symbols, Droid Sans Fallback for Chinese. serif: Liberation Serif for all letters.
 enum class Typefaces { screen, print, serif };
 
-// The error message for missing characters; it names the Debian package to install.
-std::string missing_glyphs(std::string_view utf8);
+// The height of capitals and digits.
+double cap_height(Typefaces typefaces, double size);
 
 // A font file and the Debian package that contains it; `path` is empty if the file is missing.
 struct FontFile {
@@ -49,5 +49,8 @@ class Fonts {
     std::unique_ptr<Handles, PutBack> handles_;
     Typefaces typefaces_;
 };
+
+// The text without characters that no font has (mostly pictographs), which would be drawn as boxes.
+std::string drawable(const Fonts& fonts, std::string_view text);
 
 }  // namespace beamcam::render

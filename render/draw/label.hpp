@@ -1,5 +1,5 @@
 // Layout of a label in one line: positions of the runs of a markup (markup.hpp), and the lines of fractions and roots.
-// Figures and films use the same rules with different fonts.
+// Figures and films use the same rules with different fonts (letters.hpp).
 #pragma once
 
 #include <functional>
@@ -10,15 +10,12 @@
 
 namespace beamcam::render {
 
-// Metrics of the font of a label.
-struct LetterMetrics {
-    struct Extent {
-        double advance = 0;  // to the start of the next run
-        double top = 0;      // height above the baseline, where dots are placed
-    };
-    std::function<Extent(const Run& run, double size)> measure;
-    double cap_height = 0.72;  // of capitals and digits, relative to the size
-    double smallest = 0;       // smallest size of letters, scripts included
+// What the rules need of the fonts; all but `smallest` relative to the size of the letters.
+struct LetterRules {
+    double cap_height = 0.72;                                  // of capitals and digits
+    double smallest = 0;                                       // size of letters, scripts included
+    double script_size = 0.72, raised = 0.36, lowered = 0.17;  // size and baseline offsets of scripts
+    double behind_italic = 0.03;                               // space between an italic and an upright letter
 };
 
 struct SetRun {
@@ -26,13 +23,22 @@ struct SetRun {
     double x = 0, y = 0;  // of the baseline's start
     double size = 0, advance = 0, top = 0;
 };
+// Of the letters of a run.
+struct RunExtent {
+    double advance = 0;  // to the start of the next run
+    double top = 0;      // height above the baseline, where dots are placed
+    Box ink = {};        // relative to the baseline's start
+};
 struct SetLabel {
     std::vector<SetRun> runs;
     std::vector<std::vector<Vec2>> rules;  // lines of fractions and roots
     double width = 0, ascent = 0, descent = 0;
+    Bounds ink = {};
     double smallest_letter = 1e9;
 };
-SetLabel set_label(const std::vector<Run>& runs, double size, const LetterMetrics& letters);
+// `extent`: of a run with its place and size.
+SetLabel set_label(const std::vector<Run>& runs, double size, const LetterRules& rules,
+                   const std::function<RunExtent(const SetRun& run)>& extent);
 
 inline constexpr double kRuleWidth =
     0.055;  // width of the lines of fractions and roots, relative to the size of the letters

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cstdlib>
 #include <stdexcept>
+#include <tuple>
 #include <utility>
 
 namespace beamcam::render {
@@ -83,16 +85,17 @@ class Parser {
         if (math_ && !upright_ && is_letter(c)) style.symbol = true;
         if (math_ && c == "-") c = "−";
         if (math_ && c == "'") c = "′";
-        if (!runs_.empty() && style.dots == 0 && runs_.back().dots == 0) {
-            Run last = runs_.back();
-            last.text.clear();
-            if (last == style) {
-                runs_.back().text += c;
-                return;
-            }
-        }
-        style.text = c;
-        runs_.push_back(std::move(style));
+        const bool joins = !runs_.empty() && style.dots == 0 && is_alike(runs_.back(), style);
+        if (!joins) runs_.push_back(std::move(style));
+        Run& run = runs_.back();
+        if (faint_ && run.faint_to == 0) run.faint_from = run.text.size();
+        run.text += c;
+        if (faint_) run.faint_to = run.text.size();
+    }
+
+    static bool is_alike(const Run& a, const Run& b) {
+        return a.over.empty() && std::tie(a.symbol, a.bold, a.script, a.dots, a.color) ==
+                                     std::tie(b.symbol, b.bold, b.script, b.dots, b.color);
     }
 
     // Parses until the end, or the closing brace of a group.
@@ -156,6 +159,18 @@ class Parser {
         fail(fmt::format("\\{} is not among the commands that can be drawn", name).c_str());
     }
 
+    // "0072b2}{": the part of a colour behind its sign, and the brace of its group.
+    std::uint32_t color() {
+        std::uint32_t value = 0;
+        const char* const digits = text_.data() + at_;
+        const std::size_t end = at_ + 6;
+        if (end > text_.size() || std::from_chars(digits, digits + 6, value, 16).ptr != digits + 6)
+            fail("a colour has six digits");
+        at_ = end;
+        if (!take("}{")) fail("a colour is followed by its text in braces");
+        return value;
+    }
+
     void item(const Run& style) {
         Run changed = style;
         const bool script_here = math_ || (at_ + 1 < text_.size() && text_[at_ + 1] == '{');
@@ -180,6 +195,13 @@ class Parser {
         } else if (take("\\b{")) {
             changed.bold = true;
             sequence(changed, true);
+        } else if (!math_ && take("\\faint{")) {
+            faint_ = true;
+            sequence(changed, true);
+            faint_ = false;
+        } else if (!math_ && take("\\color{#")) {
+            changed.color = color();
+            sequence(changed, true);
         } else {
             if (text_[at_] == '\\' && at_ + 1 < text_.size()) {
                 ++at_;
@@ -194,7 +216,7 @@ class Parser {
     std::size_t at_ = 0;
     static constexpr int kDeepest = 6;  // deeper ones are too small to read
     int depth_ = 0;
-    bool math_ = false, upright_ = false;
+    bool math_ = false, upright_ = false, faint_ = false;
     std::vector<Run> runs_;
 };
 
@@ -304,7 +326,29 @@ std::string escaped(std::string_view plain) {
     return out;
 }
 
-std::vector<Run> parse_markup(std::string_view markup) { return Parser(markup).all(); }
+std::string xml(std::string_view text) {
+    std::string out;
+    for (const char c : text) switch (c) {
+            case '&':
+                out += "&amp;";
+                break;
+            case '<':
+                out += "&lt;";
+                break;
+            case '>':
+                out += "&gt;";
+                break;
+            default:
+                out += c;
+        }
+    return out;
+}
+
+std::vector<Run> parse_markup(std::string_view markup) {
+    if (markup.empty()) return {};
+    if (markup.find_first_of("$_^\\") == std::string_view::npos) return {{.text = std::string(markup)}};
+    return Parser(markup).all();
+}
 
 std::string to_latex(std::string_view markup) { return latex_of(parse_markup(markup)); }
 

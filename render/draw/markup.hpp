@@ -4,11 +4,15 @@
 //   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
 //   $\dot{θ}$          a dot above, \ddot two
 //   $\frac{a}{b}$      fraction, \sqrt{a} root; $\omega$ and other LaTeX names of Greek letters and signs
-//   \r{…} \b{…}        upright; bold.   \$ \\ \_ \^ are literal characters.
+//   \r{…} \b{…}        upright; bold
+//   \color{#0072b2}{…} \faint{…}   in this colour, nearly transparent; both outside dollars
+//   \$ \\ \_ \^        are literal characters.
 //
 // Invalid markup throws std::invalid_argument.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -19,9 +23,11 @@ struct Run {
     std::string text;
     bool symbol = false;  // italic
     bool bold = false;
-    int script = 0;                          // −1 below, +1 above
-    int dots = 0;                            // above the run
-    std::vector<Run> over = {}, under = {};  // replace the text: a fraction; without `under` a root
+    int script = 0;                            // −1 below, +1 above
+    int dots = 0;                              // above the run
+    std::optional<std::uint32_t> color = {};   // 0xrrggbb; none: that of the text
+    std::size_t faint_from = 0, faint_to = 0;  // bytes of the text that are nearly transparent
+    std::vector<Run> over = {}, under = {};    // replace the text: a fraction; without `under` a root
     bool operator==(const Run&) const = default;
 };
 
@@ -31,5 +37,6 @@ std::vector<Run> parse_markup(std::string_view markup);
 std::string to_latex(std::string_view markup);
 std::string to_plain(std::string_view markup);
 std::string escaped(std::string_view plain);  // as markup
+std::string xml(std::string_view plain);
 
 }  // namespace beamcam::render

@@ -8,7 +8,7 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/cairo_support.hpp"
-#include "render/draw/label.hpp"
+#include "render/draw/letters.hpp"
 
 namespace beamcam::render {
 
@@ -274,15 +274,16 @@ void Painter::place(const Image& image, const Box& into, bool smooth) {
 void Painter::pixels(const Image& image, const Box& into) { place(image, into, false); }
 void Painter::image_fitted(const Image& image, const Box& into) { place(image, into, true); }
 
-void Painter::draw_label(const SetLabel& label, Vec2 at, double size, Color color,
-                         const std::function<void(const SetRun&, Vec2 at)>& write) {
+void Painter::draw_label(const SetLabel& label, Vec2 at, const TextStyle& style) {
     for (std::vector<Vec2> rule : label.rules) {
         for (Vec2& p : rule) p += at;
         polyline(rule);
-        stroke({color, kRuleWidth * size});
+        stroke({style.color, kRuleWidth * style.size});
     }
     for (const SetRun& run : label.runs) {
-        write(run, at + Vec2{run.x, run.y});
+        const Color color = run.run.color ? rgb(*run.run.color) : style.color;
+        set_source(color);
+        write(run, at + Vec2{run.x, run.y}, style);
         // Dots are above the middle of the slanted letter.
         for (int k = 0; k < run.run.dots; ++k) {
             const double across = (k - 0.5 * (run.run.dots - 1)) * 0.22 * run.size;
@@ -290,6 +291,13 @@ void Painter::draw_label(const SetLabel& label, Vec2 at, double size, Color colo
             fill(color);
         }
     }
+}
+
+void Painter::write(const SetRun& run, Vec2 at, const TextStyle& style) {
+    PangoLayout* letters = layout_of(*fonts_, run, style);
+    cairo_move_to(cr_, at.x, at.y - baseline_of(letters));
+    pango_cairo_show_layout(cr_, letters);
+    new_path();
 }
 
 }  // namespace beamcam::render

@@ -36,9 +36,11 @@ struct ArrowHead {
     double length = 0, half_width = 0.42, back = 1;
 };
 
+class Fonts;
 struct Image;
 struct SetLabel;
 struct SetRun;
+struct TextStyle;
 
 // A wider line under every line that is not faint, for pictures without paper.
 struct Casing {
@@ -59,6 +61,9 @@ class Painter {
     void circle(Vec2 centre, double radius);
     void rectangle(const Box& box);
     void arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head);
+    // Draws a text, which is markup (markup.hpp); returns its box.
+    virtual Box text(Vec2 at, std::string_view markup, const TextStyle& style) = 0;
+    virtual Box measure(std::string_view markup, const TextStyle& style) const = 0;  // at (0, 0), left, not turned
     void fill(Color color);
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
@@ -79,8 +84,8 @@ class Painter {
     CoverageCache* coverage_cache = nullptr;
 
   protected:
-    Painter() = default;
-    ~Painter() noexcept(false) { end(); }
+    explicit Painter(const Fonts& fonts) : fonts_(&fonts) {}
+    virtual ~Painter() noexcept(false) { end(); }
     // Takes over the surface. Throws PictureError if Cairo cannot draw on it; `what` names the picture in the message.
     void begin(cairo_surface_t* surface, const std::string& what);
     // Finishes the drawing and its surface. Throws if Cairo failed.
@@ -94,9 +99,11 @@ class Painter {
     void add_to_key(char what, std::initializer_list<double> numbers, std::string_view words = {});
     // Paints the path, or its cached coverage `name`.
     void paint_path(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
-    // Draws the lines and dots of a label whose baseline starts at `at`; `write` draws the letters of each run.
-    void draw_label(const SetLabel& label, Vec2 at, double size, Color color,
-                    const std::function<void(const SetRun&, Vec2 at)>& write);
+    // Draws a label whose baseline starts at `at`.
+    void draw_label(const SetLabel& label, Vec2 at, const TextStyle& style);
+    // Draws the letters of a run in the colour that is set.
+    virtual void write(const SetRun& run, Vec2 at, const TextStyle& style);
+    const Fonts* fonts_;
     bool keeps_coverage() const { return coverage_cache && touched && !limit_; }
     cairo_t* cr_ = nullptr;
     Color (*recolor_)(Color) = nullptr;  // if set, maps colours before painting

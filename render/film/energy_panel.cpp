@@ -42,10 +42,9 @@ class EnergyPanel final : public ChartPanel {
             const Color color = *energy_color(p, channels.front());
             return Part{context.translate(label), std::move(symbol), std::move(channels), color};
         };
-        return {part("potential", math("V"), {K::energy_potential}), part("kinetic", math("T"), {K::energy_kinetic}),
-                part("bending", math("U"), {K::energy_elastic}),
-                part("contact", math("U") + "<sub>c</sub>", {K::energy_contact}),
-                part("lost", math("D"), {K::loss_structural, K::loss_contact, K::loss_friction})};
+        return {part("potential", "$V$", {K::energy_potential}), part("kinetic", "$T$", {K::energy_kinetic}),
+                part("bending", "$U$", {K::energy_elastic}), part("contact", "$U$_{c}", {K::energy_contact}),
+                part("lost", "$D$", {K::loss_structural, K::loss_contact, K::loss_friction})};
     }
 
     static ChartContent content(const FilmContext& context, const PanelSlot& slot) {
@@ -54,7 +53,7 @@ class EnergyPanel final : public ChartPanel {
         ChartContent c = blank_content(context, spec, member);
         if (is_wide(context, slot.box))
             c.words = context.translate("Energy ");  // otherwise only the symbol and the legend fit
-        c.symbol = math("E");
+        c.symbol = "$E$";
         c.unit = "J";
         const sim::Table& table = context.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "render/draw/dirty_tiles.hpp"
+#include "render/draw/markup.hpp"
 #include "render/film/mechanism_panel.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
@@ -137,7 +138,7 @@ void Film::Prepared::draw_header(Canvas& canvas) {
     for (const ParameterLine::Piece& piece : line.pieces)
         canvas.text(piece.baseline, piece.markup, {.size = line.size, .color = context.palette->muted});
     if (const auto& b = places.note; b && !setup.accuracy_note.empty())
-        canvas.text({b->right(), b->y + 19 * u}, escape(context.translate(setup.accuracy_note)),
+        canvas.text({b->right(), b->y + 19 * u}, escaped(context.translate(setup.accuracy_note)),
                     {.size = 17 * u + 0.4 * (context.tick - 17 * u),
                      .color = context.palette->muted,
                      .align = HAlign::right,

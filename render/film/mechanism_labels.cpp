@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "render/draw/formula.hpp"
 #include "render/film/mechanism_marks.hpp"
 #include "render/plot/ticks.hpp"
 
@@ -31,14 +30,13 @@ double label_size(const MechanismView& at) { return std::max(21 * at.unit, at.co
 double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
 
 std::string speed_label(const MechanismView& at) {
-    return math("ω") + "\u2009=\u2009" +
+    return "$ω$\u2009=\u2009" +
            turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->speed_decimals);
 }
 
 std::string force_label(const MechanismView& at, const ForceArrow& arrow) {
-    const bool chinese = at.context.setup->view.lang == Lang::zh;
-    const std::string peak_of = at.context.translate("peak") + "\u00A0" + (chinese ? script_break() : std::string());
-    return (arrow.is_peak ? peak_of : std::string()) + math("F") + "\u2009=\u2009" + reading(arrow.force, "N");
+    const std::string peak_of = arrow.is_peak ? at.context.translate("peak") + "\u00A0" : std::string();
+    return peak_of + "$F$\u2009=\u2009" + reading(arrow.force, "N");
 }
 
 // ---- the swept region --------------------------------------------------------------------------

@@ -5,7 +5,6 @@
 #include <limits>
 #include <numbers>
 
-#include "render/draw/formula.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -113,8 +112,8 @@ void draw_angle_arc(const MechanismScene& s) {
     const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
     const LabelPlace& label = *s.at.labels->angle;
     draw_leader(s, label, s.at.palette.muted, s.on(o + down(foot) * radius), label.base, kFarLetter);
-    draw_label(s, label, math("θ"),
-               {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre}, label.base);
+    draw_label(s, label, "$θ$", {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
+               label.base);
 }
 
 // Outside the circle that the disc sweeps, on a side away from the beam. Positive speed is clockwise.
@@ -180,13 +179,13 @@ void draw_disc_letters(const MechanismScene& s) {
     // A halo covers the outlines of other discs; it must not cover the pin.
     if (s.at.ghosts) style.halo = s.at.palette.steel;
     s.canvas.text(s.on(d.centre + along * (4 * s.at.marks + (s.at.ghosts ? 21 : 16) * letter)) + Vec2{0, 7 * letter},
-                  math("B"), style);
+                  "$B$", style);
     // The shaft in the solid view needs more space. If C would come near the rim, where contacts and their rings are,
     // it goes to the side.
     const double off = d.bore + (s.view ? 24 : 16) * letter;
     const Vec2 way =
         apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + Vec2{along.y, -along.x} * 0.8;
-    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * letter}, math("C"), style);
+    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * letter}, "$C$", style);
 }
 
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {

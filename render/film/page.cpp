@@ -192,7 +192,7 @@ std::string html_page(const FilmSetup& setup) {
         numbers_json(thinned_instants(std::move(all), length)));
     std::string page(player_html());
     for (const auto& [mark, text] : {std::pair<std::string, std::string>{
-                                         "@TITLE@", setup.title.empty() ? "beamcam" : escape(plain_text(setup.title))},
+                                         "@TITLE@", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
                                      {"@PAPER@", css(p.paper).substr(1, 7)},
                                      {"@INK@", css(p.ink).substr(1, 7)},
                                      {"@MUTED@", css(p.muted).substr(1, 7)},

@@ -104,10 +104,8 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     }
     fonts = std::make_unique<const Fonts>(cjk);
     ++counts->font_sets;
-    Image scratch(1, 1);
-    const Canvas canvas(scratch, *fonts);
-    for (int m = 0; m < members(); ++m) labels.push_back(text_markup(canvas, motion(m).label));
-    for (const FilmData& each : setup->data) data_labels.push_back(text_markup(canvas, each.label));
+    for (int m = 0; m < members(); ++m) labels.push_back(text_markup(motion(m).label));
+    for (const FilmData& each : setup->data) data_labels.push_back(text_markup(each.label));
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);

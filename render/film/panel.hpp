@@ -12,7 +12,7 @@
 #include "render/draw/canvas.hpp"
 #include "render/film/film.hpp"
 #include "render/mechanism/trace.hpp"
-#include "render/plot/chart_axes.hpp"
+#include "render/plot/tick_marks.hpp"
 #include "render/plot/labels.hpp"
 #include "render/plot/ticks.hpp"
 

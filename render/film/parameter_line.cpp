@@ -16,8 +16,8 @@ struct Row {
 };
 
 // Positions of as many pieces, in order, as fit into the rows.
-std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces, const TextStyle& style, double gap,
-                         const std::vector<Row>& rows) {
+std::vector<Vec2> placed(const Canvas& canvas, const std::vector<std::string>& pieces, const TextStyle& style,
+                         double gap, const std::vector<Row>& rows) {
     std::vector<Vec2> out;
     std::size_t row = 0;
     double x = rows.front().x;
@@ -35,6 +35,14 @@ std::vector<Vec2> placed(Canvas& canvas, const std::vector<std::string>& pieces,
 double usual_baseline(const Box& box, double u, std::size_t line, std::size_t count) {
     const double first = count == 1 ? 38 : count == 2 ? 18 : 14, apart = count == 2 ? 28 : 17;
     return box.y + (first + apart * static_cast<double>(line)) * u;
+}
+
+// With ordinary spaces, for a terminal.
+std::string plain(const std::string& markup) {
+    std::string text = to_plain(markup);
+    for (const std::string_view space : {"\u2009", "\u00A0"})
+        for (std::size_t at = 0; (at = text.find(space, at)) != std::string::npos;) text.replace(at, space.size(), " ");
+    return text;
 }
 
 // Lines with tall formulas move up into the margin so that they overlap neither each other nor the line below; if that
@@ -63,7 +71,7 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
     constexpr double kOfThree = 0.36;                                                      // the size of three lines
     FittedTitle out;
     out.style = title_style(u, color);
-    const std::string whole = text_markup(canvas, title);
+    const std::string whole = text_markup(title);
     const double natural = canvas.measure(whole, out.style).w, full = out.style.size;
     const auto set = [&](double share) {
         const std::size_t most = share > kOfThree ? 2 : 3;
@@ -122,27 +130,10 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
     if (out.pieces.size() < pieces.size() && places.title) {
         const Row above{b.x, b.right(), places.title->y + 38 * u};
         rows.insert(rows.begin(), above);  // beside the title
-        if (!title.empty()) rows.front().x += canvas.measure(text_markup(canvas, title), title_style(u)).w + 40 * u;
+        if (!title.empty()) rows.front().x += canvas.measure(text_markup(title), title_style(u)).w + 40 * u;
         choose(rows);
     }
     out.omitted.assign(pieces.begin() + static_cast<std::ptrdiff_t>(out.pieces.size()), pieces.end());
-    return out;
-}
-
-std::string plain(const std::string& markup) {
-    std::string out;
-    for (std::size_t i = 0; i < markup.size();) {
-        const std::string_view rest = std::string_view(markup).substr(i);
-        if (rest.starts_with("<")) {
-            if (rest.starts_with("<sup>")) out += '^';
-            i = std::min(markup.find('>', i), markup.size() - 1) + 1;
-        } else if (rest.starts_with("\u2009") || rest.starts_with("\u00A0")) {
-            out += ' ';
-            i += rest.starts_with("\u2009") ? 3 : 2;
-        } else {
-            out += markup[i++];
-        }
-    }
     return out;
 }
 

@@ -49,7 +49,4 @@ std::vector<std::string> omitted_text(int width, int height, const std::optional
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
                                       const Shown& shown = {}, bool rpm = false);
 
-// Markup as plain text: "K = 10^8 N m^−1.5".
-std::string plain(const std::string& markup);
-
 }  // namespace beamcam::render

@@ -37,8 +37,8 @@ class PhasePanel final : public FilmPanel {
             }
         }
         factor_ = context.shown_factor({ChannelKind::theta, 0});
-        x_ = axis(all.x0, all.x1, math("θ"), ChannelKind::theta, plot_.w / 85);
-        y_ = axis(all.y0, all.y1, "d" + math("θ") + "/d" + math("t"), ChannelKind::theta_dot, plot_.h / 45);
+        x_ = axis(all.x0, all.x1, "$θ$", ChannelKind::theta, plot_.w / 85);
+        y_ = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot, plot_.h / 45);
         for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
     }
 
@@ -57,10 +57,7 @@ class PhasePanel final : public FilmPanel {
         draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {words, name}, heading, plot_.w));
         draw_levels(canvas, chart_style(context_), *y_, plot_);
-        std::vector<NumberBelow> numbers;
-        for (const Tick& tick : x_->ticks())
-            if (tick.major) numbers.push_back({plot_.x + plot_.w * tick.at, tick.label});
-        draw_numbers_below(canvas, chart_style(context_), plot_, numbers, x_->name(), true);
+        draw_numbers_below(canvas, chart_style(context_), plot_, x_->ticks(), x_->name(), true);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
             for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};

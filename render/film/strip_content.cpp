@@ -18,15 +18,14 @@ constexpr double kPaleShare = 0.5;  // of a curve's colour where the motion is n
 
 std::string symbol_of(Channel channel) {
     const ChannelLabel& label = label_of(channel.kind);
-    std::string text = math(label.symbol);
-    if (label.rate) text = fmt::format("d{}/d{}", text, math("t"));
     const std::string below = label.below(channel);
-    return below.empty() ? text : text + "<sub>" + below + "</sub>";
+    return fmt::format(fmt::runtime(label.rate ? "d${}$/d$t${}" : "${}${}"), label.symbol,
+                       below.empty() ? below : "_{" + below + "}");
 }
 
 // The symbol in the colour of its curve, which replaces a legend.
 std::string colored(const std::string& markup, Color color) {
-    return fmt::format("<span foreground='{}'>{}</span>", hex(color), markup);
+    return fmt::format("\\color{{{}}}{{{}}}", hex(color), markup);
 }
 
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
@@ -210,7 +209,7 @@ ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, in
     c.time = context.span;
     c.window = spec.window;
     c.time_unit = context.time.unit;
-    c.time_label = math("t") + " / " + context.time.symbol;
+    c.time_label = std::string("$t$ / ") + context.time.symbol;
     const auto mark = [&](int whose, ChartMark at) {
         for (const sim::Impact& i : context.motion(whose).impacts)
             if (i.t_start >= c.time.low && i.t_start <= c.time.high) at.t = i.t_start, c.marks.push_back(at);

@@ -131,7 +131,7 @@ class CollisionPanel final : public FilmPanel {
         }
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;
-        c.time_label = fmt::format("{0} − {0}<sub>0</sub> / {1}s", math("t"), c.time.high < 1 ? prefix.symbol : "");
+        c.time_label = fmt::format("$t$ − $t$_{{0}} / {}s", c.time.high < 1 ? prefix.symbol : "");
         const double t0 = start(which);
         for (const ChartCurve& all : curves_) {
             ChartCurve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};

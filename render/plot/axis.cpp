@@ -8,7 +8,6 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
-#include "render/plot/labels.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -198,7 +197,7 @@ std::string AxisMap::name() const {
     }
     // A unit that is a quotient or a product is put in brackets: dθ/dt / (rad/s).
     const bool composed = unit.find('/') != std::string::npos || (factor_ != 0 && !unit.empty());
-    if (factor_ != 0) unit = pango_power_of_ten(factor_) + (unit.empty() ? "" : "\u2009" + unit);
+    if (factor_ != 0) unit = power_of_ten(factor_) + (unit.empty() ? "" : "\u2009" + unit);
     if (unit.empty()) return text;
     return fmt::format(fmt::runtime(composed ? "{} / ({})" : "{} / {}"), text, unit);
 }

@@ -2,10 +2,6 @@
 //
 // Any finite range is allowed, from 1e-300 to 1e300, also an empty one. Numbers too long for short labels get an SI
 // prefix of the axis's unit, a common factor (×10⁶) or a common offset.
-//
-// This and reduce.hpp are all that films and print share. A film's chart (chart.hpp) draws grid lines on a Canvas whose
-// text is Pango markup, and its curves grow with time; a figure (plot_axes.hpp) draws a frame with inward ticks on a
-// PageCanvas whose text is mathematics between dollars. One class for both would contain each of them unchanged.
 #pragma once
 
 #include <optional>
@@ -64,7 +60,7 @@ class AxisMap {
     const std::vector<Tick>& ticks() const { return ticks_; }
     const std::string& label() const { return label_; }    // in the unit of the numbers
     const std::string& common() const { return common_; }  // markup of factor and offset, or empty
-    // Label, factor and offset in one, as Pango's markup: "(θ − 0.785 rad) / (10⁻⁶ rad)".
+    // Label, factor and offset in one: "(θ − 0.785 rad) / (10⁻⁶ rad)".
     std::string name() const;
 
   private:

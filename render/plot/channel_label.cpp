@@ -4,8 +4,6 @@
 
 #include <stdexcept>
 
-#include "render/draw/formula.hpp"
-
 namespace beamcam::render {
 namespace {
 
@@ -45,7 +43,7 @@ constexpr LabelRow kLabels[] = {
 }  // namespace
 
 std::string ChannelLabel::heading(Lang lang) const {
-    return lang == Lang::zh ? std::string(chinese) + " " + script_break() : std::string(words) + " ";
+    return lang == Lang::zh ? std::string(chinese) + " " : std::string(words) + " ";
 }
 
 std::string ChannelLabel::below(sim::Channel channel) const {

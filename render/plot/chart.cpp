@@ -44,11 +44,11 @@ int Chart::past_column(double t) const {
 void Chart::draw_time_axis(Canvas& canvas, const Range& view) const {
     const Ticks marks = ticks(view.low / c_.time_unit, view.high / c_.time_unit,
                               std::clamp(static_cast<int>(plot_.w / (75 * style_.unit)), 2, 7));
-    std::vector<NumberBelow> numbers;
+    std::vector<Tick> numbers;
     for (const double at : marks.values)
         if (!windowed() || at >= c_.time.low / c_.time_unit - 1e-9)  // no numbers before the film
-            numbers.push_back({x(view, at * c_.time_unit), fixed(at, marks.decimals)});
-    draw_numbers_below(canvas, style_, plot_, numbers, c_.time_label, false, windowed());
+            numbers.push_back({(at * c_.time_unit - view.low) / (view.high - view.low), fixed(at, marks.decimals)});
+    draw_numbers_below(canvas, style_, plot_, std::move(numbers), c_.time_label, false, windowed());
 }
 
 // ---- curves ------------------------------------------------------------------------------------

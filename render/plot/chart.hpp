@@ -14,7 +14,7 @@
 
 #include "render/draw/canvas.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/plot/chart_axes.hpp"
+#include "render/plot/tick_marks.hpp"
 
 namespace beamcam::render {
 

@@ -258,23 +258,21 @@ std::string data_csv(const Figure& figure) {
     return out;
 }
 
+static std::string words_of(const Panel& p) {
+    std::string all = p.title + p.x.label + p.y.label;
+    if (p.right) all += p.right->label;
+    if (p.color_bar) all += p.color_bar->label;
+    for (const Series& s : p.series) all += s.label;
+    for (const Band& b : p.bands) all += b.label;
+    for (const Cloud& c : p.clouds) all += c.label;
+    for (const Swatch& w : p.swatches) all += w.label;
+    for (const Mark& m : p.marks) all += m.label;
+    for (const Shape& s : p.shapes) all += s.markup;
+    for (const Inset& inset : p.insets) all += words_of(inset.panel.front());
+    return all;
+}
 bool needs_chinese(const Figure& figure) {
-    const auto of_panel = [](const auto& self, const Panel& p) -> bool {
-        std::string all = p.title + p.x.label + p.y.label;
-        if (p.right) all += p.right->label;
-        if (p.color_bar) all += p.color_bar->label;
-        for (const Series& s : p.series) all += s.label;
-        for (const Band& b : p.bands) all += b.label;
-        for (const Cloud& c : p.clouds) all += c.label;
-        for (const Swatch& w : p.swatches) all += w.label;
-        for (const Mark& m : p.marks) all += m.label;
-        for (const Shape& s : p.shapes) all += s.markup;
-        if (needs_cjk(all)) return true;
-        return std::any_of(p.insets.begin(), p.insets.end(),
-                           [&](const Inset& i) { return self(self, i.panel.front()); });
-    };
-    return std::any_of(figure.panels.begin(), figure.panels.end(),
-                       [&](const Panel& p) { return of_panel(of_panel, p); });
+    return std::ranges::any_of(figure.panels, [](const Panel& p) { return needs_cjk(words_of(p)); });
 }
 
 }  // namespace beamcam::render::figure

@@ -17,31 +17,33 @@ namespace beamcam::render::figure {
 
 struct Series {
     std::string label = {};  // markup; empty: not in the legend
-    std::vector<double> x, y;
-    std::string name = {};       // in the table of data, where it has no label; empty: the quantity of its axis
-    int look = 0;                // colour, dash and marker, see `look`
-    bool line = true;            // through the points; NaN breaks it
-    bool every_point = false;    // a marker at each point
-    bool solid = false;          // no dash although the look has one
-    bool faded = false;          // lighter and thinner: not reproducible
-    bool right = false;          // belongs to the right axis
-    double weight = 1;           // of the line
-    std::optional<Color> color;  // instead of the look's
-    std::vector<double> value;   // colours the curve by the panel's colour bar; same length as x
+    std::vector<double> x = {}, y = {};
+    std::string name = {};            // in the table of data, where it has no label; empty: the quantity of its axis
+    int look = 0;                     // colour, dash and marker, see `look`
+    bool line = true;                 // through the points; NaN breaks it
+    bool every_point = false;         // a marker at each point
+    bool solid = false;               // no dash although the look has one
+    bool faded = false;               // lighter and thinner: not reproducible
+    bool right = false;               // belongs to the right axis
+    double weight = 1;                // of the line
+    std::optional<Color> color = {};  // instead of the look's
+    std::vector<double> value = {};   // colours the curve by the panel's colour bar; same length as x
+    void add(double at_x, double at_y) { x.push_back(at_x), y.push_back(at_y); }
 };
 
 struct Band {  // between two curves
     std::string label = {};
-    std::vector<double> x, low, high;
+    std::vector<double> x = {}, low = {}, high = {};
     int look = 0;
 };
 // Points that are too many for marks: drawn as dots, or as an image of their density.
 struct Cloud {
     std::string label = {};
-    std::vector<double> x, y;
+    std::vector<double> x = {}, y = {};
     Color color = rgb(0x000000);
     // The number of points that are drawn; limits of the axes and size of the dots are those of all.
     std::size_t shown = std::numeric_limits<std::size_t>::max();
+    void add(double at_x, double at_y) { x.push_back(at_x), y.push_back(at_y); }
 };
 // Coloured cells between edges, row by row from the lowest y; some may be transparent. Equal cells become an image.
 struct Cells {
@@ -113,36 +115,36 @@ struct Inset {
 };
 
 struct Panel {
-    std::string letter;  // "a": "(a)" in the upper left corner
-    std::string title;   // markup, beside the letter
+    std::string letter = {};  // "a": "(a)" in the upper left corner
+    std::string title = {};   // markup, beside the letter
     Axis x{.tight = true}, y = {};
-    std::optional<Axis> right;
-    std::vector<Series> series;
-    std::vector<Band> bands;
-    std::vector<Cells> cells;
-    std::vector<Cloud> clouds;
-    std::vector<Swatch> swatches;
-    std::vector<Span> spans;
-    std::vector<Rule> rules;
-    std::vector<Mark> marks;
-    std::optional<ColorBar> color_bar;
-    std::vector<Inset> insets;
-    std::vector<Shape> shapes;  // not empty: no axes
+    std::optional<Axis> right = {};
+    std::vector<Series> series = {};
+    std::vector<Band> bands = {};
+    std::vector<Cells> cells = {};
+    std::vector<Cloud> clouds = {};
+    std::vector<Swatch> swatches = {};
+    std::vector<Span> spans = {};
+    std::vector<Rule> rules = {};
+    std::vector<Mark> marks = {};
+    std::optional<ColorBar> color_bar = {};
+    std::vector<Inset> insets = {};
+    std::vector<Shape> shapes = {};  // not empty: no axes
     Legend legend = Legend::direct;
-    double share = 1;  // of the height, among stacked panels
-    std::string name;  // for the data and messages: "theta"
+    double share = 1;       // of the height, among stacked panels
+    std::string name = {};  // for the data and messages: "theta"
 };
 
 struct Figure {
-    std::string name;   // "free-fall"
-    std::string title;  // plain text, for the file's properties
-    std::vector<Panel> panels;
+    std::string name = {};   // "free-fall"
+    std::string title = {};  // plain text, for the file's properties
+    std::vector<Panel> panels = {};
     bool stack = false;    // panels above each other however wide the page; else side by side where there is room
     bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
     double aspect = 0.66;  // height by width of one column
     std::optional<double> height = {};  // [mm]; instead of what follows from the aspect
-    std::string caption;                // markup
-    std::string accuracy;               // markup: tolerance and energy balance; ends the caption
+    std::string caption = {};           // markup
+    std::string accuracy = {};          // markup: tolerance and energy balance; ends the caption
 };
 
 struct Page {

@@ -6,20 +6,22 @@
 #include <cmath>
 #include <numbers>
 
-#include "render/draw/canvas.hpp"
+#include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::render {
 namespace {
 
-std::string equation(const char* symbol, const std::string& value) { return math(symbol) + "\u2009=\u2009" + value; }
+std::string equation(const char* symbol, const std::string& value) {
+    return fmt::format("${}$\u2009=\u2009{}", symbol, value);
+}
 
 std::string contact_piece(const sim::Problem& problem) {
     if (problem.contact.model == sim::ContactModel::restitution)
         return "impulses, " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
     const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
-                                            fmt::format("\u00A0N\u2009m<sup>−{:.3g}</sup>", problem.contact.exponent));
+                                            fmt::format("\u00A0N\u2009m^{{−{:.3g}}}", problem.contact.exponent));
     if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
     return k + ", " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
 }
@@ -32,7 +34,7 @@ struct FrictionPiece {
     std::string operator()(const sim::StickSlipFriction& f) const {
         std::string text = equation("μ", fmt::format("{:.3g}", f.coefficient));
         if (f.static_coefficient.value_or(f.coefficient) != f.coefficient)
-            text += ", " + math("μ") + "<sub>s</sub>\u2009=\u2009" + fmt::format("{:.3g}", *f.static_coefficient);
+            text += fmt::format(", $μ$_{{s}}\u2009=\u2009{:.3g}", *f.static_coefficient);
         return text + ", stick–slip";
     }
 };
@@ -70,16 +72,12 @@ std::string turning_speed(double speed, bool rpm, std::optional<int> decimals) {
     return with_unit(number);
 }
 
-std::string pango_power_of_ten(int exponent) {
-    return fmt::format("10<sup>{}{}</sup>", exponent < 0 ? "−" : "", std::abs(exponent));
-}
-
 std::string power_text(double value, int digits) {
     if (value == 0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     if (exponent >= -2 && exponent <= 4) return fmt::format("{:.6g}", value);
     const std::string mantissa = fmt::format("{:.{}g}", value / std::pow(10.0, exponent), digits);
-    return mantissa == "1" ? pango_power_of_ten(exponent) : mantissa + "·" + pango_power_of_ten(exponent);
+    return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
 }
 
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm) {
@@ -181,8 +179,8 @@ std::string clock_text(const TimeFormat& format, double t, double last) {
     // Faint zeros reserve the room of later digits.
     std::string room;
     if (number.size() < longest.size())
-        room = fmt::format("<span alpha='22%'>{}</span>", std::string(longest.size() - number.size(), '0'));
-    return math("t") + "\u2009=\u2009" + room + number + "\u00A0" + format.symbol;
+        room = fmt::format("\\faint{{{}}}", std::string(longest.size() - number.size(), '0'));
+    return fmt::format("$t$\u2009=\u2009{}{}\u00A0{}", room, number, format.symbol);
 }
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// Texts of films: parameter line, speed, clock. Pango markup for Canvas::text.
+// Texts of films: parameter line, speed, clock. As markup (render/draw/markup.hpp).
 #pragma once
 
 #include <optional>
@@ -35,7 +35,6 @@ TimeFormat time_format(const std::vector<double>& frame_times);
 // Padded to the digits of the last instant, so that the text does not move.
 std::string clock_text(const TimeFormat& format, double t, double last);
 
-std::string pango_power_of_ten(int exponent);  // with a superscript
 // 1e8 → "10⁸", 2.5e7 → "2.5·10⁷", 1200 → "1200"; exponents as superscripts.
 std::string power_text(double value, int digits = 3);
 

@@ -5,35 +5,30 @@
 
 namespace beamcam::render::figure {
 namespace {
-constexpr double kSampleLength = 2.6;  // length of a line in a legend, in letters
+constexpr double kSampleLength = 2.6, kRow = 1.35;  // length of a line, height of an entry, in letters
 }  // namespace
 
-int LegendBox::entries() const {
-    const auto labelled = [](const auto& each) { return !each.label.empty(); };
-    return static_cast<int>(std::ranges::count_if(panel_.series, labelled) +
-                            std::ranges::count_if(panel_.bands, labelled) +
-                            std::ranges::count_if(panel_.clouds, labelled) + std::ssize(panel_.swatches));
+LegendBox::LegendBox(const Panel& panel, const PrintStyle& style, PageCanvas& sheet)
+    : panel_(panel), style_(style), sheet_(sheet) {
+    const auto add = [&](const std::string& label, const Series* series, Color color, bool dots) {
+        if (!label.empty()) entries_.push_back({label, series, color, dots});
+    };
+    for (const Series& s : panel.series) add(s.label, &s, {}, false);
+    for (const Band& b : panel.bands) add(b.label, nullptr, pale(look(b.look).color, 0.72), false);
+    for (const Cloud& c : panel.clouds) add(c.label, nullptr, c.color, true);
+    for (const Swatch& w : panel.swatches) add(w.label, nullptr, w.color, false);
 }
 
 Box LegendBox::size(double width) {
-    const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
     double widest = 0;
-    int rows = 0;
-    const auto add = [&](const std::string& label) {
-        if (label.empty()) return;
-        ++rows;
-        widest = std::max(widest, sheet_.measure(label, style_.words()).w);
-    };
-    for (const Series& s : panel_.series) add(s.label);
-    for (const Band& b : panel_.bands) add(b.label);
-    for (const Cloud& c : panel_.clouds) add(c.label);
-    for (const Swatch& w : panel_.swatches) add(w.label);
+    for (const Entry& entry : entries_) widest = std::max(widest, sheet_.measure(entry.label, style_.words()).w);
     // Inside the plot one column; above it as many columns as the width holds.
-    entry_ = sample + style_.gap + widest;
+    entry_ = kSampleLength * style_.letters + style_.gap + widest;
     const double apart = 2 * style_.gap;
+    const auto rows = static_cast<int>(entries_.size());
     columns_ = above_ ? std::clamp(static_cast<int>((width + apart) / (entry_ + apart)), 1, rows) : 1;
     const int lines = (rows + columns_ - 1) / columns_;
-    return {0, 0, columns_ * (entry_ + apart) - apart, lines * row};
+    return {0, 0, columns_ * (entry_ + apart) - apart, lines * kRow * style_.letters};
 }
 
 bool LegendBox::place_inside(OccupancyGrid& taken) {
@@ -55,52 +50,37 @@ bool LegendBox::place_above(double width) {
     return box_->h <= std::exchange(height_, box_->h) + 0.01;
 }
 
-void LegendBox::draw_sample(const Series& s, Vec2 left, double width) const {
-    const Pen pen = curve_pen(s, style_);
-    if (s.line && s.value.empty()) {
-        sheet_.line(left, left + Vec2{width, 0}, pen);
+void LegendBox::draw_sample(const Entry& entry, Vec2 left, double width) const {
+    if (entry.series) {
+        const Series& s = *entry.series;
+        const Pen pen = curve_pen(s, style_);
+        if (s.line && s.value.empty()) sheet_.line(left, left + Vec2{width, 0}, pen);
+        if (s.every_point)
+            draw_marker(sheet_, style_, look(s.look).marker, left + Vec2{width / 2, 0}, style_.marker, pen.color,
+                        s.look % 2 == 1);
+    } else if (entry.dots) {
+        for (const double share : {0.2, 0.5, 0.8}) {
+            sheet_.circle(left + Vec2{share * width, 0}, 0.5 * style_.marker);
+            sheet_.fill(entry.color);
+        }
+    } else {
+        sheet_.rectangle({left.x, left.y - 0.3 * style_.letters, width, 0.6 * style_.letters});
+        sheet_.fill(entry.color);
     }
-    if (s.every_point)
-        draw_marker(sheet_, style_, look(s.look).marker, left + Vec2{width / 2, 0}, style_.marker, pen.color,
-                    s.look % 2 == 1);
 }
 
 void LegendBox::draw() const {
     if (!box_) return;
-    const double row = 1.35 * style_.letters, sample = kSampleLength * style_.letters;
+    const double row = kRow * style_.letters, sample = kSampleLength * style_.letters;
     TextStyle l = style_.words();
     l.valign = VAlign::middle;
     int k = 0;
-    const auto next = [&] {
-        const int column = k % columns_, line = k / columns_;
+    for (const Entry& entry : entries_) {
+        const int column = k % columns_, line = k++ / columns_;
         const Vec2 at{box_->x + column * (entry_ + 2 * style_.gap), box_->y + (line + 0.5) * row};
-        ++k;
-        return at;
-    };
-    for (const Series& s : panel_.series) {
-        if (s.label.empty()) continue;
-        const Vec2 p = next();
-        draw_sample(s, p, sample);
-        sheet_.text(p + Vec2{sample + style_.gap, 0}, s.label, l);
+        draw_sample(entry, at, sample);
+        sheet_.text(at + Vec2{sample + style_.gap, 0}, entry.label, l);
     }
-    const auto block = [&](const std::string& label, Color color) {
-        if (label.empty()) return;
-        const Vec2 p = next();
-        sheet_.rectangle({p.x, p.y - 0.3 * style_.letters, sample, 0.6 * style_.letters});
-        sheet_.fill(color);
-        sheet_.text(p + Vec2{sample + style_.gap, 0}, label, l);
-    };
-    for (const Band& b : panel_.bands) block(b.label, pale(look(b.look).color, 0.72));
-    for (const Cloud& c : panel_.clouds) {
-        if (c.label.empty()) continue;
-        const Vec2 p = next();
-        for (const double share : {0.2, 0.5, 0.8}) {
-            sheet_.circle(p + Vec2{share * sample, 0}, 0.5 * style_.marker);
-            sheet_.fill(c.color);
-        }
-        sheet_.text(p + Vec2{sample + style_.gap, 0}, c.label, l);
-    }
-    for (const Swatch& w : panel_.swatches) block(w.label, w.color);
 }
 
 }  // namespace beamcam::render::figure

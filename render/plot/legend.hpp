@@ -12,10 +12,9 @@ inline constexpr double kFewCells = 1.5;  // cells that a label may touch withou
 
 class LegendBox {
   public:
-    LegendBox(const Panel& panel, const PrintStyle& style, PageCanvas& sheet)
-        : panel_(panel), style_(style), sheet_(sheet) {}
+    LegendBox(const Panel& panel, const PrintStyle& style, PageCanvas& sheet);
 
-    int entries() const;
+    std::size_t entries() const { return entries_.size(); }
     bool place_inside(OccupancyGrid& taken);  // false: no room; from now on it is above the plot
     bool place_above(double width);           // false: its height changed, so lay out again
     void stand_at(Vec2 top_left) { box_->x = top_left.x, box_->y = top_left.y; }
@@ -26,12 +25,19 @@ class LegendBox {
     void draw() const;
 
   private:
+    struct Entry {
+        std::string label;
+        const Series* series;  // null: a block of a colour, or dots
+        Color color;
+        bool dots;
+    };
     Box size(double width);
-    void draw_sample(const Series& s, Vec2 left, double width) const;
+    void draw_sample(const Entry& entry, Vec2 left, double width) const;
 
     const Panel& panel_;
     const PrintStyle& style_;
     PageCanvas& sheet_;
+    std::vector<Entry> entries_;
     bool above_ = false;
     double height_ = 0, entry_ = 0;  // above the plot; width of an entry
     int columns_ = 1;

@@ -12,46 +12,19 @@
 #include <numbers>
 
 #include "render/base/error.hpp"
-#include "render/draw/canvas.hpp"
-#include "render/draw/font_handles.hpp"
-#include "render/draw/markup.hpp"
 #include "render/draw/cairo_support.hpp"
+#include "render/draw/letters.hpp"
 #include "render/plot/style.hpp"
 
 namespace beamcam::render::figure {
 namespace {
 
-// Liberation Serif looks smaller than Liberation Sans; this brings the x-heights together.
-constexpr double kSymbolSize = 1.12;
-constexpr double kLetterTop = 0.76;     // of any letter, by its size: dots stand above
 constexpr double kLargestSide = 16384;  // [px]: a picture beyond it is a mistake, and 1 GB
 
 cairo_status_t collect(void* out, const unsigned char* data, unsigned int length) {
     static_cast<std::string*>(out)->append(reinterpret_cast<const char*>(data), length);
     return CAIRO_STATUS_SUCCESS;
 }
-
-std::string xml(std::string_view text) {
-    std::string out;
-    for (const char c : text) switch (c) {
-            case '&':
-                out += "&amp;";
-                break;
-            case '<':
-                out += "&lt;";
-                break;
-            case '>':
-                out += "&gt;";
-                break;
-            default:
-                out += c;
-        }
-    return out;
-}
-
-}  // namespace
-
-namespace {
 
 // Comments of EPS are single, short lines of ASCII.
 void describe_eps(cairo_surface_t* eps, const Document& d) {
@@ -81,7 +54,7 @@ void describe(cairo_surface_t* pdf, const Document& d) {
 }  // namespace
 
 PageCanvas::PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document)
-    : medium_(medium), paper_(paper), document_(document), fonts_(fonts) {
+    : Painter(fonts), medium_(medium), paper_(paper), document_(document) {
     if (paper.dark) recolor_ = on_dark;
     const double scale = paper.dpi / kPointsPerInch;
     const std::string what =
@@ -148,39 +121,11 @@ void PageCanvas::gradient(const Box& box, std::span<const Color> colors) {
 
 // ---- letters -------------------------------------------------------------------------------------
 
-namespace {
-
-LetterFace face_of(const Run& run, const TextStyle& style, double size, const Fonts& fonts) {
-    const bool all_serif = fonts.typefaces() == Typefaces::serif, serif = run.symbol || all_serif;
-    return {.family = serif ? "Liberation Serif,Droid Sans Fallback" : "Liberation Sans,Droid Sans Fallback",
-            .size = (run.symbol && !all_serif ? kSymbolSize : 1) * size,
-            .weight = run.bold ? Weight::bold : style.weight,
-            .italic = run.symbol};
-}
-
-PangoLayout* layout_of(const Run& run, const TextStyle& style, double size, const Fonts& fonts) {
-    PangoLayout* layout = layout_of(fonts, face_of(run, style, size, fonts), escape(run.text));
-    if (pango_layout_get_unknown_glyphs_count(layout) > 0) throw FontError(missing_glyphs(run.text));
-    return layout;
-}
-
-}  // namespace
-
-SetLabel PageCanvas::set(std::string_view markup, const TextStyle& style) const {
-    const auto extent = [&](const Run& run, double size) -> LetterMetrics::Extent {
-        PangoRectangle logical;
-        pango_layout_get_extents(layout_of(run, style, size, fonts_), nullptr, &logical);
-        return {static_cast<double>(logical.width) / PANGO_SCALE, kLetterTop * size};
-    };
-    return set_label(parse_markup(markup), style.size, {extent, cap_height(1), kSmallestLetter});
-}
-
-void PageCanvas::write(const SetRun& set, Vec2 at, const TextStyle& style) {
-    if (medium_ == Medium::svg && document_.editable) return add_text(set, at, style);
-    PangoLayout* letters = layout_of(set.run, style, set.size, fonts_);
-    cairo_move_to(cr_, at.x, at.y - static_cast<double>(pango_layout_get_baseline(letters)) / PANGO_SCALE);
-    pango_cairo_show_layout(cr_, letters);
-    new_path();
+void PageCanvas::write(const SetRun& run, Vec2 at, const TextStyle& style) {
+    if (medium_ == Medium::svg && document_.editable)
+        add_text(run, at, style);
+    else
+        Painter::write(run, at, style);
 }
 
 // An SVG element, which is written after everything else.
@@ -189,24 +134,24 @@ void PageCanvas::add_text(const SetRun& set, Vec2 at, const TextStyle& style) {
     cairo_matrix_t matrix;
     cairo_get_matrix(cr_, &matrix);
     const double scale = std::hypot(matrix.xx, matrix.yx), turned = std::atan2(matrix.yx, matrix.xx);
-    const bool symbol = set.run.symbol;
-    const LetterFace letters = face_of(set.run, style, set.size, fonts_);
+    const bool symbol = set.run.symbol, serif = fonts_->typefaces() == Typefaces::serif;
+    const LetterFace letters = face_of(set, style, fonts_->typefaces());
     texts_ += fmt::format(
         R"svg(<text transform="translate({:.3f} {:.3f}) rotate({:.3f})" font-family="{}" font-size="{:.3f}"{}{} fill="{}" xml:space="preserve">{}</text>)svg"
         "\n",
         at.x, at.y, turned * 180 / std::numbers::pi,
-        symbol || serif() ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
+        symbol || serif ? "Liberation Serif, Times New Roman, serif" : "Liberation Sans, Arial, sans-serif",
         letters.size * scale, symbol ? R"( font-style="italic")" : "",
         letters.weight == Weight::bold ? R"( font-weight="bold")" : "", hex(shown(style.color)), xml(set.run.text));
 }
 
 Box PageCanvas::measure(std::string_view markup, const TextStyle& style) const {
-    const SetLabel label = set(markup, style);
+    const SetLabel label = set_text(*fonts_, markup, style);
     return {0, -label.ascent, label.width, label.ascent + label.descent};
 }
 
 Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
-    const SetLabel label = set(markup, style);
+    const SetLabel label = set_text(*fonts_, markup, style);
     double dx = 0, dy = 0;
     if (style.align == HAlign::centre) dx = -label.width / 2;
     if (style.align == HAlign::right) dx = -label.width;
@@ -216,12 +161,11 @@ Box PageCanvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
     cairo_save(cr_);
     cairo_translate(cr_, at.x, at.y);
     cairo_rotate(cr_, -style.turned);
-    set_source(style.color);
     // Rounded to Cairo's numbers, 1/256 of a unit, so that the letters of a label keep their distances.
     cairo_move_to(cr_, dx, dy);
     cairo_get_current_point(cr_, &dx, &dy);
     new_path();
-    draw_label(label, {dx, dy}, style.size, style.color, [&](const SetRun& run, Vec2 p) { write(run, p, style); });
+    draw_label(label, {dx, dy}, style);
     cairo_restore(cr_);
 
     // The box around the turned corners.

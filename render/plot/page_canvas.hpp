@@ -14,7 +14,6 @@
 #include "render/draw/fonts.hpp"
 #include "render/draw/geometry.hpp"
 #include "render/draw/image.hpp"
-#include "render/draw/label.hpp"
 #include "render/draw/painter.hpp"
 #include "render/draw/text_style.hpp"
 
@@ -40,9 +39,6 @@ struct Paper {
     bool dark = false;                 // a slide; callers use the colours of white paper all the same
 };
 
-// No letter of a figure is smaller, sub- and superscripts included.
-inline constexpr double kSmallestLetter = 6;  // [pt]
-
 class PageCanvas : public Painter {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
@@ -57,11 +53,9 @@ class PageCanvas : public Painter {
     void curve(std::span<const Vec2> points, const Pen& pen);
 
     // The box that the text takes, turned text included.
-    Box text(Vec2 at, std::string_view markup, const TextStyle& style);
-    // At (0, 0), not turned.
-    Box measure(std::string_view markup, const TextStyle& style) const;
-    // Of Liberation Sans, as of Arial; of Liberation Serif.
-    double cap_height(double size) const { return (serif() ? 0.655 : 0.716) * size; }
+    Box text(Vec2 at, std::string_view markup, const TextStyle& style) override;
+    Box measure(std::string_view markup, const TextStyle& style) const override;
+    double cap_height(double size) const { return render::cap_height(fonts_->typefaces(), size); }
 
     // The texts that were drawn, for tests.
     struct Written {
@@ -76,15 +70,12 @@ class PageCanvas : public Painter {
     std::string bytes();
 
   private:
-    bool serif() const { return fonts_.typefaces() == Typefaces::serif; }
-    SetLabel set(std::string_view markup, const TextStyle& style) const;
-    void write(const SetRun& run, Vec2 at, const TextStyle& style);
+    void write(const SetRun& run, Vec2 at, const TextStyle& style) override;
     void add_text(const SetRun& run, Vec2 at, const TextStyle& style);
 
     Medium medium_;
     Paper paper_;
     Document document_;
-    const Fonts& fonts_;
     Image image_;
     std::string stream_;  // of PDF, EPS and SVG
     std::string texts_;   // of SVG, where they are no outlines

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kCellSide = 1.5;     // of the grid of what is covered: resolves letters [pt]
 constexpr double kBeyondPlot = 1e5;   // cost of a box that leaves the plot
-constexpr int kMostDirectLabels = 4;  // more labels are easier to distinguish in a box
+constexpr std::size_t kMostDirectLabels = 4;  // more labels are easier to distinguish in a box
 
 }  // namespace
 

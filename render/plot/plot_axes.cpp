@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 namespace beamcam::render::figure {
 namespace {
@@ -43,39 +44,22 @@ struct Extents {
 };
 Extents extents_of(const Panel& panel) {
     Extents all;
+    const auto add = [&](std::span<const double> x, std::span<const double> y, bool right = false) {
+        all.x.add(x, panel.x.scale);
+        right ? all.right.add(y, panel.right ? panel.right->scale : panel.y.scale) : all.y.add(y, panel.y.scale);
+    };
     for (const Series& s : panel.series) {
-        // Only points with two valid numbers.
-        std::vector<double> xs, ys;
+        const auto shows = [](double v, Scale scale) { return std::isfinite(v) && (scale == Scale::linear || v > 0); };
         const Scale vertical = s.right && panel.right ? panel.right->scale : panel.y.scale;
-        for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i) {
-            const bool shows = std::isfinite(s.x[i]) && std::isfinite(s.y[i]) &&
-                               (panel.x.scale == Scale::linear || s.x[i] > 0) &&
-                               (vertical == Scale::linear || s.y[i] > 0);
-            if (!shows) continue;
-            xs.push_back(s.x[i]);
-            ys.push_back(s.y[i]);
-        }
-        all.x.add(xs, panel.x.scale);
-        (s.right ? all.right : all.y).add(ys, vertical);
+        // Only points with two valid numbers.
+        for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
+            if (shows(s.x[i], panel.x.scale) && shows(s.y[i], vertical)) add({&s.x[i], 1}, {&s.y[i], 1}, s.right);
         all.color.add(s.value, panel.color_bar ? panel.color_bar->scale : Scale::linear);
     }
-    for (const Band& b : panel.bands) {
-        all.x.add(b.x, panel.x.scale);
-        all.y.add(b.low, panel.y.scale);
-        all.y.add(b.high, panel.y.scale);
-    }
-    for (const Cells& c : panel.cells) {
-        all.x.add(c.x, panel.x.scale);
-        all.y.add(c.y, panel.y.scale);
-    }
-    for (const Cloud& c : panel.clouds) {
-        all.x.add(c.x, panel.x.scale);
-        all.y.add(c.y, panel.y.scale);
-    }
-    for (const Mark& m : panel.marks) {
-        all.x.add({&m.x, 1}, panel.x.scale);
-        (m.right ? all.right : all.y).add({&m.y, 1}, panel.y.scale);
-    }
+    for (const Band& b : panel.bands) add(b.x, b.low), add(b.x, b.high);
+    for (const Cells& c : panel.cells) add(c.x, c.y);
+    for (const Cloud& c : panel.clouds) add(c.x, c.y);
+    for (const Mark& m : panel.marks) add({&m.x, 1}, {&m.y, 1}, m.right);
     return all;
 }
 
@@ -160,32 +144,29 @@ Margins PlotAxes::margins() const {
     return m;
 }
 
-// Ticks point inwards. `side`: l, r, b or t.
-void PlotAxes::draw_ticks(const AxisMap& axis, const Box& plot, char side, bool labelled, double major,
+void PlotAxes::draw_ticks(const AxisMap& axis, const Box& plot, Side side, bool labelled, double major,
                           double minor) const {
-    const bool across = side == 'b' || side == 't', first = side == 'l' || side == 't';
-    TextStyle l = style_.tick_numbers();
-    l.align = across ? HAlign::centre : first ? HAlign::right : HAlign::left;
-    l.valign = across ? VAlign::top : VAlign::middle;
-    const Vec2 beside = across ? Vec2{0, style_.gap + drop()} : Vec2{first ? -style_.gap : style_.gap, 0};
-    for (const Tick& t : axis.ticks()) {
-        const Vec2 at = across ? Vec2{plot.x + t.at * plot.w, first ? plot.y : plot.bottom()}
-                               : Vec2{first ? plot.x : plot.right(), plot.bottom() - t.at * plot.h};
-        const double in = (first ? 1 : -1) * (t.major ? major : minor);
-        if (t.line) sheet_.line(at, at + (across ? Vec2{0, in} : Vec2{in, 0}), {kInk, style_.frame, {}, Cap::butt});
-        if (!labelled || t.label.empty()) continue;
-        sheet_.text(at + beside, t.label, l);
+    TickStyle style{.pen = {kInk, style_.frame, {}, Cap::butt}, .major = major, .minor = minor};
+    if (labelled) style.numbers = style_.tick_numbers();
+    if (labelled && side == Side::bottom) {
+        style.numbers->align = HAlign::centre, style.numbers->valign = VAlign::top;
+        style.beside = {0, style_.gap + drop()};
+    } else if (labelled) {
+        style.numbers->align = side == Side::left ? HAlign::right : HAlign::left;
+        style.numbers->valign = VAlign::middle;
+        style.beside = {side == Side::left ? -style_.gap : style_.gap, 0};
     }
+    render::draw_ticks(sheet_, axis.ticks(), plot, side, style);
 }
 
 void PlotAxes::draw_frame() const {
-    const auto ticks = [&](const AxisMap& axis, char side, bool labelled) {
+    const auto ticks = [&](const AxisMap& axis, Side side, bool labelled) {
         draw_ticks(axis, plot_, side, labelled, style_.tick, style_.minor_tick);
     };
-    ticks(*x_, 'b', lowest_);
-    ticks(*x_, 't', false);
-    ticks(*y_, 'l', true);
-    ticks(right_ ? *right_ : *y_, 'r', right_.has_value());
+    ticks(*x_, Side::bottom, lowest_);
+    ticks(*x_, Side::top, false);
+    ticks(*y_, Side::left, true);
+    ticks(right_ ? *right_ : *y_, Side::right, right_.has_value());
     sheet_.rectangle(plot_);
     sheet_.stroke({kInk, style_.frame, {}, Cap::butt});
 }
@@ -271,7 +252,7 @@ void PlotAxes::draw_color_bar() const {
     std::vector<Color> colors;
     for (int k = 0; k <= 32; ++k) colors.push_back(map_color(k / 32.0));
     sheet_.gradient(bar, colors);
-    draw_ticks(*bar_, bar, 'r', true, 0.6 * style_.tick, 0.35 * style_.tick);
+    draw_ticks(*bar_, bar, Side::right, true, 0.6 * style_.tick, 0.35 * style_.tick);
     sheet_.rectangle(bar);
     sheet_.stroke({kInk, style_.frame, {}, Cap::butt});
     TextStyle l = style_.words();

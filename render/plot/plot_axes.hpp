@@ -5,6 +5,7 @@
 #include <string>
 
 #include "render/plot/figure.hpp"
+#include "render/plot/tick_marks.hpp"
 
 namespace beamcam::render::figure {
 
@@ -44,7 +45,8 @@ class PlotAxes {
     std::vector<std::string> label_lines(const AxisMap& axis) const;
     double label_height(const AxisMap& axis) const;           // of the lines beside the first
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
-    void draw_ticks(const AxisMap& axis, const Box& plot, char side, bool labelled, double major, double minor) const;
+    // Ticks point inwards.
+    void draw_ticks(const AxisMap& axis, const Box& plot, Side side, bool labelled, double major, double minor) const;
     void draw_labels() const;
 
     const Panel& panel_;

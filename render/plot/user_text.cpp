@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "render/base/error.hpp"
-#include "render/draw/formula.hpp"
 #include "render/draw/markup.hpp"
 
 namespace beamcam::render {
@@ -47,30 +46,14 @@ void split(std::string_view text, const Plain& plain, const Formula& formula) {
     end_plain();
 }
 
-std::optional<std::vector<Run>> read(std::string_view formula) {
+// Why a formula cannot be parsed; empty: it can.
+std::string problem_of(std::string_view formula) {
     try {
-        return parse_markup(formula);
-    } catch (const std::invalid_argument&) {
-        return std::nullopt;
+        parse_markup(formula);
+        return {};
+    } catch (const std::invalid_argument& error) {
+        return error.what();
     }
-}
-
-// As Pango markup in one line; none for a formula with scripts, dots or fractions.
-std::optional<std::string> in_line(const Canvas& canvas, const std::vector<Run>& runs) {
-    std::string out;
-    for (const Run& run : runs) {
-        if (run.script != 0 || run.dots > 0 || !run.over.empty()) return std::nullopt;
-        const std::string letters = escape(canvas.drawable(run.text));
-        out += run.symbol ? math(letters) : run.bold ? "<b>" + letters + "</b>" : letters;
-    }
-    return out;
-}
-
-// A formula, or its source if it cannot be parsed.
-std::string drawn(const Canvas& canvas, std::string_view text) {
-    const auto runs = read(text);
-    if (!runs) return escape(canvas.drawable(text));
-    return in_line(canvas, *runs).value_or(formula(canvas.drawable(text)));
 }
 
 struct Piece {
@@ -122,7 +105,7 @@ std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = fals
         },
         [&](std::string_view formula) {
             std::vector<std::string> parts{std::string(formula)};
-            if (parts_of_formulas && read(formula)) parts = parts_of(formula);
+            if (parts_of_formulas && problem_of(formula).empty()) parts = parts_of(formula);
             for (std::size_t i = 0; i < parts.size(); ++i) {
                 if (i > 0) add(" ", " ");
                 add("x", parts[i]);
@@ -146,20 +129,13 @@ std::vector<Piece> pieces(const std::string& text, bool parts_of_formulas = fals
 
 }  // namespace
 
-std::string text_markup(const Canvas& canvas, std::string_view text) {
-    std::string out;
-    const std::string between = needs_cjk(text) ? script_break() : std::string();
-    split(
-        text, [&](const std::string& plain) { out += escape(canvas.drawable(plain)); },
-        [&](std::string_view formula) { out += between + drawn(canvas, formula) + between; });
-    return out;
-}
-
-std::string plain_text(std::string_view text) {
+std::string text_markup(std::string_view text) {
     std::string out;
     split(
-        text, [&](const std::string& plain) { out += plain; },
-        [&](std::string_view formula) { out += read(formula) ? to_plain(formula) : std::string(formula); });
+        text, [&](const std::string& plain) { out += escaped(plain); },
+        [&](std::string_view formula) {
+            out += problem_of(formula).empty() ? std::string(formula) : escaped(formula);
+        });
     return out;
 }
 
@@ -169,11 +145,9 @@ std::string characters_without_font(std::string_view text) {
     std::string out;
     try {
         const Fonts fonts(needs_cjk(text));
-        Image scratch(1, 1);
-        const Canvas canvas(scratch, fonts);
         for (const char* c = text.data(); c < text.data() + text.size(); c = g_utf8_next_char(c)) {
             const std::string one(c, std::size_t(g_utf8_next_char(c) - c));
-            if (!is_latin(one[0]) && g_unichar_isprint(g_utf8_get_char(c)) && canvas.drawable(one).empty() &&
+            if (!is_latin(one[0]) && g_unichar_isprint(g_utf8_get_char(c)) && drawable(fonts, one).empty() &&
                 out.find(one) == std::string::npos)
                 out += (out.empty() ? "" : " ") + one;
         }
@@ -183,32 +157,27 @@ std::string characters_without_font(std::string_view text) {
 }
 
 std::string markup_problem(std::string_view text) {
-    std::string out;
+    std::string first;
     split(
         text, [](const std::string&) {},
         [&](std::string_view formula) {
-            try {
-                parse_markup(formula);
-            } catch (const std::invalid_argument& error) {
-                if (out.empty()) out = error.what();
-            }
+            if (first.empty()) first = problem_of(formula);
         });
-    return out;
+    return first;
 }
 
-std::vector<std::string> wrapped_lines(Canvas& canvas, std::string_view text, const TextStyle& style,
+std::vector<std::string> wrapped_lines(const Canvas& canvas, std::string_view text, const TextStyle& style,
                                        std::size_t most) {
     TextStyle natural = style;
     natural.max_width = 0;
-    const auto markup = [&](const std::string& line) { return text_markup(canvas, line); };
     std::vector<std::string> lines;
     std::string line, space;
     const auto end_line = [&] {
-        lines.push_back(markup(line));
+        lines.push_back(text_markup(line));
         line.clear(), space.clear();
     };
     const auto is_wide = [&](const std::string& some) {
-        return canvas.measure(markup(some), natural).w > style.max_width;
+        return canvas.measure(text_markup(some), natural).w > style.max_width;
     };
     std::vector<Piece> all;
     for (const Piece& piece : pieces(std::string(text))) {
@@ -231,7 +200,7 @@ std::vector<std::string> wrapped_lines(Canvas& canvas, std::string_view text, co
         if (piece.ends_line && lines.size() + 1 < most) end_line();
     }
     // An ellipsis cuts plain text where it is drawn, but no formula.
-    const auto too_long = [&] { return style.max_width > 0 && has_formula(markup(line)) && is_wide(line); };
+    const auto too_long = [&] { return style.max_width > 0 && line.find('$') != std::string::npos && is_wide(line); };
     for (std::vector<Piece> left = pieces(line, true); left.size() > 1 && too_long();) {
         left.pop_back();
         line.clear(), space.clear();

@@ -1,5 +1,5 @@
-// User text as markup of pictures: mathematics between dollars, as in figures (render/draw/markup.hpp). Lines break
-// where Unicode allows it: between words, and between the characters of scripts without spaces, never in a formula.
+// User text as markup (render/draw/markup.hpp). Lines break where Unicode allows it: between words, and between the
+// characters of scripts without spaces, never in a formula.
 #pragma once
 
 #include <string>
@@ -7,13 +7,15 @@
 #include <vector>
 
 #include "render/draw/canvas.hpp"
+#include "render/draw/markup.hpp"
 
 namespace beamcam::render {
 
-// An unclosed dollar and \\$ are dollars; a formula that cannot be parsed is shown as it is written.
-std::string text_markup(const Canvas& canvas, std::string_view text);
+// Mathematics between dollars, everything else as it is written: an unclosed dollar and \\$ are dollars, and a formula
+// that cannot be parsed is shown unchanged.
+std::string text_markup(std::string_view text);
 // The same without markup, for files and other programs: "ω₁" of "$\\omega_1$" as "ω_1".
-std::string plain_text(std::string_view text);
+inline std::string plain_text(std::string_view text) { return to_plain(text_markup(text)); }
 // The characters that no font has, each once: "🙂 ☃". Loads fonts if there are any but Latin characters; empty if
 // no fonts are found.
 std::string characters_without_font(std::string_view text);
@@ -22,6 +24,7 @@ std::string markup_problem(std::string_view text);
 
 // Markup of the lines of a text, none wider than `style.max_width` [px] if it can be broken; at most `most` lines, the
 // last with the rest of the text.
-std::vector<std::string> wrapped_lines(Canvas& canvas, std::string_view text, const TextStyle& style, std::size_t most);
+std::vector<std::string> wrapped_lines(const Canvas& canvas, std::string_view text, const TextStyle& style,
+                                       std::size_t most);
 
 }  // namespace beamcam::render

@@ -9,11 +9,10 @@ namespace {
 constexpr double kSize = 10;
 
 SetLabel set(std::string_view markup, double smallest = 0) {
-    const LetterMetrics letters{[](const render::Run& run, double size) -> LetterMetrics::Extent {
-                                    return {0.5 * size * static_cast<double>(run.text.size()), 0.7 * size};
-                                },
-                                0.7, smallest};
-    return set_label(parse_markup(markup), kSize, letters);
+    const auto extent = [](const SetRun& run) -> RunExtent {
+        return {0.5 * run.size * static_cast<double>(run.run.text.size()), 0.7 * run.size};
+    };
+    return set_label(parse_markup(markup), kSize, {.cap_height = 0.7, .smallest = smallest}, extent);
 }
 
 TEST(Label, TextIsAsWideAsItsLetters) {

@@ -150,10 +150,10 @@ TEST(Layout, WhatIsNotShownLeavesItsRoomToThePanels) {
 }
 
 TEST(Labels, LargeNumbersArePowersOfTen) {
-    EXPECT_EQ(power_text(1e8), "10<sup>8</sup>");
-    EXPECT_EQ(power_text(2.5e7), "2.5·10<sup>7</sup>");
+    EXPECT_EQ(power_text(1e8), "10^{8}");
+    EXPECT_EQ(power_text(2.5e7), "2.5·10^{7}");
     EXPECT_EQ(power_text(200), "200");
-    EXPECT_EQ(power_text(3e-10), "3·10<sup>−10</sup>");
+    EXPECT_EQ(power_text(3e-10), "3·10^{−10}");
 }
 
 // Panels of a grid without space are reported.

@@ -259,7 +259,7 @@ TEST(Steadiness, TheClockDoesNotPushItsNeighbours) {
     Canvas canvas(scratch, fonts);
     const double u = g.layout.unit;
     const TextStyle big{.size = 46 * u, .weight = Weight::semibold};
-    const double head = canvas.measure(math("t") + "\u2009=", big).w, number = canvas.measure("\u200900.000", big).w;
+    const double head = canvas.measure("$t$\u2009=", big).w, number = canvas.measure("\u200900.000", big).w;
     const Box clock = *g.layout.clock;
     const Image before = drawn(film, 0), after = drawn(film, film.frames() - 1);
     EXPECT_TRUE(same_within(before, after, {clock.x, clock.y, head, clock.h}));

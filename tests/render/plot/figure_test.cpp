@@ -145,10 +145,10 @@ TEST(FigureAxis, OfAChartHasRoundEndsAndShortNumbers) {
     EXPECT_EQ(angle.name(), "θ / rad");
     EXPECT_EQ(chart(0, 0.05, "F / N").name(), "F / mN");
     EXPECT_THAT(labels(chart(0, 0.05, "F / N")), ::testing::Contains("40"));
-    EXPECT_EQ(chart(0, 1e-6, "θ / rad").name(), "θ / (10<sup>−6</sup>\u2009rad)");
+    EXPECT_EQ(chart(0, 1e-6, "θ / rad").name(), "θ / (10^{−6}\u2009rad)");
     EXPECT_EQ(chart(0, 5, "dθ/dt / rad/s").name(), "dθ/dt / (rad/s)");
-    EXPECT_EQ(chart(0.785, 0.785 + 1e-6, "θ / rad").name(), "(θ − 0.785\u2009rad) / (10<sup>−9</sup>\u2009rad)");
-    EXPECT_EQ(chart(0, 2e-5, "n").name(), "n / 10<sup>−6</sup>");
+    EXPECT_EQ(chart(0.785, 0.785 + 1e-6, "θ / rad").name(), "(θ − 0.785\u2009rad) / (10^{−9}\u2009rad)");
+    EXPECT_EQ(chart(0, 2e-5, "n").name(), "n / 10^{−6}");
 }
 
 TEST(FigureAxis, CountsHaveTicksAtWholeNumbersOnly) {

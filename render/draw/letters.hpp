@@ -1,4 +1,5 @@
-// The Pango objects of Fonts, for the files that use Pango.
+// The letters of texts, for the files that use Pango: their fonts, their layouts, and the places of the runs of a
+// markup.
 #pragma once
 
 #include <fontconfig/fontconfig.h>
@@ -10,6 +11,7 @@
 #include <utility>
 
 #include "render/draw/fonts.hpp"
+#include "render/draw/label.hpp"
 #include "render/draw/text_style.hpp"
 
 namespace beamcam::render {
@@ -57,17 +59,27 @@ struct Fonts::Handles {
     ~Handles();
 };
 
-// The font of a text; `family` depends only on size, weight and slant.
+// The font of a run of letters; `family` depends only on typefaces and slant.
 struct LetterFace {
     const char* family;
     double size = 16;
     Weight weight = Weight::regular;
     bool italic = false;
-    bool tabular = false;  // digits of equal width
-    double max_width = 0;  // > 0: truncated with an ellipsis
-    std::string key(std::string_view markup) const;
+    double max_width = 0;                      // > 0: truncated with an ellipsis
+    std::size_t faint_from = 0, faint_to = 0;  // bytes of the text that are nearly transparent
+    std::string key(std::string_view text) const;
 };
-// The layout is owned by `fonts` and valid until the next call.
-PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& markup);
+LetterFace face_of(const SetRun& run, const TextStyle& style, Typefaces typefaces);
+
+// The layout of a run, without characters that no font of pictures has; owned by `fonts` and valid until the next call.
+// Throws FontError for a character that no font of pages has.
+PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& text);
+inline PangoLayout* layout_of(const Fonts& fonts, const SetRun& run, const TextStyle& style) {
+    return layout_of(fonts, face_of(run, style, fonts.typefaces()), run.run.text);
+}
+double baseline_of(PangoLayout* layout);  // from its top
+
+// The places of the runs of a markup.
+SetLabel set_text(const Fonts& fonts, std::string_view markup, const TextStyle& style);
 
 }  // namespace beamcam::render

@@ -1,0 +1,166 @@
+#include "render/draw/letters.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "render/base/error.hpp"
+
+namespace beamcam::render {
+namespace {
+
+// The letters of each set of typefaces.
+struct Typography {
+    const char *family, *symbols;  // of text, and of the italic symbols of mathematics
+    double symbol_size;            // relative: the x-heights of both become equal
+    bool tabular, light_symbols;   // digits of equal width; symbols are regular in bold text, too
+    LetterRules rules;
+};
+// Pictures: the numbers that change do not jitter; scripts have the size and place that Inter defines in its table
+// OS/2.
+constexpr Typography kScreenLetters{
+    "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC",
+    "STIXGeneral,STIX Two Text",
+    1.12,
+    true,
+    true,
+    {.cap_height = 0.727, .script_size = 1690. / 2816, .raised = 986. / 2816, .lowered = 0.17, .behind_italic = 0}};
+// No letter of a page is smaller than 6 pt, sub- and superscripts included.
+constexpr Typography kPrintLetters{
+    "Liberation Sans,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", 1.12, false, false,
+    {.cap_height = 0.716, .smallest = 6}};
+constexpr Typography kSerifLetters{
+    "Liberation Serif,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", 1, false, false,
+    {.cap_height = 0.655, .smallest = 6}};
+
+const Typography& typography(Typefaces typefaces) {
+    return typefaces == Typefaces::screen  ? kScreenLetters
+           : typefaces == Typefaces::print ? kPrintLetters
+                                           : kSerifLetters;
+}
+
+PangoWeight pango_weight(Weight weight) {
+    switch (weight) {
+        case Weight::regular:
+            return PANGO_WEIGHT_NORMAL;
+        case Weight::medium:
+            return PANGO_WEIGHT_MEDIUM;
+        case Weight::semibold:
+            return PANGO_WEIGHT_SEMIBOLD;
+        case Weight::bold:
+            return PANGO_WEIGHT_BOLD;
+    }
+    return PANGO_WEIGHT_NORMAL;
+}
+
+constexpr guint16 kFaint = 14417;  // opacity of faint letters, 22 % of 65535
+
+PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, bool tabular) {
+    PangoLayout* layout = pango_layout_new(context);
+    PangoFontDescription* font = pango_font_description_new();
+    pango_font_description_set_family_static(font, face.family);
+    pango_font_description_set_style(font, face.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
+    pango_font_description_set_weight(font, pango_weight(face.weight));
+    pango_font_description_set_absolute_size(font, face.size * PANGO_SCALE);
+    pango_layout_set_font_description(layout, font);
+    pango_font_description_free(font);
+    pango_layout_set_single_paragraph_mode(layout, TRUE);
+    pango_layout_set_ellipsize(layout, face.max_width > 0 ? PANGO_ELLIPSIZE_END : PANGO_ELLIPSIZE_NONE);
+    pango_layout_set_width(layout, face.max_width > 0 ? static_cast<int>(face.max_width * PANGO_SCALE) : -1);
+    PangoAttrList* attributes = pango_attr_list_new();
+    if (tabular) pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
+    if (face.faint_to > 0) {
+        PangoAttribute* faint = pango_attr_foreground_alpha_new(kFaint);
+        faint->start_index = static_cast<guint>(face.faint_from), faint->end_index = static_cast<guint>(face.faint_to);
+        pango_attr_list_insert(attributes, faint);
+    }
+    pango_layout_set_attributes(layout, attributes);
+    pango_attr_list_unref(attributes);
+    pango_layout_set_text(layout, text.data(), static_cast<int>(text.size()));
+    return layout;
+}
+
+bool is_drawn(PangoContext* context, const LetterFace& face, const std::string& text) {
+    PangoLayout* layout = make_layout(context, face, text, false);
+    const bool known = pango_layout_get_unknown_glyphs_count(layout) == 0;
+    g_object_unref(layout);
+    return known;
+}
+
+std::string missing_glyphs(std::string_view text) {
+    return fmt::format("no font of the figure can write \"{}\"; {}", text,
+                       needs_cjk(text) ? "install the Debian package fonts-droid-fallback"
+                                       : "use other characters, or install the Debian packages fonts-liberation and "
+                                         "fonts-droid-fallback");
+}
+
+}  // namespace
+
+std::string LetterFace::key(std::string_view text) const {
+    const double numbers[] = {size, max_width, static_cast<double>(weight) + (italic ? 0.5 : 0),
+                              static_cast<double>(faint_from), static_cast<double>(faint_to)};
+    return std::string(reinterpret_cast<const char*>(numbers), sizeof numbers).append(text);
+}
+
+LetterFace face_of(const SetRun& set, const TextStyle& style, Typefaces typefaces) {
+    const Typography& t = typography(typefaces);
+    const bool symbol = set.run.symbol;
+    const double room = set.x > 0 ? std::max(set.size, style.max_width - set.x) : style.max_width;
+    return {.family = symbol ? t.symbols : t.family,
+            .size = symbol ? t.symbol_size * set.size : set.size,
+            .weight = set.run.bold                ? Weight::bold
+                      : symbol && t.light_symbols ? Weight::regular
+                                                  : style.weight,
+            .italic = symbol,
+            .max_width = style.max_width > 0 && !symbol ? room : 0,
+            .faint_from = set.run.faint_from,
+            .faint_to = set.run.faint_to};
+}
+
+std::string drawable(const Fonts& fonts, std::string_view text) {
+    std::string out;
+    const char* end = text.data() + text.size();
+    for (const char* at = text.data(); at < end; at = g_utf8_next_char(at)) {
+        const gunichar character = g_utf8_get_char_validated(at, end - at);
+        if (character >= gunichar(-2)) break;  // invalid UTF-8, which the scene reader has already rejected
+        const std::string one(at, static_cast<std::size_t>(g_utf8_next_char(at) - at));
+        // Joiners and variation selectors are not visible.
+        if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
+        const LetterFace face{.family = typography(fonts.typefaces()).family};
+        if (character < 0x80 || is_drawn(fonts.handles().context, face, one)) out += one;
+    }
+    return out;
+}
+
+PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& text) {
+    const Fonts::Handles& handles = fonts.handles();
+    return handles.layouts.get(face.key(text), [&] {
+        const bool tabular = typography(fonts.typefaces()).tabular;
+        PangoLayout* layout = make_layout(handles.context, face, text, tabular);
+        if (pango_layout_get_unknown_glyphs_count(layout) == 0) return layout;
+        g_object_unref(layout);
+        if (fonts.typefaces() != Typefaces::screen) throw FontError(missing_glyphs(text));
+        return make_layout(handles.context, face, drawable(fonts, text), tabular);
+    });
+}
+
+double baseline_of(PangoLayout* layout) { return static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE; }
+
+double cap_height(Typefaces typefaces, double size) { return typography(typefaces).rules.cap_height * size; }
+
+SetLabel set_text(const Fonts& fonts, std::string_view markup, const TextStyle& style) {
+    constexpr double kLetterTop = 0.76;  // of any letter of a page, relative to its size
+    const bool screen = fonts.typefaces() == Typefaces::screen;
+    const auto extent = [&](const SetRun& run) -> RunExtent {
+        PangoLayout* layout = layout_of(fonts, run, style);
+        PangoRectangle ink, logical;
+        pango_layout_get_extents(layout, screen ? &ink : nullptr, &logical);
+        constexpr double k = 1.0 / PANGO_SCALE;
+        if (!screen) return {logical.width * k, kLetterTop * run.size, {}};
+        const double top = ink.y * k - baseline_of(layout);
+        return {logical.width * k, -top, {ink.x * k, top, ink.width * k, ink.height * k}};
+    };
+    return set_label(parse_markup(markup), style.size, typography(fonts.typefaces()).rules, extent);
+}
+
+}  // namespace beamcam::render
