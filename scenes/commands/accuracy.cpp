@@ -8,7 +8,7 @@
 #include "output/data/records.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/result_files.hpp"
-#include "scenes/figures/accuracy.hpp"
+#include "scenes/figures/study_figures.hpp"
 #include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {

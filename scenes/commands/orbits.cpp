@@ -11,7 +11,7 @@
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/orbit_text.hpp"
 #include "scenes/commands/result_files.hpp"
-#include "scenes/figures/branches.hpp"
+#include "scenes/figures/study_figures.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/units.hpp"
 #include "scenes/motions/identity.hpp"

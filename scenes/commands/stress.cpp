@@ -14,7 +14,7 @@
 #include "output/image/png.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/figure_files.hpp"
-#include "scenes/figures/survival_map.hpp"
+#include "scenes/figures/study_figures.hpp"
 #include "scenes/motions/fan_out.hpp"
 
 namespace beamcam::scenes {

@@ -36,34 +36,14 @@ std::vector<ApexRun> apex_runs(const sim::Problem& problem) {
 
 // Which numbers of shapes have no point.
 std::string missing_points(const std::array<std::vector<int>, 2>& missing, Lang lang) {
-    const bool en = lang == Lang::en;
-    std::string list;
+    std::vector<std::string> lists;
     for (std::size_t k = 0; k < missing.size(); ++k)
         if (!missing[k].empty())
-            list += filled(en ? "{}{} shapes with $N$ = {}" : "{}{}模态 $N$ = {}",
-                           list.empty() ? ""
-                           : en         ? "; "
-                                        : "；",
-                           kShapes[k].in(lang), fmt::join(missing[k], ", "));
-    if (list.empty()) return list;
-    return filled(en ? "No point for {}: there the motion has no rebound, or its integration stops before it. "
-                     : "{} 无数据点：该运动无回弹，或积分在此之前终止。",
-                  list);
-}
-
-Panel apex_panel(std::array<Series, 2> series, Lang lang) {
-    const bool en = lang == Lang::en;
-    for (std::size_t k = 0; k < series.size(); ++k)
-        series[k].label = filled(en ? "{} shapes" : "{}模态", kShapes[k].in(lang));
-    series[1].look = 1;
-    Panel panel;
-    panel.x.label = "$N$";
-    panel.x.tight = false;
-    panel.x.counts = true;
-    panel.y.label = "$θ_{\\r{apex}}$ / rad";
-    panel.legend = Legend::box;
-    for (Series& s : series) s.every_point = true, panel.series.push_back(std::move(s));
-    return panel;
+            lists.push_back(phrase(lang, "{} shapes with $N$ = {}", "{}模态 $N$ = {}", kShapes[k].in(lang),
+                                   fmt::join(missing[k], ", ")));
+    if (lists.empty()) return {};
+    return phrase(lang, "No point for {}: there the motion has no rebound, or its integration stops before it. ",
+                  "{} 无数据点：该运动无回弹，或积分在此之前终止。", fmt::join(lists, phrase(lang, "; ", "；")));
 }
 
 FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -74,37 +54,39 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         studies.may_fail(run.study);
         studies.stop_after(run.study, {.collisions = kSearchedCollisions});
     }
-    return [runs, lang = how.lang, problem = scene.problem, end = scene.end_time](const Results& results) {
-        const bool en = lang == Lang::en;
-        std::array<Series, 2> series;             // hub–beam, cantilever
+    return [runs, lang = how.lang, problem = scene.problem, end = scene.end_time](const Results& results) -> Figure {
+        std::vector<Series> series;  // hub–beam, cantilever
+        for (int k = 0; k < 2; ++k)
+            series.push_back(
+                {.label = phrase(lang, "{} shapes", "{}模态", kShapes[static_cast<std::size_t>(k)].in(lang)),
+                 .look = k,
+                 .every_point = true});
         std::array<std::vector<int>, 2> missing;  // numbers of shapes without an apex
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> used;
+        Runs used;
         for (const ApexRun& run : runs) {
             const std::size_t shapes = run.basis == Basis::hub_beam ? 0 : 1;
-            const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], end);
-            if (!apex) {
+            if (const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], end)) {
+                series[shapes].add(run.modes, *apex);
+                used.emplace_back(&run.problem, results[run.study]);
+            } else {
                 missing[shapes].push_back(run.modes);
-                continue;
             }
-            Series& s = series[shapes];
-            s.x.push_back(run.modes);
-            s.y.push_back(*apex);
-            used.emplace_back(&run.problem, results[run.study]);
         }
         if (used.empty())
             throw render::PictureError(
                 "figure apex-modes: θ does not rise above its value at the first touch before the scene ends, or the "
                 "beam strikes the cam from below; raise time.end or set initial.angle");
-        Figure figure;
-        figure.panels.push_back(apex_panel(std::move(series), lang));
-        figure.aspect = 0.62;
-        figure.caption = en ? "Highest hub angle of the first rebound against the number $N$ of shape functions, model "
-                              "first-order. "
-                            : "首次回弹的最大转角随形函数个数 $N$ 的变化，模型 first-order。";
-        figure.caption += missing_points(missing, lang);
-        figure.caption += facts(problem, lang, {.model = true, .modes = true});
-        figure.accuracy = accuracy(used, lang);
-        return figure;
+        return {.panels = {{.x = {.label = "$N$", .counts = true},
+                            .y = {.label = "$θ_{\\r{apex}}$ / rad"},
+                            .series = std::move(series),
+                            .legend = Legend::box}},
+                .aspect = 0.62,
+                .caption = phrase(lang,
+                                  "Highest hub angle of the first rebound against the number $N$ of shape functions, "
+                                  "model first-order. ",
+                                  "首次回弹的最大转角随形函数个数 $N$ 的变化，模型 first-order。") +
+                           missing_points(missing, lang) + facts(problem, lang, {.model = true, .modes = true}),
+                .accuracy = accuracy(used, lang)};
     };
 }
 

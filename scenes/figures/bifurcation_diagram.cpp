@@ -1,5 +1,3 @@
-#include "scenes/figures/bifurcation_diagram.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -9,6 +7,8 @@
 #include <utility>
 
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/sweeps.hpp"
+#include "scenes/figures/swept_points.hpp"
 
 namespace beamcam::scenes {
 
@@ -24,41 +24,42 @@ using Added = std::function<void(std::size_t panel, std::size_t cloud, std::uint
 
 constexpr std::uint32_t kSeedColors[] = {0x000000, 0xE0218A, 0x009E73, 0x56B4E9};
 
-// The cell of a point in the strip of classes; none beyond the lanes, of which the first start's is the highest.
-std::optional<std::size_t> strip_cell(const SweptPoints& points, const std::vector<std::size_t>& rank,
-                                      std::uint64_t lanes, std::uint64_t k) {
-    const std::uint64_t seed = k % points.seeds();
-    if (seed >= lanes) return std::nullopt;
-    return (lanes - 1 - seed) * rank.size() + rank[k / points.seeds()];
-}
-
 constexpr std::uint64_t kMostLanes = 8;
+std::uint64_t lanes_of(const SweptPoints& points) { return std::min(points.seeds(), kMostLanes); }
+
+// The cell of each point in the strip of classes; none beyond the lanes, of which the first start's is the highest.
+std::vector<std::optional<std::size_t>> strip_cells(const SweptPoints& points) {
+    const std::vector<std::size_t> rank = ranks(points.axis(0).values);
+    std::vector<std::optional<std::size_t>> cells(points.data.points());
+    for (std::uint64_t k = 0; k < cells.size(); ++k)
+        if (const std::uint64_t seed = k % points.seeds(); seed < lanes_of(points))
+            cells[k] = (lanes_of(points) - 1 - seed) * rank.size() + rank[k / points.seeds()];
+    return cells;
+}
 
 // The classes of the motions: a row of cells for each start.
 figure::Panel class_strip(const SweptPoints& points) {
-    figure::Panel strip;
-    strip.name = "class";
     const std::vector<double>& values = points.axis(0).values;
-    const std::vector<std::size_t> rank = ranks(values);
-    const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
+    const std::vector<std::optional<std::size_t>> cell = strip_cells(points);
+    const std::uint64_t lanes = lanes_of(points);
     figure::Cells cells;
     cells.x = edges_around(values);
     for (std::uint64_t lane = 0; lane <= lanes; ++lane) cells.y.push_back(static_cast<double>(lane));
     cells.colors.assign(values.size() * lanes, Color{0, 0, 0, 0});
     std::map<AttractorClass, bool> shown;
     for (std::uint64_t k = 0; k < points.data.points(); ++k) {
-        const std::optional<std::size_t> cell = strip_cell(points, rank, lanes, k);
-        if (!points.data.has(k) || !cell) continue;
+        if (!points.data.has(k) || !cell[k]) continue;
         const AttractorClass kind = kind_of(points.data.read(k));
-        cells.colors[*cell] = color_of(kind);
+        cells.colors[*cell[k]] = color_of(kind);
         shown[kind] = true;
     }
-    strip.cells.push_back(std::move(cells));
+    figure::Panel strip{.y = {.from = 0, .to = static_cast<double>(lanes), .numbered = false, .ticked = false},
+                        .cells = {std::move(cells)},
+                        .legend = figure::Legend::box,
+                        .share = 0.16,
+                        .name = "class"};
     for (const auto& [kind, any] : shown) strip.swatches.push_back({class_label(kind, points.lang), color_of(kind)});
-    strip.y = {.label = {}, .from = 0, .to = static_cast<double>(lanes), .numbered = false, .ticked = false};
     for (std::uint64_t lane = lanes; lanes > 1 && lane-- > 0;) strip.y.label += look_of(points.seed(lane)).lane;
-    strip.legend = figure::Legend::box;
-    strip.share = 0.16;
     return strip;
 }
 
@@ -75,11 +76,6 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
     return clouds;
 }
 
-const char* exponent_text(Lang lang) {
-    return lang == Lang::en ? "$λ_1$: the largest Lyapunov exponent where it is known and finite."
-                            : "$λ_1$：最大 Lyapunov 指数（已知且有限处）。";
-}
-
 // Samples and exponents as clouds, one for each start that is distinguished.
 struct Dots {
     std::vector<figure::Cloud> samples, exponents;
@@ -93,31 +89,28 @@ Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<st
         const output::StoredPoint p = points.data.read(k);
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
         const double at = points.data.place(k)[0];
-        if (std::isfinite(p.exponent)) add(out.exponents[cloud], at, p.exponent), added(1, cloud, k);
+        if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent), added(1, cloud, k);
         if (!has_section(kind_of(p))) continue;
         for (std::size_t i = column; i < p.samples.size(); i += width)
-            add(out.samples[cloud], at, drawn(points, column, p.samples[i])), added(0, cloud, k);
+            out.samples[cloud].add(at, drawn(points, column, p.samples[i])), added(0, cloud, k);
     }
     return out;
 }
 
 figure::Panel exponents_panel(std::vector<figure::Cloud> clouds) {
-    figure::Panel panel;
-    panel.clouds = std::move(clouds);
-    panel.name = "exponent";
-    panel.y = {.label = "$λ_1$ / s^{−1}"};
-    panel.rules = {{.at = 0}};
-    panel.legend = figure::Legend::none;
-    panel.share = 0.35;
-    return panel;
+    return {.y = {.label = "$λ_1$ / s^{−1}"},
+            .clouds = std::move(clouds),
+            .rules = {{.at = 0}},
+            .legend = figure::Legend::none,
+            .share = 0.35,
+            .name = "exponent"};
 }
 
 figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::vector<figure::Cloud> clouds) {
-    figure::Panel panel;
-    panel.clouds = std::move(clouds);
-    panel.name = points.data.columns[column].name;
-    panel.y = {.label = column_label(points, column)};
-    panel.legend = figure::Legend::box;
+    figure::Panel panel{.y = {.label = column_label(points, column)},
+                        .clouds = std::move(clouds),
+                        .legend = figure::Legend::box,
+                        .name = points.data.columns[column].name};
     if (!all_empty(panel.clouds)) return panel;
     panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};  // numbers would be invented
     panel.legend = figure::Legend::none;
@@ -132,15 +125,6 @@ std::vector<std::uint64_t> as_numbered(const SweptPoints& points) {
     std::vector<std::uint64_t> order(points.data.points());
     std::iota(order.begin(), order.end(), std::uint64_t{0});
     return order;
-}
-
-// The cell of each point in the strip of classes; none beyond its lanes.
-std::vector<std::optional<std::size_t>> strip_cells(const SweptPoints& points) {
-    const std::vector<std::size_t> rank = ranks(points.axis(0).values);
-    const std::uint64_t lanes = std::min(points.seeds(), kMostLanes);
-    std::vector<std::optional<std::size_t>> cells;
-    for (std::uint64_t k = 0; k < points.data.points(); ++k) cells.push_back(strip_cell(points, rank, lanes, k));
-    return cells;
 }
 
 // `order`: in which the clouds hold the points.
@@ -162,8 +146,11 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
                   .tight = true};
     out.stack = out.share_x = true;
     out.aspect = empty ? 0.35 : known ? 1.05 : 0.8;
-    if (empty) out.caption = points.lang == Lang::en ? "No motion has a section to draw." : "没有可绘制的截面。";
-    if (known) out.caption += (empty ? " " : "") + std::string(exponent_text(points.lang));
+    if (empty) out.caption = phrase(points.lang, "No motion has a section to draw.", "没有可绘制的截面。");
+    if (known)
+        out.caption += (empty ? " " : "") + phrase(points.lang,
+                                                   "$λ_1$: the largest Lyapunov exponent where it is known and finite.",
+                                                   "$λ_1$：最大 Lyapunov 指数（已知且有限处）。");
     return out;
 }
 

@@ -1,10 +1,10 @@
-#include "scenes/figures/branches.hpp"
-
 #include <algorithm>
 #include <limits>
 
 #include "render/base/error.hpp"
 #include "scenes/figures/axis_labels.hpp"
+#include "scenes/figures/caption.hpp"
+#include "scenes/figures/study_figures.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -25,11 +25,8 @@ void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
             const bool here = point.orbit.stable() == stable;
             if (!here && !before) continue;
             const bool there = k < point.orbit.impacts.size();
-            series.x.push_back(there ? point.parameter : kGapInCurve);
-            series.y.push_back(there ? point.orbit.impacts[k].approach : kGapInCurve);
-            if (here && i + 1 < branch.points.size()) continue;
-            series.x.push_back(kGapInCurve);
-            series.y.push_back(kGapInCurve);
+            series.add(there ? point.parameter : kGapInCurve, there ? point.orbit.impacts[k].approach : kGapInCurve);
+            if (!here || i + 1 == branch.points.size()) series.add(kGapInCurve, kGapInCurve);
         }
 }
 
@@ -70,7 +67,7 @@ std::string add_special(const output::BranchTable& table, double range, Panel& p
                                        .label = room && k == 0 ? letters(point.change) : "",
                                        .look = static_cast<int>(point.change),
                                        .hollow = true});
-            text += filled("{}{} {}", text.empty() ? "" : "; ", letters(point.change), number(x, 11));
+            text += fmt::format("{}{} {}", text.empty() ? "" : "; ", letters(point.change), number(x, 11));
         }
     return text;
 }
@@ -81,11 +78,8 @@ struct BranchCurves {
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 BranchCurves curves_of(const output::BranchTable& table, Lang lang) {
-    BranchCurves out;
-    out.stable.label = lang == Lang::en ? "stable" : "稳定";
-    out.unstable.label = lang == Lang::en ? "unstable" : "不稳定";
-    out.stable.solid = true;
-    out.unstable.look = 1;
+    BranchCurves out{{.label = phrase(lang, "stable", "稳定"), .solid = true},
+                     {.label = phrase(lang, "unstable", "不稳定"), .look = 1}};
     for (const sim::Branch& branch : table.branches) {
         if (branch.points.empty()) continue;
         add_impacts(branch, true, out.stable);
@@ -100,16 +94,14 @@ BranchCurves curves_of(const output::BranchTable& table, Lang lang) {
 
 std::string branches_caption(const output::BranchTable& table, const std::string& special, bool with_sweep,
                              const sim::Problem& problem, Lang lang) {
-    const bool en = lang == Lang::en;
-    return filled(en ? "Approach speeds of the impacts of periodic orbits over {}: stable orbits solid, unstable ones "
-                       "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
-                       "contact passes the tip), R release. {}. {}{}"
-                     : "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
-                       "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
+    return phrase(lang,
+                  "Approach speeds of the impacts of periodic orbits over {}: stable orbits solid, unstable ones "
+                  "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
+                  "contact passes the tip), R release. {}. {}{}",
+                  "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
+                  "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
                   symbol_of(table.key), special,
-                  !with_sweep ? ""
-                  : en        ? "Dots: impacts of a sweep. "
-                              : "点：扫描所得碰撞。",
+                  !with_sweep ? "" : phrase(lang, "Dots: impacts of a sweep. ", "点：扫描所得碰撞。"),
                   facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
 }
 
@@ -117,29 +109,26 @@ std::string branches_caption(const output::BranchTable& table, const std::string
 
 Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const sim::Problem& problem,
                        Lang lang) {
-    const bool en = lang == Lang::en;
     BranchCurves curves = curves_of(table, lang);
-    Panel panel;
-    panel.name = "branches";
-    panel.x = {.label = key_label(table.key, problem), .tight = true};
-    panel.y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")};
-    panel.legend = render::figure::Legend::box;
+    Panel panel{.x = {.label = key_label(table.key, problem), .tight = true},
+                .y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")},
+                .legend = render::figure::Legend::box,
+                .name = "branches"};
     const bool with_sweep = !swept.parameter.empty();
     if (with_sweep)
-        panel.clouds.push_back({en ? "sweep" : "扫描", swept.parameter, swept.approach, render::rgb(kSweptColor)});
+        panel.clouds.push_back(
+            {phrase(lang, "sweep", "扫描"), swept.parameter, swept.approach, render::rgb(kSweptColor)});
     const std::string special = add_special(table, curves.high - curves.low, panel);
     for (Series* series : {&curves.stable, &curves.unstable})
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
     if (panel.series.empty())
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
-    Figure figure;
-    figure.name = "branches";
-    figure.title = en ? "Branches of periodic orbits" : "周期轨道分支";
-    figure.panels.push_back(std::move(panel));
-    figure.caption = branches_caption(table, special, with_sweep, problem, lang);
-    figure.accuracy = en ? "Newton's method on the section map at relative tolerance 10^{−12}."
-                         : "截面映射上的 Newton 法，相对容差 10^{−12}。";
-    return figure;
+    return {.name = "branches",
+            .title = phrase(lang, "Branches of periodic orbits", "周期轨道分支"),
+            .panels = {std::move(panel)},
+            .caption = branches_caption(table, special, with_sweep, problem, lang),
+            .accuracy = phrase(lang, "Newton's method on the section map at relative tolerance 10^{−12}.",
+                               "截面映射上的 Newton 法，相对容差 10^{−12}。")};
 }
 
 }  // namespace beamcam::scenes

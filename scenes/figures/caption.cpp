@@ -18,24 +18,24 @@ std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI
 std::string speed(double value) { return number(value, 4) + " rad s^{−1}"; }
 
 // The model exact has its own polynomials in every basis.
-std::string shapes_fact(const sim::Problem& p, bool en) {
+std::string shapes_fact(const sim::Problem& p, Lang lang) {
     const int count = p.beam.modes;
     if (p.beam.model == sim::ModelKind::exact)
-        return filled(en ? "{} polynomial{} of the section's angle" : "截面转角的 {} 个多项式", count,
+        return phrase(lang, "{} polynomial{} of the section's angle", "截面转角的 {} 个多项式", count,
                       count == 1 ? "" : "s");
-    return filled(en ? "{} {} mode{}" : "{} 阶 {} 模态", count, name(resolved_basis(p)), count == 1 ? "" : "s");
+    return phrase(lang, "{} {} mode{}", "{} 阶 {} 模态", count, name(resolved_basis(p)), count == 1 ? "" : "s");
 }
 
-std::vector<std::string> model_facts(const sim::Problem& p, bool en, Varied varied) {
-    if (p.beam.model == sim::ModelKind::rigid && !varied.model) return {en ? "rigid beam" : "刚性梁"};
+std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, Varied varied) {
+    if (p.beam.model == sim::ModelKind::rigid && !varied.model) return {phrase(lang, "rigid beam", "刚性梁")};
     std::vector<std::string> out;
-    if (!varied.model) out.push_back(fmt::format("{} {}", en ? "model" : "模型", name(p.beam.model)));
-    if (!varied.modes) out.push_back(shapes_fact(p, en));
+    if (!varied.model) out.push_back(fmt::format("{} {}", phrase(lang, "model", "模型"), name(p.beam.model)));
+    if (!varied.modes) out.push_back(shapes_fact(p, lang));
     const std::vector<double>& ratios = p.beam.damping_ratio;
     if (p.beam.kelvin_voigt) {
         out.push_back(fmt::format("$η$ = {} s", number(*p.beam.kelvin_voigt, 3)));
     } else if (std::ranges::all_of(ratios, [](double z) { return z == 0; })) {
-        out.push_back(en ? "no structural damping" : "无结构阻尼");
+        out.push_back(phrase(lang, "no structural damping", "无结构阻尼"));
     } else {
         std::vector<std::string> all;
         for (const double z : ratios) all.push_back(number(z, 3));
@@ -44,97 +44,96 @@ std::vector<std::string> model_facts(const sim::Problem& p, bool en, Varied vari
     return out;
 }
 
-std::string drive_fact(const sim::Drive& drive, bool en) {
+std::string drive_fact(const sim::Drive& drive, Lang lang) {
     struct Visitor {
-        bool en;
-        std::string operator()(const sim::FreeDrive&) const { return en ? "hub turns freely" : "轮毂自由转动"; }
+        Lang lang;
+        std::string operator()(const sim::FreeDrive&) const { return phrase(lang, "hub turns freely", "轮毂自由转动"); }
         std::string operator()(const sim::ConstantTorque& d) const {
-            return filled(en ? "hub torque $τ$ = {} N m" : "轮毂力矩 $τ$ = {} N m", number(d.value, 4));
+            return phrase(lang, "hub torque $τ$ = {} N m", "轮毂力矩 $τ$ = {} N m", number(d.value, 4));
         }
         std::string operator()(const sim::HarmonicTorque& d) const {
-            return filled(
-                en ? "hub torque $τ$ = {} N m sin(2π $t$ {} Hz + {})" : "轮毂力矩 $τ$ = {} N m sin(2π $t$ {} Hz + {})",
-                number(d.amplitude, 4), number(d.frequency, 4), degrees(d.phase, 4));
+            return phrase(lang, "hub torque $τ$ = {} N m sin(2π $t$ {} Hz + {})",
+                          "轮毂力矩 $τ$ = {} N m sin(2π $t$ {} Hz + {})", number(d.amplitude, 4),
+                          number(d.frequency, 4), degrees(d.phase, 4));
         }
         std::string operator()(const sim::TorqueTable& d) const {
-            return filled(en ? "hub torque from a table of {} instants" : "轮毂力矩由 {} 个时刻的表给定", d.t.size());
+            return phrase(lang, "hub torque from a table of {} instants", "轮毂力矩由 {} 个时刻的表给定", d.t.size());
         }
         std::string operator()(const sim::ConstantSpeed& d) const {
-            if (d.speed == 0) return en ? "hub held" : "轮毂固定";
-            return filled(en ? "hub driven at $\\dot{{θ}}$ = {}" : "轮毂以 $\\dot{{θ}}$ = {} 转动", speed(d.speed));
+            if (d.speed == 0) return phrase(lang, "hub held", "轮毂固定");
+            return phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动", speed(d.speed));
         }
         std::string operator()(const sim::SpinUp& d) const {
-            return filled(en ? "hub spun up to {} within {} s" : "轮毂在 {1} s 内加速至 {0}", speed(d.speed),
+            return phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}", speed(d.speed),
                           number(d.duration, 4));
         }
         std::string operator()(const sim::AngleTable& d) const {
-            return filled(en ? "hub angle from a table of {} instants" : "轮毂转角由 {} 个时刻的表给定", d.t.size());
+            return phrase(lang, "hub angle from a table of {} instants", "轮毂转角由 {} 个时刻的表给定", d.t.size());
         }
     };
-    return std::visit(Visitor{en}, drive);
+    return std::visit(Visitor{lang}, drive);
 }
 
-std::vector<std::string> start_facts(const sim::Problem& p, bool en) {
+std::vector<std::string> start_facts(const sim::Problem& p, Lang lang) {
     using Shape = sim::InitialShape;
-    if (p.initial.shape == Shape::resting) return {en ? "resting on the cam at the start" : "初始时静置于凸轮上"};
+    if (p.initial.shape == Shape::resting)
+        return {phrase(lang, "resting on the cam at the start", "初始时静置于凸轮上")};
     const bool prescribed = sim::is_prescribed(p.hub.drive), rigid = p.beam.model == sim::ModelKind::rigid;
     const double angle = prescribed ? sim::DriveLaw(p.hub.drive, p.initial.angle).motion(0).angle : p.initial.angle;
     std::vector<std::string> out{fmt::format("$θ$(0) = {}", degrees(angle, 6))};
     const double rate = p.initial.angular_velocity;
     if (!prescribed)
-        out.push_back(rate == 0 ? (en ? "released at rest" : "由静止释放")
+        out.push_back(rate == 0 ? phrase(lang, "released at rest", "由静止释放")
                                 : fmt::format("$\\dot{{θ}}$(0) = {}", speed(rate)));
     const bool given = !p.initial.q.empty() || !p.initial.q_dot.empty();
     if (given)
-        out.push_back(en ? "in a given shape at the start" : "初始为给定挠形");
+        out.push_back(phrase(lang, "in a given shape at the start", "初始为给定挠形"));
     else if (!rigid)
         out.push_back(p.initial.shape == Shape::straight
-                          ? (en ? "straight at the start" : "初始为直梁")
-                          : (en ? "deflected by its weight at the start" : "初始为自重静挠形"));
+                          ? phrase(lang, "straight at the start", "初始为直梁")
+                          : phrase(lang, "deflected by its weight at the start", "初始为自重静挠形"));
     return out;
 }
 
-std::vector<std::string> cam_facts(const sim::Cam& c, bool en, Varied varied) {
+std::vector<std::string> cam_facts(const sim::Cam& c, Lang lang, Varied varied) {
     std::vector<std::string> out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
                                  fmt::format("$R$ = {} m", number(c.radius, 4)),
                                  fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
                                  fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
     if (varied.cam_speed) return out;
     if (c.speed == 0)
-        out.push_back(en ? "cam at rest" : "凸轮静止");
+        out.push_back(phrase(lang, "cam at rest", "凸轮静止"));
     else
-        out.push_back(filled(c.speed > 0 ? (en ? "$ω$ = {} clockwise" : "$ω$ = {}（顺时针）")
-                                         : (en ? "$ω$ = {} (counter-clockwise)" : "$ω$ = {}（逆时针）"),
-                             speed(c.speed)));
+        out.push_back(c.speed > 0 ? phrase(lang, "$ω$ = {} clockwise", "$ω$ = {}（顺时针）", speed(c.speed))
+                                  : phrase(lang, "$ω$ = {} (counter-clockwise)", "$ω$ = {}（逆时针）", speed(c.speed)));
     return out;
 }
 
-std::string friction_fact(const sim::Friction& friction, bool en) {
+std::string friction_fact(const sim::Friction& friction, Lang lang) {
     if (const auto* c = std::get_if<sim::CoulombFriction>(&friction))
         return fmt::format("$μ$ = {}", number(c->coefficient, 3));
     if (const auto* s = std::get_if<sim::StickSlipFriction>(&friction))
-        return fmt::format("$μ$ = {} ({})", number(s->coefficient, 3), en ? "stick–slip" : "黏滑");
-    return en ? "no friction" : "无摩擦";
+        return fmt::format("$μ$ = {} ({})", number(s->coefficient, 3), phrase(lang, "stick–slip", "黏滑"));
+    return phrase(lang, "no friction", "无摩擦");
 }
 
-std::vector<std::string> contact_facts(const sim::Problem& p, bool en) {
+std::vector<std::string> contact_facts(const sim::Problem& p, Lang lang) {
     std::vector<std::string> out;
     const std::string restitution = number(p.contact.restitution, 3);
     if (p.contact.model == sim::ContactModel::compliant) {
         out.push_back(
             fmt::format("$K$ = {} N m^{{−{}}}", number(contact_stiffness(p), 4), number(p.contact.exponent, 3)));
         out.push_back(p.contact.damping == sim::DampingLaw::none
-                          ? (en ? "no dissipation in the contact" : "接触无耗散")
+                          ? phrase(lang, "no dissipation in the contact", "接触无耗散")
                           : fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), restitution));
     } else {
-        out.push_back(
-            filled(en ? "impulsive contact ({}), $c_{{\\r{{r}}}}$ = {}" : "冲量接触（{}），$c_{{\\r{{r}}}}$ = {}",
-                   name(p.contact.law), restitution));
+        out.push_back(phrase(lang, "impulsive contact ({}), $c_{{\\r{{r}}}}$ = {}",
+                             "冲量接触（{}），$c_{{\\r{{r}}}}$ = {}", name(p.contact.law), restitution));
     }
-    out.push_back(friction_fact(p.contact.friction, en));
+    out.push_back(friction_fact(p.contact.friction, lang));
     const double d = contact_offset(p);
-    out.push_back(d == 0 ? (en ? "contact on the centre line" : "接触发生在中心线上")
-                         : filled(en ? "contact face {} m off the centre line" : "接触面距中心线 {} m", number(d, 4)));
+    out.push_back(d == 0 ? phrase(lang, "contact on the centre line", "接触发生在中心线上")
+                         : phrase(lang, "contact face {} m off the centre line", "接触面距中心线 {} m", number(d, 4)));
     return out;
 }
 
@@ -178,7 +177,6 @@ std::string grouped(double value, int decimals) {
 }
 
 std::string beam_facts(const sim::Problem& p, Lang lang, Varied varied) {
-    const bool en = lang == Lang::en;
     const sim::Beam& b = p.beam;
     std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
                                  fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
@@ -190,23 +188,24 @@ std::string beam_facts(const sim::Problem& p, Lang lang, Varied varied) {
     out.push_back(fmt::format("$g$ = {} m s^{{−2}}", number(p.gravity, 5)));
     out.push_back(fmt::format("$a$ = {} m", number(p.hub.radius, 4)));
     out.push_back(fmt::format("$I_{{\\r{{h}}}}$ = {} kg m^{{2}}", number(p.hub.inertia, 4)));
-    out.push_back(drive_fact(p.hub.drive, en));
-    for (const auto& more : {start_facts(p, en), model_facts(p, en, varied)})
+    out.push_back(drive_fact(p.hub.drive, lang));
+    for (const auto& more : {start_facts(p, lang), model_facts(p, lang, varied)})
         out.insert(out.end(), more.begin(), more.end());
-    return filled(en ? "Beam and hub: {}." : "梁与轮毂：{}。", fmt::join(out, en ? ", " : "，"));
+    return phrase(lang, "Beam and hub: {}.", "梁与轮毂：{}。", fmt::join(out, phrase(lang, ", ", "，")));
 }
 
 std::string facts(const sim::Problem& p, Lang lang, Varied varied) {
     if (!p.cam) return beam_facts(p, lang, varied);
-    const bool en = lang == Lang::en;
-    std::vector<std::string> out = cam_facts(*p.cam, en, varied);
-    for (std::string& fact : contact_facts(p, en)) out.push_back(std::move(fact));
-    std::string text = beam_facts(p, lang, varied) + (en ? " " : "") +
-                       filled(en ? "Cam and contact: {}." : "凸轮与接触：{}。", fmt::join(out, en ? ", " : "，"));
+    std::vector<std::string> out = cam_facts(*p.cam, lang, varied);
+    for (std::string& fact : contact_facts(p, lang)) out.push_back(std::move(fact));
+    std::string text =
+        beam_facts(p, lang, varied) + phrase(lang, " ", "") +
+        phrase(lang, "Cam and contact: {}.", "凸轮与接触：{}。", fmt::join(out, phrase(lang, ", ", "，")));
     if (is_of_the_paper(p))
-        text += en ? " The paper prints neither $a$, $I_{\\r{h}}$, $e$, $ψ_{0}$ nor the constants of contact and "
-                     "damping; these values are assumptions."
-                   : "原文未给出 $a$、$I_{\\r{h}}$、$e$、$ψ_{0}$ 以及接触和阻尼常数，此处均为假定值。";
+        text += phrase(lang,
+                       " The paper prints neither $a$, $I_{\\r{h}}$, $e$, $ψ_{0}$ nor the constants of contact and "
+                       "damping; these values are assumptions.",
+                       "原文未给出 $a$、$I_{\\r{h}}$、$e$、$ψ_{0}$ 以及接触和阻尼常数，此处均为假定值。");
     return text;
 }
 
@@ -224,9 +223,8 @@ bool is_of_the_paper(const sim::Problem& p) {
     return beam && start && cam;
 }
 
-std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim::Result*>>& runs, Lang lang) {
-    const bool en = lang == Lang::en;
-    if (runs.empty()) return en ? "Nothing is integrated for this figure." : "本图不需积分。";
+std::string accuracy(const Runs& runs, Lang lang) {
+    if (runs.empty()) return phrase(lang, "Nothing is integrated for this figure.", "本图不需积分。");
     double rtol = 0, closure = 0;
     bool paper = false;
     for (const auto& [problem, result] : runs) {
@@ -237,11 +235,10 @@ std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim:
         else if (result->energy_scale > 0)
             closure = std::max(closure, result->energy_residual_max / result->energy_scale);
     }
-    const std::string but = paper ? (en ? ", the model “paper” apart" : "（模型 paper 除外）") : "";
-    if (closure == 0) return filled(en ? "Relative tolerance {}." : "相对容差 {}。", one_digit(rtol));
-    return filled(en ? "Relative tolerance {}; the energy balance closes to {} of its scale{}."
-                     : "相对容差 {}；能量平衡闭合到其尺度的 {}{}。",
-                  one_digit(rtol), one_digit(closure), but);
+    const std::string but = paper ? phrase(lang, ", the model “paper” apart", "（模型 paper 除外）") : "";
+    if (closure == 0) return phrase(lang, "Relative tolerance {}.", "相对容差 {}。", one_digit(rtol));
+    return phrase(lang, "Relative tolerance {}; the energy balance closes to {} of its scale{}.",
+                  "相对容差 {}；能量平衡闭合到其尺度的 {}{}。", one_digit(rtol), one_digit(closure), but);
 }
 
 std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {
@@ -275,11 +272,10 @@ std::string supported(const Estimate& e) {
 }
 
 std::string digits_stated(const sim::Problem& problem, Lang lang) {
-    const bool en = lang == Lang::en;
     if (problem.beam.model == sim::ModelKind::rigid)
-        return en ? "Numbers have the digits that the tolerance supports. " : "数值位数由容差确定。";
-    return en ? "One shape function fewer changes the last digits by one at most. "
-              : "减少一个形函数时，数值末位至多改变 1。";
+        return phrase(lang, "Numbers have the digits that the tolerance supports. ", "数值位数由容差确定。");
+    return phrase(lang, "One shape function fewer changes the last digits by one at most. ",
+                  "减少一个形函数时，数值末位至多改变 1。");
 }
 
 }  // namespace beamcam::scenes

@@ -19,18 +19,21 @@ namespace beamcam::scenes {
 
 // A text in both languages.
 struct Translated {
-    const char* en;
-    const char* zh;
+    const char *en = "", *zh = "";
     std::string in(Lang lang) const { return lang == Lang::en ? en : zh; }
 };
 
 // The name of −v_n at a first touch, positive as in (S30).
 inline constexpr Translated kApproachSpeed{"approach speed", "接近速度"};
 
-// fmt::format with a text chosen by language while running.
+// A text in the chosen language; with values as fmt::format makes it.
 template <class... Values>
-std::string filled(const char* text, const Values&... values) {
-    return fmt::format(fmt::runtime(text), values...);
+std::string phrase(Lang lang, const char* en, const char* zh, const Values&... values) {
+    const char* text = lang == Lang::en ? en : zh;
+    if constexpr (sizeof...(values) == 0)
+        return text;
+    else
+        return fmt::format(fmt::runtime(text), values...);
 }
 std::string number(double value, int digits);     // "0.25", "2.5×10^{−3}" with a true minus
 std::string one_digit(double value);              // "10^{−8}", "2 × 10^{−9}"
@@ -57,7 +60,8 @@ inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};
 bool is_of_the_paper(const sim::Problem& problem);
 
 // "Relative tolerance 10⁻⁸; the energy balance closes to 2 × 10⁻⁹ of its scale", of the worst of the results.
-std::string accuracy(const std::vector<std::pair<const sim::Problem*, const sim::Result*>>& runs, Lang lang);
+using Runs = std::vector<std::pair<const sim::Problem*, const sim::Result*>>;
+std::string accuracy(const Runs& runs, Lang lang);
 
 // ---- digits ---------------------------------------------------------------------------------------
 

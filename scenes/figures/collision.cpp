@@ -30,31 +30,31 @@ std::string ordinal(int number) {
 // The collision in numbers, in the digits that one mode fewer leaves.
 std::string collision_caption(const sim::Problem& problem, const sim::Collision& c, int which, const sim::Result* fewer,
                               Lang lang) {
-    const bool en = lang == Lang::en;
     const sim::Collision* other = fewer ? collision_of(problem, *fewer, which) : nullptr;
     const auto digits = [&](double value, std::optional<double> otherwise) {
         return supported(estimate(problem, value, otherwise));
     };
-    std::string text = filled(
-        en ? "The {} collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is "
-             "negative where beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision "
-             "has {} impact{} (shaded{})"
-           : "{}碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s "
-             "起。该碰撞包含 {} 次{}冲击（阴影{}）",
-        en           ? ordinal(which)
-        : which == 1 ? "首次"
-                     : fmt::format("第 {} 次", which),
-        digits(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count, en && c.count != 1 ? "s" : "",
-        c.count == 1
-            ? ""
-            : filled(en ? "; impacts less than {} s apart count as one collision" : "；间隔小于 {} s 者归为同一次碰撞",
-                     number(sim::collision_gap(problem), 3)));
+    std::string text = phrase(
+        lang,
+        "The {} collision in close-up: normal force $F$ (left) and penetration $δ$ (right), which is negative where "
+        "beam and cam are apart, from the first touch at $t_{{1}}$ = {} s. The collision has {} impact{} (shaded{})",
+        "{}碰撞的细部：法向力 $F$（左轴）与侵入量 $δ$（右轴，分离时为负），自首次接触 $t_{{1}}$ = {} s 起。该碰撞包含 "
+        "{} "
+        "次{}冲击（阴影{}）",
+        lang == Lang::en ? ordinal(which)
+        : which == 1     ? "首次"
+                         : fmt::format("第 {} 次", which),
+        digits(c.t_start, other ? std::optional(other->t_start) : std::nullopt), c.count,
+        lang == Lang::en && c.count != 1 ? "s" : "",
+        c.count == 1 ? ""
+                     : phrase(lang, "; impacts less than {} s apart count as one collision",
+                              "；间隔小于 {} s 者归为同一次碰撞", number(sim::collision_gap(problem), 3)));
     if (c.force_peak)
-        text += filled(en ? "; peak force {} N" : "；峰值力 {} N",
+        text += phrase(lang, "; peak force {} N", "；峰值力 {} N",
                        digits(*c.force_peak, other ? other->force_peak : std::nullopt));
-    text += filled(en ? "; energy lost {} J{}. " : "；能量损失 {} J{}。",
+    text += phrase(lang, "; energy lost {} J{}. ", "；能量损失 {} J{}。",
                    digits(c.energy_lost, other ? std::optional(other->energy_lost) : std::nullopt),
-                   c.t_end ? "" : (en ? "; it lasts longer than the figure" : "；至图末尚未结束"));
+                   c.t_end ? "" : phrase(lang, "; it lasts longer than the figure", "；至图末尚未结束"));
     return text + digits_stated(problem, lang);
 }
 
@@ -75,20 +75,14 @@ CloseUp close_up(const sim::Collision& c, double end, const sim::Table& t, doubl
                 end,
                 measure_of("s", length),
                 measure_of("m", deepest),
-                {},
-                {}};
-    out.force.label = lang == Lang::en ? "force" : "接触力";
-    out.depth.label = lang == Lang::en ? "penetration" : "侵入量";
-    out.depth.right = true;
-    out.depth.look = 1;
+                {.label = phrase(lang, "force", "接触力")},
+                {.label = phrase(lang, "penetration", "侵入量"), .look = 1, .right = true}};
     const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
                &gap = column(t, ChannelKind::gap);
     for (std::size_t i = 0; i < time.size(); ++i) {
         if (time[i] < out.from || time[i] > out.to) continue;
-        out.force.x.push_back(out.after(time[i]));
-        out.force.y.push_back(n[i]);
-        out.depth.x.push_back(out.after(time[i]));
-        out.depth.y.push_back(-gap[i] * out.length.factor);
+        out.force.add(out.after(time[i]), n[i]);
+        out.depth.add(out.after(time[i]), -gap[i] * out.length.factor);
     }
     return out;
 }
@@ -129,30 +123,25 @@ void reach_peaks(CloseUp& shown, int which, const sim::Result& result) {
 }
 
 // Both axes have their zero at the same height. The limits follow the penetration, which a gap soon exceeds.
-void fit_axis(Axis& axis, const Series& curve) {
+Axis close_up_axis(std::string label, const Series& curve) {
     double most = 0;
     for (const double v : curve.y)
         if (std::isfinite(v)) most = std::max(most, v);
+    Axis axis{.label = std::move(label)};
     if (most > 0) axis.from = -0.25 * most, axis.to = 1.1 * most;
+    return axis;
 }
 
 Panel close_up_panel(CloseUp shown, int which, const sim::Result& result, Lang lang) {
-    Panel panel;
-    panel.legend = Legend::box;
-    panel.x.label = axis_label("($t$ − $t_{1}$)", shown.time.unit);
-    panel.y.label = "$F$ / N";
-    panel.right = Axis{.label = axis_label("$δ$", shown.length.unit)};
-    fit_axis(*panel.right, shown.depth);
-    fit_axis(panel.y, shown.force);
-    panel.rules.push_back({.at = 0});
-    int count = 0;
-    for (const sim::Impact& hit : result.impacts) {
-        if (hit.collision != which) continue;
-        ++count;
-        panel.spans.push_back({.from = shown.after(hit.t_start),
-                               .to = shown.after(hit.t_end.value_or(shown.end)),
-                               .label = (lang == Lang::en ? "impact " : "冲击 ") + std::to_string(count)});
-    }
+    Panel panel{.x = {.label = axis_label("($t$ − $t_{1}$)", shown.time.unit), .tight = true},
+                .y = close_up_axis("$F$ / N", shown.force),
+                .right = close_up_axis(axis_label("$δ$", shown.length.unit), shown.depth),
+                .rules = {{.at = 0}},
+                .legend = Legend::box};
+    for (const sim::Impact& hit : result.impacts)
+        if (hit.collision == which)
+            panel.spans.push_back({shown.after(hit.t_start), shown.after(hit.t_end.value_or(shown.end)),
+                                   phrase(lang, "impact {}", "冲击 {}", panel.spans.size() + 1)});
     panel.series = {std::move(shown.force), std::move(shown.depth)};
     return panel;
 }
@@ -165,19 +154,17 @@ FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studi
     if (fewer) studies.stop_after(*fewer, {.collisions = static_cast<std::size_t>(how.collision) + 1});
     const std::size_t table = studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
                                             {sim::Channel{ChannelKind::gap}});
-    return [=, problem = scene.problem, number = how.collision](const Results& results) {
+    return [=, problem = scene.problem, number = how.collision](const Results& results) -> Figure {
         const sim::Result& result = *results[study];
         const sim::Collision* c = collision_of(problem, result, number);
         if (!c) throw render::PictureError(no_collision(problem, result, number, end));
         const auto which = static_cast<int>(c - result.collisions.data());
         CloseUp shown = close_up(*c, end, result.tables[table], deepest(result, which), lang);
         reach_peaks(shown, which, result);
-        Figure figure;
-        figure.panels = {close_up_panel(std::move(shown), which, result, lang)};
-        figure.aspect = 0.62;
-        figure.caption = collision_caption(problem, *c, number, results.find(fewer), lang) + facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, &result}}, lang);
-        return figure;
+        return {.panels = {close_up_panel(std::move(shown), which, result, lang)},
+                .aspect = 0.62,
+                .caption = collision_caption(problem, *c, number, results.find(fewer), lang) + facts(problem, lang),
+                .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }
 

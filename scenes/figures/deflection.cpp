@@ -49,18 +49,23 @@ struct DeflectionCurves {
     Series w, slope;
     double jump = 0;
 };
-DeflectionCurves shape_of(const sim::Problem& problem, double angle, double support, Printing printing) {
+DeflectionCurves shape_of(const sim::Problem& problem, double angle, double support, std::size_t i, const Curves& c) {
     const double reach = problem.beam.length * std::cos(angle);
+    const bool first = c.printing == Printing::corrected;
     DeflectionCurves out;
+    out.w = {.look = c.look,
+             .solid = first,
+             .weight = first ? 1 : 0.9,
+             .color = render::figure::look(static_cast<int>(i)).color};
+    out.slope = out.w;
+    if (first) out.w.label = "$l_{1}$ = " + length_text(support);
     for (const bool overhang : {false, true}) {
         const double from = overhang ? support : 0, to = overhang ? reach : support;
         for (int k = 0; k < kPerSpan; ++k) {
             const double x = from + (to - from) * k / (kPerSpan - 1);
-            const sim::StaticDeflection s = sim::supported_beam(problem, angle, support, x, printing, overhang);
-            out.w.x.push_back(x);
-            out.w.y.push_back(s.w * 1e3);
-            out.slope.x.push_back(x);
-            out.slope.y.push_back(s.slope * 1e3);
+            const sim::StaticDeflection s = sim::supported_beam(problem, angle, support, x, c.printing, overhang);
+            out.w.add(x, s.w * 1e3);
+            out.slope.add(x, s.slope * 1e3);
         }
     }
     out.jump = std::abs(out.slope.y[kPerSpan] - out.slope.y[kPerSpan - 1]);
@@ -68,92 +73,62 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
 }
 
 std::string deflection_caption(const sim::Problem& problem, const Inclination& at, double jump, Lang lang) {
-    const bool en = lang == Lang::en;
     const std::string angle = number(at.angle * 180 / M_PI, 4);
-    std::string text = filled(
-        en ? "Static deflection $w$ (a) and slope (b) of the beam inclined by {}°{}, hinged at $O$ and supported at "
-             "the horizontal distance $l_{{1}}$. "
-           : "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)。",
-        angle, at.tangent ? (en ? " (tangent to the disc as if it were centred)" : "（与视为对心的圆盘相切）") : "");
+    std::string text = phrase(
+        lang,
+        "Static deflection $w$ (a) and slope (b) of the beam inclined by {}°{}, hinged at $O$ and supported at the "
+        "horizontal distance $l_{{1}}$. ",
+        "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)。", angle,
+        at.tangent ? phrase(lang, " (tangent to the disc as if it were centred)", "（与视为对心的圆盘相切）") : "");
     if (is_of_the_paper(problem))
-        text += filled(
-            en ? "Eq. (5) of the paper as printed (dashed) lacks a term in each constant of the overhanging span, so "
-                 "that its slope jumps at the support, by up to {} × 10^{{−3}} here; with these terms (dotted) it is "
-                 "continuous. Both integrate along the horizontal; along the inclined rod (solid) the deflection is "
-                 "1/cos^{{2}} $θ$ = {} times larger. "
-               : "原文式 (5)（虚线）悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × "
-                 "10^{{−3}}）；补全后（点线）连续。二者均沿水平方向积分；沿倾斜杆（实线）的挠度大 1/cos^{{2}} $θ$ = {} "
-                 "倍。",
+        text += phrase(
+            lang,
+            "Eq. (5) of the paper as printed (dashed) lacks a term in each constant of the overhanging span, so "
+            "that its slope jumps at the support, by up to {} × 10^{{−3}} here; with these terms (dotted) it is "
+            "continuous. Both integrate along the horizontal; along the inclined rod (solid) the deflection is "
+            "1/cos^{{2}} $θ$ = {} times larger. ",
+            "原文式 (5)（虚线）悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × "
+            "10^{{−3}}）；补全后（点线）连续。二者均沿水平方向积分；沿倾斜杆（实线）的挠度大 1/cos^{{2}} $θ$ = {} "
+            "倍。",
             number(jump, 3), number(1 / std::pow(std::cos(at.angle), 2), 4));
     return text + beam_facts(problem, lang);
-}
-
-// Deflection and slope, one above the other.
-struct DeflectionPanels {
-    Panel shape, slope;
-    double largest_jump = 0;  // of the slope, as printed
-};
-DeflectionPanels empty_deflection() {
-    DeflectionPanels out;
-    out.shape.letter = "a";
-    out.slope.letter = "b";
-    out.shape.x.label = out.slope.x.label = "$x$ / m";
-    out.shape.y.label = "$w$ / mm";
-    out.slope.y.label = "d$w$/d$x$ / 10^{−3}";
-    out.shape.legend = Legend::box;
-    out.slope.legend = Legend::none;
-    for (Panel* panel : {&out.shape, &out.slope}) panel->rules.push_back({.at = 0});
-    return out;
-}
-
-// The beam on its support number `i`, by one of the formulas.
-void add_deflection(const sim::Problem& problem, double angle, double support, std::size_t i, const Curves& c,
-                    DeflectionPanels& out) {
-    DeflectionCurves s = shape_of(problem, angle, support, c.printing);
-    const bool first = c.printing == Printing::corrected;
-    if (c.printing == Printing::printed) out.largest_jump = std::max(out.largest_jump, s.jump);
-    for (Series* series : {&s.w, &s.slope}) {
-        series->look = c.look;
-        series->color = render::figure::look(static_cast<int>(i)).color;
-        series->solid = first;
-        if (!first) series->weight = 0.9;
-    }
-    if (first) s.w.label = "$l_{1}$ = " + length_text(support);
-    out.shape.series.push_back(std::move(s.w));
-    out.slope.series.push_back(std::move(s.slope));
-}
-
-// The key to the dashes, in black.
-void add_key(std::span<const Curves> curves, Lang lang, Panel& panel) {
-    panel.legend = Legend::box;
-    for (const Curves& c : curves) {
-        Series key;
-        key.label = c.label.in(lang);
-        key.look = c.look;
-        key.solid = c.printing == Printing::corrected;
-        key.color = render::rgb(0x000000);
-        panel.series.push_back(std::move(key));
-    }
 }
 
 Figure deflection_figure(const sim::Problem& problem, Lang lang) {
     const Inclination at = inclination(problem);
     const double reach = problem.beam.length * std::cos(at.angle);
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
-    DeflectionPanels panels = empty_deflection();
+    const bool several = curves.size() > 1;
+    Panel shape{.x = {.label = "$x$ / m", .tight = true},
+                .y = {.label = "$w$ / mm"},
+                .rules = {{.at = 0}},
+                .legend = Legend::box},
+        slope{.x = shape.x,
+              .y = {.label = "d$w$/d$x$ / 10^{−3}"},
+              .rules = {{.at = 0}},
+              .legend = several ? Legend::box : Legend::none};
+    double largest_jump = 0;  // of the slope, as printed
     for (std::size_t i = 0; i < kSupports.size(); ++i) {
         const double support = kSupports[i] * reach;
-        for (const Curves& c : curves) add_deflection(problem, at.angle, support, i, c, panels);
-        panels.shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});
+        for (const Curves& c : curves) {
+            DeflectionCurves s = shape_of(problem, at.angle, support, i, c);
+            if (c.printing == Printing::printed) largest_jump = std::max(largest_jump, s.jump);
+            shape.series.push_back(std::move(s.w));
+            slope.series.push_back(std::move(s.slope));
+        }
+        shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});
     }
-    if (curves.size() > 1) add_key(curves, lang, panels.slope);
-    Figure figure;
-    figure.panels = {std::move(panels.shape), std::move(panels.slope)};
-    figure.share_x = true;
-    figure.aspect = 1.15;
-    figure.caption = deflection_caption(problem, at, panels.largest_jump, lang);
-    figure.accuracy = accuracy({}, lang);
-    return figure;
+    // The key to the dashes, in black.
+    for (std::size_t k = 0; several && k < curves.size(); ++k)
+        slope.series.push_back({.label = curves[k].label.in(lang),
+                                .look = curves[k].look,
+                                .solid = curves[k].printing == Printing::corrected,
+                                .color = render::rgb(0x000000)});
+    return {.panels = lettered({std::move(shape), std::move(slope)}),
+            .share_x = true,
+            .aspect = 1.15,
+            .caption = deflection_caption(problem, at, largest_jump, lang),
+            .accuracy = accuracy({}, lang)};
 }
 
 FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Studies&) {

@@ -45,17 +45,21 @@ struct DistanceHistory {
     std::vector<std::vector<double>> distance;  // [m], by position, then instant
 };
 
+// The weights of four values in the cubic through them, at `at`.
+std::array<double, 4> cubic_weights(const std::array<double, 4>& nodes, double at) {
+    std::array<double, 4> weights{1, 1, 1, 1};
+    for (std::size_t a = 0; a < 4; ++a)
+        for (std::size_t b = 0; b < 4; ++b)
+            if (b != a) weights[a] *= (at - nodes[b]) / (nodes[a] - nodes[b]);
+    return weights;
+}
+
 // The distance of a point from the cam's surface over the instants `t` [m]. `place` counts stations; between them the
 // position is interpolated by a cubic through the four around it.
 std::vector<double> distance(const sim::Result& fall, const std::vector<std::size_t>& stations, double place,
                              const std::vector<double>& t, const sim::Problem& problem) {
     const std::size_t first = std::clamp<std::size_t>(static_cast<std::size_t>(place), 1, stations.size() - 3) - 1;
-    std::array<double, 4> weights{1, 1, 1, 1};
-    for (std::size_t a = 0; a < 4; ++a)
-        for (std::size_t b = 0; b < 4; ++b)
-            if (b != a)
-                weights[a] *=
-                    (place - static_cast<double>(first + b)) / (static_cast<double>(a) - static_cast<double>(b));
+    const std::array<double, 4> weights = cubic_weights({0, 1, 2, 3}, place - static_cast<double>(first));
     std::vector<double> out;
     for (std::size_t i = 0; i < t.size(); ++i) {
         sim::Vec2 at;
@@ -69,15 +73,11 @@ std::vector<double> distance(const sim::Result& fall, const std::vector<std::siz
 double arrival(const std::vector<double>& t, const std::vector<double>& d) {
     for (std::size_t i = 1; i < d.size(); ++i) {
         if (!(d[i - 1] > 0 && d[i] <= 0)) continue;
-        const std::size_t k = std::clamp<std::size_t>(i, 2, d.size() - 2);
+        const std::size_t k = std::clamp<std::size_t>(i, 2, d.size() - 2) - 2;
         const auto cubic = [&](double at) {
+            const std::array<double, 4> weights = cubic_weights({t[k], t[k + 1], t[k + 2], t[k + 3]}, at);
             double sum = 0;
-            for (std::size_t a = k - 2; a <= k + 1; ++a) {
-                double weight = 1;
-                for (std::size_t b = k - 2; b <= k + 1; ++b)
-                    if (b != a) weight *= (at - t[b]) / (t[a] - t[b]);
-                sum += weight * d[a];
-            }
+            for (std::size_t a = 0; a < 4; ++a) sum += weights[a] * d[k + a];
             return sum;
         };
         // Halving the sample's width 60 times leaves rounding.
@@ -107,12 +107,11 @@ std::size_t trial_begin(const Stations& searched, const ArrivalAt& arrival_at) {
 
 // The first touch of the simulation, with the digits that one mode fewer does not change.
 std::string located(const sim::Problem& problem, const sim::Result& result, const sim::Result* fewer, Lang lang) {
-    const bool en = lang == Lang::en;
-    if (result.impacts.empty()) return en ? "the simulation has no impact. " : "仿真中无碰撞。";
+    if (result.impacts.empty()) return phrase(lang, "the simulation has no impact. ", "仿真中无碰撞。");
     const sim::Impact& hit = result.impacts.front();
     std::optional<double> x, t;
     if (fewer && !fewer->impacts.empty()) x = fewer->impacts.front().x, t = fewer->impacts.front().t_start;
-    return filled(en ? "the located event is at $x$ = {} m, $t$ = {} s. " : "事件定位为 $x$ = {} m、$t$ = {} s。",
+    return phrase(lang, "the located event is at $x$ = {} m, $t$ = {} s. ", "事件定位为 $x$ = {} m、$t$ = {} s。",
                   supported(estimate(problem, hit.x, x)), supported(estimate(problem, hit.t_start, t))) +
            digits_stated(problem, lang);
 }
@@ -152,33 +151,27 @@ Trial try_points(const sim::Result& fall, const Stations& searched, const std::v
 
 Panel distance_panel(const Trial& trial) {
     const DistanceHistory& f = trial.history;
-    Panel panel;
-    panel.legend = Legend::box;
-    panel.rules.push_back({.at = 0});
     const double touch = trial.when[trial.first], shown = std::min(kShown, 0.25 * touch);
-    const double from = touch - shown, to = touch + 0.5 * shown;
+    const auto is_shown = [&](double t) { return t >= touch - shown && t <= touch + 0.5 * shown; };
     double farthest = 0;  // [m]
     for (std::size_t k = 0; k < f.x.size(); k += kRefined)
         for (std::size_t i = 0; i < f.t.size(); ++i)
-            if (f.t[i] >= from && f.t[i] <= to) farthest = std::max(farthest, std::abs(f.distance[k][i]));
+            if (is_shown(f.t[i])) farthest = std::max(farthest, std::abs(f.distance[k][i]));
     const Measure time = measure_of("s", touch), length = measure_of("m", farthest);
-    panel.x.label = axis_label("$t$", time.unit);
-    panel.y.label = axis_label("$D$′", length.unit);
-    int look = 0;
-    for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
-        Series s;
-        s.label = "$x$ = " + length_text(f.x[k]);
-        s.look = look++;
-        for (std::size_t i = 0; i < f.t.size(); ++i)
-            if (f.t[i] >= from && f.t[i] <= to)
-                s.x.push_back(f.t[i] * time.factor), s.y.push_back(f.distance[k][i] * length.factor);
-        panel.series.push_back(std::move(s));
-    }
-    // Room above the falling curves for the inset.
+    Panel panel{.x = {.label = axis_label("$t$", time.unit), .tight = true},
+                .y = {.label = axis_label("$D$′", length.unit)},
+                .rules = {{.at = 0}},
+                .legend = Legend::box};
     double highest = 0;
-    for (const Series& s : panel.series)
+    for (std::size_t k = 0; k < f.x.size(); k += kRefined) {
+        Series& s = panel.series.emplace_back();
+        s.label = "$x$ = " + length_text(f.x[k]);
+        s.look = static_cast<int>(k) / kRefined;
+        for (std::size_t i = 0; i < f.t.size(); ++i)
+            if (is_shown(f.t[i])) s.add(f.t[i] * time.factor, f.distance[k][i] * length.factor);
         for (const double v : s.y) highest = std::max(highest, v);
-    panel.y.to = 2.15 * highest;
+    }
+    panel.y.to = 2.15 * highest;  // room above the falling curves for the inset
     return panel;
 }
 
@@ -191,34 +184,24 @@ void widen(render::Axis& axis, const std::vector<double>& values) {
 
 // When each point reaches the cam: the first round as points, the refinement beside its earliest as a line.
 Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) {
-    Panel inset;
-    inset.legend = Legend::none;
-    inset.x.label = "$x$ / m";
-    inset.x.tight = false;
     const Measure time = measure_of("s", trial.when[trial.first]);
-    inset.y.label = axis_label("$t_{0}$", time.unit);
-    Series coarse, refined;
+    Series coarse{.line = false, .every_point = true}, refined{.solid = true};
     for (std::size_t k = 0; k < trial.when.size(); ++k) {
         if (trial.when[k] == kNever) continue;
         const double x = trial.history.x[k], t = trial.when[k] * time.factor;
-        const bool near = k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined;
-        if (k % kRefined == 0) coarse.x.push_back(x), coarse.y.push_back(t);
-        if (near) refined.x.push_back(x), refined.y.push_back(t);
+        if (k % kRefined == 0) coarse.add(x, t);
+        if (k + kRefined >= trial.first_trial && k <= trial.first_trial + kRefined) refined.add(x, t);
     }
-    refined.look = 0;
-    refined.solid = true;
-    coarse.look = 0;
-    coarse.line = false;
-    coarse.every_point = true;
-    inset.series = {refined, coarse};
+    Panel inset{.x = {.label = "$x$ / m"},
+                .y = {.label = axis_label("$t_{0}$", time.unit)},
+                .series = {refined, coarse},
+                .legend = Legend::none};
     widen(inset.x, coarse.x), widen(inset.y, coarse.y);
-    if (!strikes.impacts.empty()) {
-        const sim::Impact& hit = strikes.impacts.front();
-        inset.marks.push_back({.x = hit.x,
-                               .y = hit.t_start * time.factor,
-                               .label = lang == Lang::en ? "located" : "事件定位",
+    if (!strikes.impacts.empty())
+        inset.marks.push_back({.x = strikes.impacts.front().x,
+                               .y = strikes.impacts.front().t_start * time.factor,
+                               .label = phrase(lang, "located", "事件定位"),
                                .look = 1});
-    }
     return inset;
 }
 
@@ -229,18 +212,17 @@ std::string trial_caption(const Trial& trial, double rtol, Lang lang) {
     double around = 0;
     for (const std::size_t k : {first > 0 ? first - 1 : first, std::min(first + 1, x.size() - 1)})
         if (when[k] != kNever) around = std::max(around, when[k] - when[first]);
-    return filled(
-        lang == Lang::en
-            ? "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
-              "near the first touch. Inset: the time at which the distance is zero against $x$, by the first round "
-              "of the trial method (points), its refinement (line) and the simulation (“located”). Earliest "
-              "trial point: {} m; earliest of points {} mm apart: $x$ = {} m, $t$ = {} s; "
-            : "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
-              "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
-              "mm 后 $x$ "
-              "= {} m，$t$ = {} s；",
-        number(x[trial.first_trial], 3), number(trial.spacing() * 1e3, 3), number(x[first], 4),
-        supported({when[first], std::max(around, 10 * rtol * when[first])}));
+    return phrase(lang,
+                  "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
+                  "near the first touch. Inset: the time at which the distance is zero against $x$, by the first round "
+                  "of the trial method (points), its refinement (line) and the simulation (“located”). Earliest "
+                  "trial point: {} m; earliest of points {} mm apart: $x$ = {} m, $t$ = {} s; ",
+                  "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
+                  "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
+                  "mm 后 $x$ "
+                  "= {} m，$t$ = {} s；",
+                  number(x[trial.first_trial], 3), number(trial.spacing() * 1e3, 3), number(x[first], 4),
+                  supported({when[first], std::max(around, 10 * rtol * when[first])}));
 }
 
 FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -254,18 +236,16 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     const std::size_t touching = studies.of(scene.problem, scene.end_time, "distance");
     const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, "distance", studies);
     if (fewer) studies.stop_after(*fewer, {.touches = 1});
-    return [=, problem = scene.problem](const Results& results) {
+    return [=, problem = scene.problem](const Results& results) -> Figure {
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
         Panel panel = distance_panel(trial);
         panel.insets.push_back({.panel = {arrivals_panel(trial, strikes, lang)}, .width = 0.42, .height = 0.42});
-        Figure figure;
-        figure.panels.push_back(std::move(panel));
-        figure.aspect = 0.76;
-        figure.caption = trial_caption(trial, problem.solver.rtol, lang) +
-                         located(problem, strikes, results.find(fewer), lang) + facts(problem, lang);
-        figure.accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang);
-        return figure;
+        return {.panels = {std::move(panel)},
+                .aspect = 0.76,
+                .caption = trial_caption(trial, problem.solver.rtol, lang) +
+                           located(problem, strikes, results.find(fewer), lang) + facts(problem, lang),
+                .accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang)};
     };
 }
 

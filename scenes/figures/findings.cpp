@@ -16,6 +16,7 @@ namespace {
 
 using sim::Printing;
 
+constexpr const char* kFindings = "findings";
 constexpr double kRepeated = 4;      // [s] of repeated impacts, as in the figures
 constexpr double kSettled = 12;      // [s]: the transient is over at each of the three speeds
 constexpr double kFirst = 0.3;       // [s]: the first collision on a cam at rest is over
@@ -31,15 +32,8 @@ sim::Problem falling(double length) {
     return p;
 }
 
-sim::Problem with_model(sim::Problem p, sim::ModelKind model) {
-    p.beam.model = model;
-    return p;
-}
-
 // Without markup: "−5.48×10⁻⁸".
 std::string plain(double value, int digits) { return render::to_plain(number(value, digits)); }
-
-constexpr std::array kCamSpeeds{0.0, 1.0, 5.0};  // ω of the paper's figure 6 [rad/s]
 
 double zero(const sim::Result& r) { return r.theta_zero.empty() ? std::nan("") : r.theta_zero.front().t; }
 
@@ -112,13 +106,9 @@ struct Transient {
 Transient transient(const sim::Table& a, const sim::Table& b) {
     const auto &t = column(a, ChannelKind::t), &x = column(a, ChannelKind::theta), &y = column(b, ChannelKind::theta);
     Transient out;
-    for (std::size_t i = 0; i < t.size(); ++i) {
-        const double difference = std::abs(x[i] - y[i]);
-        if (difference <= kTolerated) continue;
-        if (out.largest == 0) out.from = t[i];
-        out.to = t[i];
-        out.largest = std::max(out.largest, difference);
-    }
+    for (std::size_t i = 0; i < t.size(); ++i)
+        if (const double difference = std::abs(x[i] - y[i]); difference > kTolerated)
+            out = {out.largest == 0 ? t[i] : out.from, t[i], std::max(out.largest, difference)};
     return out;
 }
 
@@ -128,43 +118,38 @@ struct FindingStudies {
     std::array<std::array<std::size_t, 2>, 3> repeated{}, angles{};  // at the scene's tolerance, and a tighter one
 };
 
-sim::Problem with_still_cam() {
+sim::Problem with_cam_speed(double speed) {
     sim::Problem p;
-    p.cam->speed = 0;
+    p.cam->speed = speed;
     return p;
 }
 
-void ask_for_repeated_impacts(Studies& studies, const char* who, FindingStudies& all) {
-    for (std::size_t k = 0; k < 3; ++k)
-        for (std::size_t tight = 0; tight < 2; ++tight) {
-            sim::Problem p;
-            p.cam->speed = kCamSpeeds[k];
-            if (tight) p.solver.rtol /= 100, p.solver.atol /= 100;
-            all.repeated[k][tight] = studies.of(p, kSettled, who);
-            all.angles[k][tight] =
-                studies.table(all.repeated[k][tight], {0, kSettled, 12001}, {ChannelKind::t, ChannelKind::theta});
-        }
-}
-
 FindingStudies ask_for_findings(Studies& studies) {
-    const char* who = "findings";
     FindingStudies all{};
-    all.flexible = studies.of(falling(1), 0.4, who);
-    all.printed = studies.of(with_model(falling(1), sim::ModelKind::paper), 0.4, who);
-    all.long_beam = studies.of(falling(8), 1.2, who);
-    all.long_printed = studies.of(with_model(falling(8), sim::ModelKind::paper), 1.2, who);
-    all.first = studies.of(with_still_cam(), kFirst, who);
-    sim::Problem resting = with_still_cam();
+    const auto falls = [&](double length, double end, sim::ModelKind model) {
+        sim::Problem p = falling(length);
+        p.beam.model = model;
+        const std::size_t study = studies.of(p, end, kFindings);
+        studies.apexes(study), studies.zero_crossings(study);
+        return study;
+    };
+    const sim::ModelKind usual = sim::Problem{}.beam.model;
+    all.flexible = falls(1, 0.4, usual), all.printed = falls(1, 0.4, sim::ModelKind::paper);
+    all.long_beam = falls(8, 1.2, usual), all.long_printed = falls(8, 1.2, sim::ModelKind::paper);
+    sim::Problem resting = with_cam_speed(0);
+    all.first = studies.of(resting, kFirst, kFindings);
     resting.initial.shape = sim::InitialShape::resting;
-    all.rest = studies.of(resting, kFirst, who);
+    all.rest = studies.of(resting, kFirst, kFindings);
     all.table = studies.table(all.rest, {0, kFirst, 3001},
                               {ChannelKind::contact_force, ChannelKind::separation, ChannelKind::separation_paper});
-    ask_for_repeated_impacts(studies, who, all);
-    for (const std::size_t study : {all.flexible, all.printed, all.long_beam, all.long_printed, all.repeated[0][0],
-                                    all.repeated[1][0], all.repeated[2][0]}) {
-        studies.apexes(study);
-        studies.zero_crossings(study);
-    }
+    for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t tight = 0; tight < 2; ++tight) {
+            sim::Problem p = with_cam_speed(kPaperSpeeds[k]);
+            if (tight) p.solver.rtol /= 100, p.solver.atol /= 100;
+            const std::size_t study = all.repeated[k][tight] = studies.of(p, kSettled, kFindings);
+            all.angles[k][tight] = studies.table(study, {0, kSettled, 12001}, {ChannelKind::t, ChannelKind::theta});
+            if (!tight) studies.apexes(study), studies.zero_crossings(study);
+        }
     return all;
 }
 
@@ -226,7 +211,7 @@ Finding on_separation(const Verdicts& v) {
 }
 
 Finding on_first_touch(const sim::Result& touch) {
-    const sim::Cam cam = *with_still_cam().cam;
+    const sim::Cam cam = *with_cam_speed(0).cam;
     sim::Cam centred = cam;
     centred.eccentricity = 0;
     return {"§3.4: x₁ = √(D² − R²) = 0.229 m", "Right only for e = 0; √(D² + e² + 2De cos ψ − R²) with eccentricity",
@@ -251,7 +236,7 @@ std::string numbers_of_repeated_impacts(const FindingStudies& all, const Results
         numbers += fmt::format(
             "{}ω = {}: θ is not reproducible to {} rad from {:.1f} s to {:.1f} s (there within {:.2f} rad); {} of "
             "{} rebounds in {} s exceed the one before",
-            k ? "; " : "", kCamSpeeds[k], plain(kTolerated, 1), apart.from, apart.to, apart.largest,
+            k ? "; " : "", kPaperSpeeds[k], plain(kTolerated, 1), apart.from, apart.to, apart.largest,
             higher_than_before(heights), heights.empty() ? 0 : heights.size() - 1, kRepeated);
     }
     return numbers;

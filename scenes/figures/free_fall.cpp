@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <tuple>
 
 #include "scenes/figures/recipes.hpp"
 #include "sim/studies/paper.hpp"
@@ -24,50 +23,84 @@ std::optional<double> closed_form(const sim::Problem& p) {
     return sim::rod_fall_time(p.beam.length, p.gravity, p.initial.angle, 1);
 }
 
+// A beam of the figure, with its study and its tables of θ.
 struct Fall {
+    Translated label = {};
+    int look = 0;
+    sim::Problem problem = {};
     std::size_t study = 0, table = 0;
-    std::optional<std::size_t> close;
+    std::optional<std::size_t> close = {};  // in close-up
+
+    std::optional<double> zero(const Results& results) const {
+        const std::vector<sim::ZeroCrossing>& all = results[study]->theta_zero;
+        return all.empty() ? std::nullopt : std::optional(all.front().t);
+    }
+    Series curve(const Results& results, std::size_t of, std::string name) const {
+        const sim::Table& t = results[study]->tables[of];
+        return {
+            .label = std::move(name), .x = column(t, ChannelKind::t), .y = column(t, ChannelKind::theta), .look = look};
+    }
 };
 
-Series curve(const sim::Table& t, std::string label, int look) {
-    Series s;
-    s.label = std::move(label);
-    s.look = look;
-    s.x = column(t, ChannelKind::t);
-    s.y = column(t, ChannelKind::theta);
-    return s;
-}
+// The beams: the scene's own if it bends, the rigid one, and in the paper's fall the rod that takes its 0.262 s.
+struct Falls {
+    std::vector<Fall> shown;
+    bool flexible = false, paper = false;
+    std::optional<double> closely;     // when the rigid beam is level, if the inset shows it [s]
+    std::optional<std::size_t> fewer;  // the study of one mode fewer
 
-void mark_zero(Panel& panel, const sim::Result& result, int look, bool hollow) {
-    if (!result.theta_zero.empty())
-        panel.marks.push_back({.x = result.theta_zero.front().t, .y = 0, .look = look, .hollow = hollow});
-}
+    const Fall& rigid() const { return shown[flexible ? 1 : 0]; }
+    void mark_zero(const Fall& fall, const Results& results, bool hollow, Panel& panel) const {
+        if (const auto zero = fall.zero(results))
+            panel.marks.push_back({.x = *zero, .y = 0, .look = fall.look, .hollow = hollow});
+    }
+};
 
-std::optional<double> zero_of(const sim::Result& result) {
-    if (result.theta_zero.empty()) return std::nullopt;
-    return result.theta_zero.front().t;
+Falls falls_of(const Scene& scene, Studies& studies) {
+    const double end = scene.end_time;
+    Falls out;
+    const sim::Problem own = without_cam(scene.problem), stiff = rigid(own);
+    sim::Problem doubled = stiff;
+    doubled.gravity *= 2;
+    out.flexible = own.beam.model != sim::ModelKind::rigid;
+    const std::optional<double> exact = closed_form(own);
+    out.paper = exact && is_of_the_paper(scene.problem) && *exact < end;
+    if (out.flexible && exact && *exact + kAround < end) out.closely = exact;
+    if (out.flexible) out.shown.push_back({{"flexible", "柔性"}, 0, own});
+    out.shown.push_back({{"rigid", "刚性"}, 1, stiff});
+    if (out.paper) out.shown.push_back({{"rigid, factor 2", "刚性，2 倍"}, 2, doubled});
+    for (Fall& fall : out.shown) {
+        fall.study = studies.of(fall.problem, end, "free-fall");
+        studies.zero_crossings(fall.study);
+        fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
+        if (out.closely && fall.look < 2)
+            fall.close = studies.table(fall.study, {*out.closely - kAround, *out.closely + kAround, 241},
+                                       {ChannelKind::t, ChannelKind::theta});
+    }
+    out.fewer = study_with_one_mode_fewer(own, end, "free-fall", studies);
+    if (out.fewer) studies.zero_crossings(*out.fewer);
+    return out;
 }
 
 // Microseconds about the closed form, microradians about zero, if both beams cross there.
-std::optional<render::figure::Inset> close_up(const Fall& flexible, const Fall& stiff, double exact,
-                                              const Results& results) {
-    Panel panel;
-    panel.x.label = filled("($t$ − {} s) / µs", grouped(exact, 6));
-    panel.y.label = "$θ$ / µrad";
-    panel.legend = Legend::none;
-    panel.rules.push_back({.at = 0});
+std::optional<render::figure::Inset> close_up(const Falls& falls, const Results& results) {
+    const double exact = *falls.closely;
+    Panel panel{.x = {.label = fmt::format("($t$ − {} s) / µs", grouped(exact, 6)), .tight = true},
+                .y = {.label = "$θ$ / µrad"},
+                .rules = {{.at = 0}},
+                .legend = Legend::none};
     double slope = 0;
-    for (const auto& [fall, look] : {std::pair{&flexible, 0}, std::pair{&stiff, 1}}) {
-        const sim::Result& result = *results[fall->study];
-        const std::optional<double> zero = zero_of(result);
+    for (const Fall& fall : falls.shown) {
+        if (!fall.close) continue;
+        const std::optional<double> zero = fall.zero(results);
         if (!zero || std::abs(*zero - exact) > 0.8 * kAround) return std::nullopt;
-        Series s = curve(result.tables[*fall->close], "", look);
+        Series s = fall.curve(results, *fall.close, "");
         for (double& t : s.x) t = (t - exact) * 1e6;
         s.y = scaled(s.y, 1e6);
-        s.solid = look == 0;
+        s.solid = fall.look == 0;
         panel.series.push_back(std::move(s));
-        panel.marks.push_back({.x = (*zero - exact) * 1e6, .y = 0, .look = look});
-        slope = std::abs(result.theta_zero.front().theta_dot);
+        panel.marks.push_back({.x = (*zero - exact) * 1e6, .y = 0, .look = fall.look});
+        slope = std::abs(results[fall.study]->theta_zero.front().theta_dot);
     }
     return render::figure::Inset{
         .panel = {std::move(panel)},
@@ -76,105 +109,50 @@ std::optional<render::figure::Inset> close_up(const Fall& flexible, const Fall& 
         .source = render::figure::Inset::Source{exact - kAround, exact + kAround, -slope * kAround, slope * kAround}};
 }
 
-// The beams of the figure: the scene's own, the rigid one, and in the paper's fall the rod that takes its 0.262 s.
-struct Beams {
-    sim::Problem own, stiff, doubled;
-    Fall falls[3];
-    std::optional<std::size_t> fewer;  // the study of one mode fewer
-    bool flexible = false, paper = false;
-};
-
-std::string fall_caption(const Beams& beams, const Results& results, double end, Lang lang) {
-    const bool en = lang == Lang::en;
-    const auto zero = [&](int k) { return zero_of(*results[beams.falls[k].study]); };
-    const std::optional<double> fewer = beams.fewer ? zero_of(*results[*beams.fewer]) : std::nullopt;
-    std::string text = beams.flexible ? (en ? "Hub angle without the cam, of the flexible and of the rigid beam. "
-                                            : "无凸轮时柔性梁与刚性梁的转角。")
-                                      : (en ? "Hub angle without the cam. " : "无凸轮时的转角。");
-    std::vector<std::string> times;
-    const auto add = [&](int k, const sim::Problem& problem, Translated whose) {
-        if (!zero(k)) return;
-        const Estimate at = estimate(problem, *zero(k), k == 0 ? fewer : std::nullopt);
-        times.push_back(filled(en ? "{} s ({})" : "{} s（{}）", supported(at), whose.in(lang)));
+std::string fall_caption(const Falls& falls, const Results& results, double end, Lang lang) {
+    std::string text = falls.flexible
+                           ? phrase(lang, "Hub angle without the cam, of the flexible and of the rigid beam. ",
+                                    "无凸轮时柔性梁与刚性梁的转角。")
+                           : phrase(lang, "Hub angle without the cam. ", "无凸轮时的转角。");
+    const std::optional<double> fewer = falls.fewer ? Fall{.study = *falls.fewer}.zero(results) : std::nullopt;
+    const Fall &own = falls.shown.front(), &rigid = falls.rigid();
+    const auto estimated = [&](const Fall& fall) {
+        return estimate(fall.problem, *fall.zero(results), fall.look == 0 ? fewer : std::nullopt);
     };
-    if (beams.flexible) add(0, beams.own, {"flexible", "柔性"});
-    add(1, beams.stiff, {"rigid", "刚性"});
+    std::vector<std::string> times;
+    for (const Fall& fall : falls.shown)
+        if (fall.look < 2 && fall.zero(results))
+            times.push_back(phrase(lang, "{} s ({})", "{} s（{}）", supported(estimated(fall)), fall.label.in(lang)));
     if (times.empty()) {
-        text += filled(en ? "$θ$ does not reach 0 before {} s. " : "{} s 之前 $θ$ 未达到 0。", number(end, 4));
+        text += phrase(lang, "$θ$ does not reach 0 before {} s. ", "{} s 之前 $θ$ 未达到 0。", number(end, 4));
     } else {
-        text += filled(en ? "$θ$ = 0 is reached at {}. " : "到达 $θ$ = 0 的时刻：{}。",
-                       fmt::format("{}", fmt::join(times, en ? ", " : "，")));
-        if (beams.flexible && zero(0) && zero(1)) {
-            const Estimate own = estimate(beams.own, *zero(0), fewer);
-            text += filled(en ? "Flexibility changes the time by {} s. " : "柔性使该时刻改变 {} s。",
-                           supported({*zero(0) - *zero(1), own.error}));
-        }
-        text += digits_stated(beams.own, lang);
+        text += phrase(lang, "$θ$ = 0 is reached at {}. ", "到达 $θ$ = 0 的时刻：{}。",
+                       fmt::join(times, phrase(lang, ", ", "，")));
+        if (falls.flexible && times.size() == 2)
+            text += phrase(lang, "Flexibility changes the time by {} s. ", "柔性使该时刻改变 {} s。",
+                           supported({*own.zero(results) - *rigid.zero(results), estimated(own).error}));
+        text += digits_stated(own.problem, lang);
     }
-    if (beams.paper)
-        text += filled(en ? "The paper prints 0.37 s for the flexible beam and 0.262 s for the rigid rod. The third "
-                            "curve, the rigid rod with a factor 2 between torque and inertia (torque doubled or "
-                            "inertia halved), takes {} s, 1/√2 of the rod's time. "
-                          : "原文给出柔性梁 0.37 s、刚性杆 0.262 s。第三条曲线为力矩与惯量之比差 2 "
-                            "倍（力矩加倍或惯量减半）的刚性杆，历时 {} s，即刚性杆的 1/√2。",
-                       supported(estimate(beams.doubled, *zero(2), std::nullopt)));
+    if (falls.paper)
+        text += phrase(lang,
+                       "The paper prints 0.37 s for the flexible beam and 0.262 s for the rigid rod. The third curve, "
+                       "the rigid rod with a factor 2 between torque and inertia (torque doubled or inertia halved), "
+                       "takes {} s, 1/√2 of the rod's time. ",
+                       "原文给出柔性梁 0.37 s、刚性杆 0.262 s。第三条曲线为力矩与惯量之比差 2 "
+                       "倍（力矩加倍或惯量减半）的刚性杆，历时 {} s，即刚性杆的 1/√2。",
+                       supported(estimated(falls.shown.back())));
     return text;
 }
 
-// Until `end`; also in close-up about the time `closely` [s].
-Fall ask_for_fall(Studies& studies, const sim::Problem& problem, double end, std::optional<double> closely) {
-    Fall fall;
-    fall.study = studies.of(problem, end, "free-fall");
-    studies.zero_crossings(fall.study);
-    fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
-    if (closely)
-        fall.close = studies.table(fall.study, {*closely - kAround, *closely + kAround, 241},
-                                   {ChannelKind::t, ChannelKind::theta});
-    return fall;
-}
-
-// The beams of the scene and their studies. `closely`: when the rigid beam is level, if the inset shows it.
-Beams beams_of(const Scene& scene, std::optional<double>& closely, Studies& studies) {
-    const double end = scene.end_time;
-    Beams beams;
-    beams.own = without_cam(scene.problem);
-    beams.doubled = beams.stiff = rigid(beams.own);
-    beams.doubled.gravity *= 2;
-    beams.flexible = beams.own.beam.model != sim::ModelKind::rigid;
-    const std::optional<double> exact = closed_form(beams.own);
-    beams.paper = exact && is_of_the_paper(scene.problem) && *exact < end;
-    if (beams.flexible && exact && *exact + kAround < end) closely = exact;
-    beams.falls[0] = ask_for_fall(studies, beams.own, end, closely);
-    beams.falls[1] = ask_for_fall(studies, beams.stiff, end, closely);
-    if (beams.paper) beams.falls[2] = ask_for_fall(studies, beams.doubled, end, {});
-    beams.fewer = study_with_one_mode_fewer(beams.own, end, "free-fall", studies);
-    if (beams.fewer) studies.zero_crossings(*beams.fewer);
-    return beams;
-}
-
-// The beams that are shown, with their labels.
-std::vector<std::tuple<int, const sim::Problem*, Translated>> shown_beams(const Beams& beams) {
-    std::vector<std::tuple<int, const sim::Problem*, Translated>> out;
-    if (beams.flexible) out.emplace_back(0, &beams.own, Translated{"flexible", "柔性"});
-    out.emplace_back(1, &beams.stiff, Translated{"rigid", "刚性"});
-    if (beams.paper) out.emplace_back(2, &beams.doubled, Translated{"rigid, factor 2", "刚性，2 倍"});
-    return out;
-}
-
-Panel fall_panel(const Beams& beams, std::optional<double> closely, const Results& results, Lang lang) {
-    Panel panel;
-    panel.x.label = "$t$ / s";
-    panel.y.label = "$θ$ / rad";
-    panel.legend = Legend::box;
-    panel.rules.push_back({.at = 0});
-    for (const auto& [k, problem, label] : shown_beams(beams)) {
-        const Fall& fall = beams.falls[k];
-        panel.series.push_back(curve(results[fall.study]->tables[fall.table], label.in(lang), k));
-        panel.series.back().solid = panel.series.size() == 1;
-    }
-    if (beams.paper) mark_zero(panel, *results[beams.falls[2].study], 2, false);
-    auto inset = closely ? close_up(beams.falls[0], beams.falls[1], *closely, results) : std::nullopt;
-    if (inset) {
+Panel fall_panel(const Falls& falls, const Results& results, Lang lang) {
+    Panel panel{.x = {.label = "$t$ / s", .tight = true},
+                .y = {.label = "$θ$ / rad"},
+                .rules = {{.at = 0}},
+                .legend = Legend::box};
+    for (const Fall& fall : falls.shown) panel.series.push_back(fall.curve(results, fall.table, fall.label.in(lang)));
+    panel.series.front().solid = true;
+    if (falls.paper) falls.mark_zero(falls.shown.back(), results, false, panel);
+    if (auto inset = falls.closely ? close_up(falls, results) : std::nullopt) {
         // Room above the curves for the legend and the inset.
         double low = 0, high = 0;
         for (const Series& s : panel.series)
@@ -182,25 +160,20 @@ Panel fall_panel(const Beams& beams, std::optional<double> closely, const Result
         panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
         panel.insets.push_back(std::move(*inset));
     } else {
-        if (beams.flexible) mark_zero(panel, *results[beams.falls[0].study], 0, false);
-        mark_zero(panel, *results[beams.falls[1].study], 1, beams.flexible);
+        if (falls.flexible) falls.mark_zero(falls.shown.front(), results, false, panel);
+        falls.mark_zero(falls.rigid(), results, falls.flexible, panel);
     }
     return panel;
 }
 
 FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    std::optional<double> closely;
-    const Beams beams = beams_of(scene, closely, studies);
-    return [=, lang = how.lang, end = scene.end_time](const Results& results) {
-        Figure figure;
-        figure.panels.push_back(fall_panel(beams, closely, results, lang));
-        figure.aspect = 0.74;
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
-        for (const auto& [k, problem, label] : shown_beams(beams))
-            runs.emplace_back(problem, results[beams.falls[k].study]);
-        figure.caption = fall_caption(beams, results, end, lang) + beam_facts(beams.own, lang);
-        figure.accuracy = accuracy(runs, lang);
-        return figure;
+    return [falls = falls_of(scene, studies), lang = how.lang, end = scene.end_time](const Results& results) -> Figure {
+        Runs runs;
+        for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
+        return {.panels = {fall_panel(falls, results, lang)},
+                .aspect = 0.74,
+                .caption = fall_caption(falls, results, end, lang) + beam_facts(falls.shown.front().problem, lang),
+                .accuracy = accuracy(runs, lang)};
     };
 }
 

@@ -1,5 +1,3 @@
-#include "scenes/figures/key_map.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 
 #include "render/base/error.hpp"
 #include "render/plot/style.hpp"
+#include "scenes/figures/swept_points.hpp"
 
 namespace beamcam::scenes {
 
@@ -24,10 +23,9 @@ constexpr std::uint32_t kPeriodColors[] = {0x08306B, 0x2171B5, 0x6BAED6, 0x9ECAE
 figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {
     if (kind_of(p) != AttractorClass::periodic) return {class_label(kind_of(p), lang), color_of(kind_of(p))};
     const int most = static_cast<int>(std::size(kPeriodColors)), shown = std::min(p.period, most);
-    const char* text = lang == Lang::en ? shown == most ? "period {} and more" : "period {}"
-                       : shown == most  ? "周期 {} 及以上"
-                                        : "周期 {}";
-    return {filled(text, shown), rgb(kPeriodColors[shown - 1])};
+    const std::string label = shown == most ? phrase(lang, "period {} and more", "周期 {} 及以上", shown)
+                                            : phrase(lang, "period {}", "周期 {}", shown);
+    return {label, rgb(kPeriodColors[shown - 1])};
 }
 
 // A number of the point, or the mean of a column of its samples; NaN: none.
@@ -41,10 +39,9 @@ double map_value(const SweptPoints& points, const output::StoredPoint& p, const 
 }
 
 std::string map_label(const SweptPoints& points, const std::string& value) {
-    const bool en = points.lang == Lang::en;
-    if (value == "exponent") return en ? "largest exponent / s^{−1}" : "最大 Lyapunov 指数 / s^{−1}";
-    if (value == "impacts_per_period") return en ? "impacts per period" : "每周期碰撞次数";
-    return (en ? "mean of " : "平均 ") + column_label(points, points.column(value));
+    if (value == "exponent") return phrase(points.lang, "largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}");
+    if (value == "impacts_per_period") return phrase(points.lang, "impacts per period", "每周期碰撞次数");
+    return phrase(points.lang, "mean of ", "平均 ") + column_label(points, points.column(value));
 }
 
 void color_by_class(const SweptPoints& points, const std::vector<output::StoredPoint>& entries, figure::Panel& panel) {
@@ -82,23 +79,24 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
 
 // Explains the white cells of a map that is coloured by a number.
 std::string white_cells_text(const SweptPoints& points, const std::string& value) {
-    const bool en = points.lang == Lang::en;
     if (value == "class") return "";
     if (value == "exponent")
-        return en ? "White: the exponent is unknown, or −∞ because lasting contact removes every difference."
-                  : "白色：指数未知，或持续接触使一切差异消失（−∞）。";
-    return en ? "White: no sample." : "白色：无样本。";
+        return phrase(points.lang,
+                      "White: the exponent is unknown, or −∞ because lasting contact removes every difference.",
+                      "白色：指数未知，或持续接触使一切差异消失（−∞）。");
+    return phrase(points.lang, "White: no sample.", "白色：无样本。");
 }
 
 }  // namespace
 
 figure::Figure key_map(const SweptPoints& points, const std::string& chosen) {
     const std::string value = chosen.empty() ? kMapValues[0] : chosen;
-    figure::Panel panel;
-    panel.name = value;
     const output::SweepAxis &across = points.axis(0), &up = points.axis(1);
     const std::vector<std::size_t> column = ranks(across.values), row = ranks(up.values);
-    panel.cells.push_back({edges_around(across.values), edges_around(up.values), {}});
+    figure::Panel panel{.x = {.label = label_of(across), .scale = points.scale(0), .tight = true},
+                        .y = {.label = label_of(up), .scale = points.scale(1), .tight = true},
+                        .cells = {{edges_around(across.values), edges_around(up.values), {}}},
+                        .name = value};
     panel.cells[0].colors.assign(across.values.size() * up.values.size(), Color{0, 0, 0, 0});
     std::vector<output::StoredPoint> entries;  // of the first start; `point` is the place of its cell
     for (std::uint64_t k = 0; k < points.data.points(); k += points.seeds()) {
@@ -111,13 +109,7 @@ figure::Figure key_map(const SweptPoints& points, const std::string& chosen) {
         color_by_class(points, entries, panel);
     else
         color_by_value(points, entries, value, panel);
-    panel.x = {.label = label_of(across), .scale = points.scale(0), .tight = true};
-    panel.y = {.label = label_of(up), .scale = points.scale(1), .tight = true};
-    figure::Figure out;
-    out.panels = {std::move(panel)};
-    out.aspect = 0.9;
-    out.caption = white_cells_text(points, value);
-    return out;
+    return {.panels = {std::move(panel)}, .aspect = 0.9, .caption = white_cells_text(points, value)};
 }
 
 }  // namespace beamcam::scenes

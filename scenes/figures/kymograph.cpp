@@ -53,46 +53,38 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
     const auto [least, most] = std::ranges::minmax(v);
     const render::Prefix prefix = render::prefix_for(std::max(-least, most));
     const double range = most > least ? most - least : 1;
-    Panel panel;
-    panel.x.label = "$t$ / s";
-    panel.y.label = "$x$ / m";
-    panel.y.tight = true;
-    panel.legend = Legend::none;
-    panel.color_bar = render::figure::ColorBar{.label = fmt::format("$v$($x$, $t$) / {}m", prefix.symbol),
-                                               .from = least / prefix.factor,
-                                               .to = (least + range) / prefix.factor};
-    panel.cells.push_back(cells_of_deflection(v, shown, length, least, range, prefix.factor));
-    return panel;
+    return {.x = {.label = "$t$ / s", .tight = true},
+            .y = {.label = "$x$ / m", .tight = true},
+            .cells = {cells_of_deflection(v, shown, length, least, range, prefix.factor)},
+            .color_bar = render::figure::ColorBar{.label = fmt::format("$v$($x$, $t$) / {}m", prefix.symbol),
+                                                  .from = least / prefix.factor,
+                                                  .to = (least + range) / prefix.factor},
+            .legend = Legend::none};
 }
 
 FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
     const std::size_t samples = samples_per_column(scene.problem, column);
     const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, studies);
-    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
-        const bool en = lang == Lang::en;
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
         const sim::Result& result = *results[shown.study];
-        const std::vector<double> v = extremes(result.poses[shown.poses], samples);
-        Panel panel = kymograph_panel(v, shown, problem.beam.length);
-        int hits = 0;
-        for (const sim::Impact& hit : result.impacts)
-            if (hit.t_start >= shown.from && hit.t_start <= shown.to && strikes(problem, hit))
-                panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true}), ++hits;
-        Figure figure;
-        figure.panels.push_back(std::move(panel));
-        figure.caption = filled(en ? "Deflection $v$($x$, $t$) from the tangent at the root, along the beam and in "
-                                     "time, one column every {} s. "
-                                   : "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
-                                number((shown.to - shown.from) / (kColumns - 1), 2));
+        Panel panel = kymograph_panel(extremes(result.poses[shown.poses], samples), shown, problem.beam.length);
+        for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
+            panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true});
+        std::string caption = phrase(lang,
+                                     "Deflection $v$($x$, $t$) from the tangent at the root, along the beam and in "
+                                     "time, one column every {} s. ",
+                                     "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
+                                     number((shown.to - shown.from) / (kColumns - 1), 2));
         if (samples > 1)
-            figure.caption += filled(en ? "The beam vibrates faster than the columns: each shows the largest "
-                                          "deflection of {} instants. "
-                                        : "一列之内梁多次振动，取 {} 个时刻中的最大挠度。",
-                                     samples);
-        if (hits > 0) figure.caption += en ? "Squares: impacts. " : "标记：冲击。";
-        figure.caption += facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, &result}}, lang);
-        return figure;
+            caption += phrase(lang,
+                              "The beam vibrates faster than the columns: each shows the largest deflection of {} "
+                              "instants. ",
+                              "一列之内梁多次振动，取 {} 个时刻中的最大挠度。", samples);
+        if (!panel.marks.empty()) caption += phrase(lang, "Squares: impacts. ", "标记：冲击。");
+        return {.panels = {std::move(panel)},
+                .caption = caption + facts(problem, lang),
+                .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }
 

@@ -1,5 +1,6 @@
 // The models of the beam compared: how much the choice of model matters.
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -31,15 +32,13 @@ struct Rung {
     std::size_t study = 0, table = 0;
 };
 
-const char* shapes(Basis basis, bool en) {
-    if (basis == Basis::cantilever) return en ? "cantilever" : "悬臂";
-    return en ? "hub–beam" : "轮毂–梁";
+std::string shapes(Basis basis, Lang lang) {
+    return basis == Basis::cantilever ? phrase(lang, "cantilever", "悬臂") : phrase(lang, "hub–beam", "轮毂–梁");
 }
 
 // The reference first. Models are compared in the same shapes and number of modes; the paper's equation, which only the
 // paper's scenes show, has cantilever shapes only. The effect of other shapes is shown separately.
 std::vector<Rung> rungs(const Scene& scene, Lang lang) {
-    const bool en = lang == Lang::en;
     const sim::Problem& problem = scene.problem;
     const bool paper = is_of_the_paper(problem) || problem.beam.model == ModelKind::paper;
     const Basis own = problem.beam.basis == Basis::cantilever || paper ? Basis::cantilever : Basis::hub_beam,
@@ -49,7 +48,7 @@ std::vector<Rung> rungs(const Scene& scene, Lang lang) {
          {ModelKind::second_order, ModelKind::first_order, ModelKind::zeroth_order, ModelKind::paper, ModelKind::rigid})
         if (model != ModelKind::paper || paper) all.push_back({model, own, true, name(model)});
     all.push_back({ModelKind::second_order, other, false,
-                   filled(en ? "second-order, {} shapes" : "second-order，{}模态", shapes(other, en))});
+                   phrase(lang, "second-order, {} shapes", "second-order，{}模态", shapes(other, lang))});
     all.push_back({ModelKind::exact, Basis::automatic, false, name(ModelKind::exact)});
     for (Rung& rung : all) {
         rung.problem = problem;
@@ -71,68 +70,55 @@ const Rung* found(const std::vector<Rung>& all, ModelKind model, bool same_shape
 
 // Names the curves that end before the scene.
 std::string cut_short(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
-    const bool en = lang == Lang::en;
-    std::string list;
+    std::vector<std::string> ends;
     for (const Rung& rung : all)
         if (const sim::Result& result = *results[rung.study]; has_result(result) && result.end_time < end)
-            list += filled(en ? "{}{} ends at {} s" : "{}{} 止于 {} s",
-                           list.empty() ? ""
-                           : en         ? ", "
-                                        : "，",
-                           rung.label, number(result.end_time, 3));
-    if (list.empty()) return list;
-    return filled(en ? "Curves end where the computing budget of this figure for a model is spent, or where the model "
-                       "cannot be integrated further: {}. "
-                     : "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。",
-                  list);
+            ends.push_back(phrase(lang, "{} ends at {} s", "{} 止于 {} s", rung.label, number(result.end_time, 3)));
+    if (ends.empty()) return {};
+    return phrase(lang,
+                  "Curves end where the computing budget of this figure for a model is spent, or where the model "
+                  "cannot be integrated further: {}. ",
+                  "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。",
+                  fmt::join(ends, phrase(lang, ", ", "，")));
 }
 
 // States how equation and shapes, each alone, change the first rebound.
 std::string models_caption(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
-    const bool en = lang == Lang::en;
     const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
         const Rung* rung = found(all, model, same_shapes);
         return rung ? rebound_apex(rung->problem, *results[rung->study], end) : std::nullopt;
     };
     const Rung& reference = all.front();
-    std::string text = filled(
-        en ? "The models of the beam compared: (a) hub angle; (b) largest difference so far from the model "
-             "second-order, with {0} {1} modes in all models, so that only the model differs; (c) the same difference "
-             "for other shapes: {2} modes, and the polynomials of the model exact (inextensible elastica). "
-           : "各梁模型比较：(a) 转角；(b) 与 second-order 模型之差迄今的最大值，均用 {0} "
-             "阶{1}模态，故仅为模型之差；(c) "
-             "其他形函数的同一差值：{2}模态，以及 exact（不可伸长弹性线）模型的多项式。",
-        reference.problem.beam.modes, shapes(reference.basis, en),
-        shapes(found(all, ModelKind::second_order, false)->basis, en));
+    std::string text = phrase(
+        lang,
+        "The models of the beam compared: (a) hub angle; (b) largest difference so far from the model "
+        "second-order, with {0} {1} modes in all models, so that only the model differs; (c) the same difference "
+        "for other shapes: {2} modes, and the polynomials of the model exact (inextensible elastica). ",
+        "各梁模型比较：(a) 转角；(b) 与 second-order 模型之差迄今的最大值，均用 {0} "
+        "阶{1}模态，故仅为模型之差；(c) "
+        "其他形函数的同一差值：{2}模态，以及 exact（不可伸长弹性线）模型的多项式。",
+        reference.problem.beam.modes, shapes(reference.basis, lang),
+        shapes(found(all, ModelKind::second_order, false)->basis, lang));
     const auto reference_apex = apex(ModelKind::second_order, true), other_apex = apex(ModelKind::second_order, false),
                first = apex(ModelKind::first_order, true), printed = apex(ModelKind::paper, true);
     if (found(all, ModelKind::paper, true))
-        text += en ? "The model “paper” is the paper's eq. (4) as printed, with the sign of gravity from its eq. (2); "
-                     "it does not conserve energy. "
-                   : "模型 paper 为原文式 (4)，仅重力符号取自式 (2)，其能量不守恒。";
+        text +=
+            phrase(lang,
+                   "The model “paper” is the paper's eq. (4) as printed, with the sign of gravity from its eq. (2); "
+                   "it does not conserve energy. ",
+                   "模型 paper 为原文式 (4)，仅重力符号取自式 (2)，其能量不守恒。");
     if (first && printed)
-        text += filled(en ? "The apex of the first rebound differs by {} rad between eq. (4) and first-order. "
-                          : "式 (4) 与 first-order 的首次回弹最高点相差 {} rad。",
-                       number(std::abs(*first - *printed), 1));
+        text += phrase(lang, "The apex of the first rebound differs by {} rad between eq. (4) and first-order. ",
+                       "式 (4) 与 first-order 的首次回弹最高点相差 {} rad。", number(std::abs(*first - *printed), 1));
     if (reference_apex && other_apex)
-        text += filled(en ? "The other shapes change the apex of the first rebound by {} rad; this is an effect of the "
-                            "shapes, not of the equations. "
-                          : "更换形函数使首次回弹最高点改变 {} rad，这并非方程之差。",
+        text += phrase(lang,
+                       "The other shapes change the apex of the first rebound by {} rad; this is an effect of the "
+                       "shapes, not of the equations. ",
+                       "更换形函数使首次回弹最高点改变 {} rad，这并非方程之差。",
                        number(std::abs(*reference_apex - *other_apex), 2));
     if (!results[reference.study]->impacts.empty())
-        text += en ? "Impacts multiply small differences. " : "碰撞会放大微小差别。";
+        text += phrase(lang, "Impacts multiply small differences. ", "碰撞会放大微小差别。");
     return text;
-}
-
-// The hub angle of a motion that may have been cut short; rows after its end are not numbers.
-Series reached(const sim::Table& table) {
-    Series s;
-    s.x = column(table, ChannelKind::t);
-    s.y = column(table, ChannelKind::theta);
-    const auto end = std::ranges::find_if(s.x, [](double t) { return std::isnan(t); });
-    s.x.erase(end, s.x.end());
-    s.y.resize(s.x.size());
-    return s;
 }
 
 // The largest difference from the reference up to each instant; empty where there is none.
@@ -148,40 +134,35 @@ Series largest_difference(Series s, const std::vector<double>& reference) {
     return s;
 }
 
-// The hub angle of each model and its difference from the first, for equal shapes and for others.
-struct ModelPanels {
-    Panel angle, models, bases;
-};
-ModelPanels empty_panels() {
-    ModelPanels out;
-    out.angle.letter = "a", out.models.letter = "b", out.bases.letter = "c";
-    out.angle.y.label = "$θ$ / rad";
-    out.angle.legend = Legend::box;
-    out.models.legend = out.bases.legend = Legend::none;
-    out.angle.share = 1.4;
-    for (Panel* panel : {&out.models, &out.bases}) {
-        panel->y.label = "max |$Δθ$| / rad";
-        panel->y.scale = Scale::logarithmic;
-    }
-    return out;
-}
-ModelPanels model_panels(const std::vector<Rung>& all, const Results& results) {
-    ModelPanels out = empty_panels();
-    std::vector<double> reference;
+// The hub angle of each model, and its difference from the first: for equal shapes, and for others.
+std::vector<Panel> model_panels(const std::vector<Rung>& all, const Results& results, double end) {
+    const render::Axis time{.label = "$t$ / s", .from = 0, .to = end, .tight = true};
+    const Panel difference{
+        .x = time, .y = {.label = "max |$Δθ$| / rad", .scale = Scale::logarithmic}, .legend = Legend::none};
+    Panel angle{.x = time, .y = {.label = "$θ$ / rad"}, .legend = Legend::box, .share = 1.4}, models = difference,
+                                                                                              bases = difference;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Rung& rung = all[k];
         if (!has_result(*results[rung.study])) continue;
-        Series s = reached(results[rung.study]->tables[rung.table]);
-        s.label = rung.label;
-        s.look = k == 0 ? 6 : static_cast<int>(k) - 1;
-        s.solid = k == 0;
-        s.weight = 0.85;
-        if (k == 0) reference = s.y;
-        if (Series d = largest_difference(s, reference); k > 0 && !d.x.empty())
-            (rung.same_shapes ? out.models : out.bases).series.push_back(std::move(d));
-        out.angle.series.push_back(std::move(s));
+        const sim::Table& table = results[rung.study]->tables[rung.table];
+        Series s{.label = rung.label,
+                 .x = column(table, ChannelKind::t),
+                 .y = column(table, ChannelKind::theta),
+                 .look = k == 0 ? 6 : static_cast<int>(k) - 1,
+                 .solid = k == 0,
+                 .weight = 0.85};
+        // Rows after the end of a motion that was cut short are not numbers.
+        s.x.erase(std::ranges::find_if(s.x, [](double t) { return std::isnan(t); }), s.x.end());
+        s.y.resize(s.x.size());
+        if (k > 0)
+            if (Series d = largest_difference(s, angle.series.front().y); !d.x.empty())
+                (rung.same_shapes ? models : bases).series.push_back(std::move(d));
+        angle.series.push_back(std::move(s));
     }
-    return out;
+    std::vector<Panel> panels{std::move(angle), std::move(models), std::move(bases)};
+    for (std::size_t k = 0; k < panels.size(); ++k) panels[k].letter = panel_letter(k);
+    std::erase_if(panels, [](const Panel& panel) { return panel.series.empty(); });
+    return panels;
 }
 
 // Until the last of the flexible beams ends: beyond it the rigid beam has nothing to compare with.
@@ -202,28 +183,21 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         rung.table =
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
-    return [=, problem = scene.problem, end = scene.end_time](const Results& results) {
+    return [=, problem = scene.problem, end = scene.end_time](const Results& results) -> Figure {
         if (!has_result(*results[all[0].study]))
             throw render::PictureError(
                 "figure models: the model second-order, with which the others are compared, "
                 "cannot be integrated; its warning says why");
-        Figure figure;
-        ModelPanels panels = model_panels(all, results);
-        for (Panel* panel : {&panels.angle, &panels.models, &panels.bases}) {
-            panel->x.label = "$t$ / s";
-            panel->x.from = 0, panel->x.to = shown_until(all, results);
-            if (!panel->series.empty()) figure.panels.push_back(std::move(*panel));
-        }
-        figure.stack = true;
-        figure.share_x = true;
-        figure.aspect = 1.5;
-        std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
+        Runs runs;
         for (const Rung& rung : all)
             if (has_result(*results[rung.study])) runs.emplace_back(&rung.problem, results[rung.study]);
-        figure.caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
-                         facts(problem, lang, {.model = true, .modes = true});
-        figure.accuracy = accuracy(runs, lang);
-        return figure;
+        return {.panels = model_panels(all, results, shown_until(all, results)),
+                .stack = true,
+                .share_x = true,
+                .aspect = 1.5,
+                .caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
+                           facts(problem, lang, {.model = true, .modes = true}),
+                .accuracy = accuracy(runs, lang)};
     };
 }
 

@@ -9,12 +9,6 @@
 namespace beamcam::scenes {
 namespace {
 
-// The run may be longer because of other figures.
-std::ptrdiff_t impacts_until(const sim::Problem& problem, const sim::Result& result, double end) {
-    return std::ranges::count_if(result.impacts,
-                                 [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
-}
-
 // Of the first bending mode [s]; 0: the beam has none.
 double first_period(const sim::Problem& problem) {
     const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
@@ -44,42 +38,19 @@ std::vector<double> mean(const std::vector<double>& values, int rows) {
     return out;
 }
 
-Panel empty_panel() {
-    Panel panel;
-    panel.legend = Legend::none;
-    panel.x.label = "$θ$ / rad";
-    panel.x.tight = false;
-    panel.y.label = "$\\dot{θ}$ / (rad s^{−1})";
-    panel.color_bar = render::figure::ColorBar{.label = "$t$ / s"};
-    panel.rules.push_back({.at = 0});
-    return panel;
-}
-
 Series portrait(const sim::Table& table) {
-    Series s;
-    s.x = column(table, ChannelKind::theta);
-    s.y = column(table, ChannelKind::theta_dot);
-    return s;
-}
-
-// Drawn in grey beneath the mean.
-Series raw_portrait(const sim::Table& table) {
-    Series raw = portrait(table);
-    raw.color = render::rgb(0xD2D2D2);
-    raw.weight = 0.35;
-    raw.name = "with vibration";
-    return raw;
+    return {.x = column(table, ChannelKind::theta), .y = column(table, ChannelKind::theta_dot)};
 }
 
 std::string phase_caption(bool is_mean, bool has_impacts, Lang lang) {
-    const bool en = lang == Lang::en;
     std::string text =
-        is_mean ? (en ? "Phase portrait of the hub angle. Grey: the motion with the beam's vibration. Coloured by "
-                        "time: its "
-                        "mean over one period of the first bending mode. "
-                      : "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
-                : (en ? "Phase portrait of the hub angle, coloured by time. " : "转角的相图，颜色表示时间。");
-    if (has_impacts) text += en ? "Near-vertical segments are collisions. " : "近似竖直的线段为碰撞。";
+        is_mean ? phrase(lang,
+                         "Phase portrait of the hub angle. Grey: the motion with the beam's vibration. Coloured by "
+                         "time: its "
+                         "mean over one period of the first bending mode. ",
+                         "转角的相图：灰色为原始曲线（含梁的振动），彩色（表示时间）为一阶弯曲周期上的平均。")
+                : phrase(lang, "Phase portrait of the hub angle, coloured by time. ", "转角的相图，颜色表示时间。");
+    if (has_impacts) text += phrase(lang, "Near-vertical segments are collisions. ", "近似竖直的线段为碰撞。");
     return text;
 }
 
@@ -92,29 +63,32 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
                                             {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
     const std::size_t curve =
         studies.curve(study, {0, end, 2001}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0});
-    return [=, problem = scene.problem](const Results& results) {
-        const bool en = lang == Lang::en;
+    return [=, problem = scene.problem](const Results& results) -> Figure {
         const sim::Result& result = *results[study];
-        Panel panel = empty_panel();
+        Panel panel{.x = {.label = "$θ$ / rad"},
+                    .y = {.label = "$\\dot{θ}$ / (rad s^{−1})"},
+                    .rules = {{.at = 0}},
+                    .color_bar = render::figure::ColorBar{.label = "$t$ / s"},
+                    .legend = Legend::none};
         Series s = portrait(result.tables[table]);
         s.value = column(result.tables[table], ChannelKind::t);
         const int period = rows_of(first, s.value);
         if (period > 1) {
-            panel.series.push_back(raw_portrait(result.tables[curve]));
+            Series& raw = panel.series.emplace_back(portrait(result.tables[curve]));  // in grey beneath the mean
+            raw.color = render::rgb(0xD2D2D2), raw.weight = 0.35, raw.name = "with vibration";
             s.name = "mean over a period";
             s.x = mean(s.x, period);
             s.y = mean(s.y, period);
         }
         if (!s.x.empty())
-            panel.marks.push_back({.x = s.x.front(), .y = s.y.front(), .label = en ? "start" : "起点", .look = 6});
+            panel.marks.push_back(
+                {.x = s.x.front(), .y = s.y.front(), .label = phrase(lang, "start", "起点"), .look = 6});
         panel.series.push_back(std::move(s));
-        Figure figure;
-        figure.panels.push_back(std::move(panel));
-        figure.aspect = 0.75;
-        figure.caption =
-            phase_caption(period > 1, impacts_until(problem, result, end) > 0, lang) + facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, &result}}, lang);
-        return figure;
+        const bool has_impacts = !strikes(problem, result.impacts, 0, end).empty();  // the run may be longer
+        return {.panels = {std::move(panel)},
+                .aspect = 0.75,
+                .caption = phase_caption(period > 1, has_impacts, lang) + facts(problem, lang),
+                .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }
 

@@ -8,17 +8,12 @@
 namespace beamcam::scenes {
 namespace {
 
-const std::array kRecipes{
-    &kSeries,    &kSchematic,  &kFreeFall,         &kTipVibration, &kDeflection, &kDistance, &kAngle,     &kSpeeds,
-    &kCollision, &kEnergy,     &kContactPlaces,    &kPhase,        &kApexModes,  &kModels,   &kKymograph, &kSpectrogram,
-    &kStrobe,    &kImpactMaps, &kImpactHistograms, &kBifurcation,  &kBasins,     &kMap,      &kPoincare,  &kImpactMap};
-
+// Made on first use: the recipes are initialized before.
 const std::vector<Recipe>& table() {
-    static const std::vector<Recipe> all = [] {
-        std::vector<Recipe> made;
-        for (const Recipe* recipe : kRecipes) made.push_back(*recipe);
-        return made;
-    }();
+    static const std::vector<Recipe> all{
+        kSeries,    kSchematic,  kFreeFall,         kTipVibration, kDeflection, kDistance, kAngle,     kSpeeds,
+        kCollision, kEnergy,     kContactPlaces,    kPhase,        kApexModes,  kModels,   kKymograph, kSpectrogram,
+        kStrobe,    kImpactMaps, kImpactHistograms, kBifurcation,  kBasins,     kMap,      kPoincare,  kImpactMap};
     return all;
 }
 
@@ -80,6 +75,13 @@ std::optional<std::string> needs_start_off_the_cam(const Scene& scene) {
     if (scene.problem.initial.shape != sim::InitialShape::resting) return std::nullopt;
     return "the beam rests on the cam at the start, so it has no motion without the cam; set initial.shape to "
            "\"straight\" or \"static\"";
+}
+
+std::string panel_letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
+
+std::vector<Panel> lettered(std::vector<Panel> panels) {
+    for (std::size_t k = 0; k < panels.size() && panels.size() > 1; ++k) panels[k].letter = panel_letter(k);
+    return panels;
 }
 
 const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number) {

@@ -4,7 +4,9 @@
 // neither integrates nor draws.
 #pragma once
 
+#include <algorithm>
 #include <functional>
+#include <iterator>
 #include <optional>
 #include <span>
 #include <string>
@@ -63,10 +65,24 @@ std::optional<std::string> needs_free_hub(const Scene& scene);
 std::optional<std::string> needs_start_off_the_cam(const Scene& scene);
 std::optional<std::string> needs_fall(const Scene& scene);  // both of these
 
+// "(a)" is panel 0.
+std::string panel_letter(std::size_t panel);
+// Gives the panels their letters, if there are several.
+std::vector<Panel> lettered(std::vector<Panel> panels);
+
 // Of an impact or a collision. A beam that rests on the cam at the start touches it without striking it.
 template <class Touch>
 bool strikes(const sim::Problem& problem, const Touch& touch) {
     return touch.t_start > 0 || problem.initial.shape != sim::InitialShape::resting;
+}
+// Those that begin within an interval.
+template <class Touch>
+std::vector<Touch> strikes(const sim::Problem& problem, const std::vector<Touch>& touches, double from, double to) {
+    std::vector<Touch> out;
+    std::ranges::copy_if(touches, std::back_inserter(out), [&](const Touch& touch) {
+        return touch.t_start >= from && touch.t_start <= to && strikes(problem, touch);
+    });
+    return out;
 }
 
 // Counted from 1; null: there are fewer.

@@ -1,10 +1,10 @@
-#include "scenes/figures/reproducible.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include "scenes/figures/series_data.hpp"
 
 namespace beamcam::scenes {
 
@@ -36,23 +36,23 @@ std::array<Series, 2> split(const Series& whole, const std::vector<double>& time
 
 std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
                          double end, Lang lang) {
-    const bool en = lang == Lang::en;
     std::vector<std::string> times;
     for (const auto& [name, result] : motions)
         for (Lost v : unreliable(*result, end)) {
             if (v.to <= from) continue;
             v.from = std::max(v.from, from);
             const std::string of = name.empty() ? "" : name + " ";
-            times.push_back(v.to < end ? filled(en ? "{}from {} s to {} s" : "{}{} s 至 {} s", of, number(v.from, 3),
+            times.push_back(v.to < end ? phrase(lang, "{}from {} s to {} s", "{}{} s 至 {} s", of, number(v.from, 3),
                                                 number(v.to, 3))
-                                       : filled(en ? "{}from {} s on" : "{}{} s 之后", of, number(v.from, 3)));
+                                       : phrase(lang, "{}from {} s on", "{}{} s 之后", of, number(v.from, 3)));
         }
     if (times.empty()) return {};
-    return filled(en ? "Drawn lighter, {}, $θ$ is not reproducible to 10^{{−6}} rad: a run at a tighter tolerance "
-                       "differs by more, because impacts multiply small differences. "
-                     : "以浅色绘制的部分（{}）$θ$ 不能重现到 10^{{−6}} "
-                       "rad：碰撞会放大微小差别，与更严容差的计算之差超过该值。",
-                  fmt::format("{}", fmt::join(times, en ? ", " : "，")));
+    return phrase(lang,
+                  "Drawn lighter, {}, $θ$ is not reproducible to 10^{{−6}} rad: a run at a tighter tolerance "
+                  "differs by more, because impacts multiply small differences. ",
+                  "以浅色绘制的部分（{}）$θ$ 不能重现到 10^{{−6}} "
+                  "rad：碰撞会放大微小差别，与更严容差的计算之差超过该值。",
+                  fmt::format("{}", fmt::join(times, phrase(lang, ", ", "，"))));
 }
 
 }  // namespace beamcam::scenes

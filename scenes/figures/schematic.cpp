@@ -298,29 +298,30 @@ class Drawing : private Sketch {
 };
 
 std::string schematic_caption(const sim::Problem& p, Lang lang) {
-    const bool en = lang == Lang::en;
     const bool flexible = p.beam.model != sim::ModelKind::rigid;
-    std::string text = en ? "The system with its symbols, to scale" : "系统示意图，按比例绘制";
+    std::string text = phrase(lang, "The system with its symbols, to scale", "系统示意图，按比例绘制");
     if (flexible)
-        text += en ? " except for the deflection $v$($x$, $t$), which is exaggerated" : "（挠度 $v$($x$, $t$) 放大）";
+        text += phrase(lang, " except for the deflection $v$($x$, $t$), which is exaggerated",
+                       "（挠度 $v$($x$, $t$) 放大）");
     if (const double drawn = drawn_angle(p); drawn != start_angle(p))
-        text += filled(en ? "{} the angle of the beam, which is drawn as {}°" : "{}梁的角度（绘为 {}°）",
-                       !flexible && en ? " except for"
-                       : en            ? ", and for"
-                                       : "",
+        text += phrase(lang, "{} the angle of the beam, which is drawn as {}°", "{}梁的角度（绘为 {}°）",
+                       !flexible && lang == Lang::en ? " except for" : phrase(lang, ", and for", ""),
                        number(drawn * 180 / std::numbers::pi, 2));
-    text += en ? ". The beam of length $L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; "
-                 "the frame $x$′$y$′ turns with it, $XY$ is fixed. "
-               : "。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 $θ$；坐标系 $x$′$y$′ "
-                 "随之转动，$XY$ 固定。";
+    text +=
+        phrase(lang,
+               ". The beam of length $L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; "
+               "the frame $x$′$y$′ turns with it, $XY$ is fixed. ",
+               "。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 $θ$；坐标系 $x$′$y$′ "
+               "随之转动，$XY$ 固定。");
     if (p.cam)
-        text += filled(
-            en ? "The disc of radius $R$ and centre $B$ turns about $C$, at the {}distance $D$ from $O$, with the "
-                 "speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. "
-               : "半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 的{}距离为 "
-                 "$D$，偏心距 "
-                 "$e$ = |$CB$|。",
-            p.cam->centre.y == 0 ? "" : (en ? "horizontal " : "水平"));
+        text +=
+            phrase(lang,
+                   "The disc of radius $R$ and centre $B$ turns about $C$, at the {}distance $D$ from $O$, with the "
+                   "speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. ",
+                   "半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 的{}距离为 "
+                   "$D$，偏心距 "
+                   "$e$ = |$CB$|。",
+                   p.cam->centre.y == 0 ? "" : phrase(lang, "horizontal ", "水平"));
     return text + facts(p, lang);
 }
 
@@ -338,16 +339,11 @@ double letter_of(const FigureOutput& how) {
 }
 
 FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studies&) {
-    const Lang lang = how.lang;
-    return [problem = scene.problem, lang, letter = letter_of(how)](const Results&) {
-        Figure figure;
-        Panel panel;
-        panel.shapes = Drawing(problem, letter).shapes();
-        figure.panels.push_back(std::move(panel));
-        figure.aspect = kAspect;
-        figure.caption = schematic_caption(problem, lang);
-        figure.accuracy = accuracy({}, lang);
-        return figure;
+    return [problem = scene.problem, lang = how.lang, letter = letter_of(how)](const Results&) -> Figure {
+        return {.panels = {{.shapes = Drawing(problem, letter).shapes()}},
+                .aspect = kAspect,
+                .caption = schematic_caption(problem, lang),
+                .accuracy = accuracy({}, lang)};
     };
 }
 

@@ -1,5 +1,7 @@
 // The figure "series" draws any channels against the time, the turns of the cam or another channel, of one motion or of
 // several; the figures "angle", "speeds", "tip-vibration" and "energy" are series with given keys.
+#include "scenes/figures/series.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,9 +13,6 @@
 
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_caption.hpp"
-#include "scenes/figures/series_panels.hpp"
-#include "scenes/figures/series_plan.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -21,11 +20,11 @@ namespace {
 // How a figure by name presents its series.
 struct SeriesPreset {
     const char* name = "series";
-    std::string title, caption;  // empty: by the channels
-    double aspect = 0;           // 0: by the panels
-    double weight = 0.9;         // of the lines
-    bool horizon = true;         // curves are paler where θ is not reproducible
-    std::string (*caption_of)(const Figure& figure, Lang lang) = nullptr;  // instead of `caption`
+    Translated caption = {};      // its first sentence; empty: by the channels
+    double aspect = 0;            // 0: by the panels
+    double weight = 0.9;          // of the lines
+    bool horizon = true;          // curves are paler where θ is not reproducible
+    bool names_energies = false;  // in the caption
 };
 
 // Gives the panels of several motions one scale, so that they compare.
@@ -46,29 +45,42 @@ void share_ordinates(Figure& figure) {
     }
 }
 
-std::string usual_title(const SeriesPlan& plan) {
-    const render::ChannelLabel& first = render::label_of(plan.keys.panels.front().channels.front().kind);
-    return plan.lang == Lang::en ? first.words : first.chinese;
+// Names the curves of the first panel; explains the second, if there is one.
+std::string energy_caption(const Figure& figure, Lang lang) {
+    const bool both = figure.panels.size() > 1;
+    std::vector<std::string> names;
+    for (const Series& s : figure.panels.front().series) names.push_back(s.label);
+    names.pop_back();  // the sum
+    return phrase(
+        lang, "Energy: {}{}; the black line is the sum of the energies stored and lost less the external work{}",
+        "能量：{}{}；黑线为储能与损失之和减去外功{}", both ? "(a) " : "", fmt::join(names, phrase(lang, ", ", "、")),
+        !both ? ""
+              : phrase(lang,
+                       ". (b) Magnitude of the change of that sum, which is zero for the exact solution; "
+                       "values below 10^{−12} of the largest energy are rounding errors and are drawn at the "
+                       "lower edge",
+                       "。(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} "
+                       "的部分属舍入误差，画在下边缘"));
 }
 
 Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const Results& results) {
-    Figure figure;
+    std::vector<Panel> panels;
     for (const PlannedPanel& planned : plan.panels)
-        std::ranges::move(series_panels(plan, planned, results, preset.weight), std::back_inserter(figure.panels));
-    if (figure.panels.size() > 1)
-        for (std::size_t k = 0; k < figure.panels.size(); ++k) figure.panels[k].letter = panel_letter(k);
+        std::ranges::move(series_panels(plan, planned, results, preset.weight), std::back_inserter(panels));
+    Figure figure{.panels = lettered(std::move(panels)), .stack = true, .share_x = true};
     plan.abscissa.share(figure, plan.motions.front().problem);
     if (plan.keys.apart) share_ordinates(figure);
-    figure.stack = figure.share_x = true;
     const bool all_shown = figure.panels.size() >= plan.panels.size();
     figure.aspect =
         preset.aspect > 0 && all_shown ? preset.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
-    figure.title = preset.title.empty() ? usual_title(plan) : preset.title;
-    const std::string subject = preset.caption_of        ? preset.caption_of(figure, plan.lang)
-                                : preset.caption.empty() ? series_subject(plan.keys, plan.lang)
-                                                         : preset.caption;
+    std::string subject = preset.names_energies ? energy_caption(figure, plan.lang) : preset.caption.in(plan.lang);
+    if (subject.empty()) {
+        const render::ChannelLabel& first = render::label_of(plan.keys.panels.front().channels.front().kind);
+        figure.title = phrase(plan.lang, first.words, first.chinese);
+        subject = series_subject(plan.keys, plan.lang);
+    }
     figure.caption = series_caption(plan, subject, figure, results);
-    std::vector<std::pair<const sim::Problem*, const sim::Result*>> runs;
+    Runs runs;
     for (const SeriesMotion& motion : plan.motions) runs.emplace_back(&motion.problem, results[motion.study]);
     figure.accuracy = accuracy(runs, plan.lang);
     return figure;
@@ -85,32 +97,31 @@ FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const Ser
 
 // ---- the named ones -------------------------------------------------------------------------------
 
-constexpr Translated kAngleTitle{"Hub angle", "转角"};
-constexpr Translated kSpeedsTitle{"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"};
-constexpr Translated kEnergyTitle{"Energy balance", "能量账目"};
-constexpr Translated kTipTitle{"Transverse vibration of the free end", "自由端的横向振动"};
+const SeriesKeys kHubAngle{.panels = {{.channels = {{ChannelKind::theta, 0}}}}};
 
 FigureMaker prepare_keys(const Scene& scene, const FigureOutput& how, Studies& studies) {
     SeriesKeys keys = how.series;
-    if (keys.panels.empty()) keys.panels = {{.channels = {{ChannelKind::theta, 0}}}};
+    if (keys.panels.empty()) keys.panels = kHubAngle.panels;
     return prepare_series(scene, keys, {}, how.lang, studies);
 }
 
 FigureMaker prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    return prepare_series(scene, {.panels = {{.channels = {{ChannelKind::theta, 0}}}}},
-                          {"angle", kAngleTitle.in(how.lang), {}, 0.55}, how.lang, studies);
+    return prepare_series(scene, kHubAngle, {.name = "angle", .aspect = 0.55}, how.lang, studies);
 }
 
 FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    SeriesKeys keys{.panels = {{.channels = {{ChannelKind::theta, 0}}}}, .apart = true};
+    SeriesKeys keys = kHubAngle;
+    keys.apart = true;
     for (const double speed : kPaperSpeeds) {
         keys.compare.push_back({fmt::format("$ω$ = {} rad s^{{−1}}", number(speed, 3)), scene.problem});
         keys.compare.back().problem.cam->speed = speed;
     }
-    const Translated caption{"Hub angle $θ$ for three speeds of the cam, clockwise",
-                             "三种凸轮转速（顺时针）下的转角 $θ$"};
-    return prepare_series(scene, keys, {"speeds", kSpeedsTitle.in(how.lang), caption.in(how.lang), 1.25}, how.lang,
-                          studies);
+    return prepare_series(
+        scene, keys,
+        {.name = "speeds",
+         .caption = {"Hub angle $θ$ for three speeds of the cam, clockwise", "三种凸轮转速（顺时针）下的转角 $θ$"},
+         .aspect = 1.25},
+        how.lang, studies);
 }
 
 FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -120,25 +131,10 @@ FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& st
                           "自由端相对根部切线的横向挠度"},
         without{"Transverse deflection of the free end from the tangent at the root, without a cam",
                 "自由端相对根部切线的横向挠度（无凸轮）"};
-    const Translated& caption = scene.problem.cam ? with : without;
-    return prepare_series(scene, keys, {"tip-vibration", kTipTitle.in(how.lang), caption.in(how.lang), 0.55, 0.75},
-                          how.lang, studies);
-}
-
-// Names the curves of the first panel; explains the second, if there is one.
-std::string energy_caption(const Figure& figure, Lang lang) {
-    const bool en = lang == Lang::en, both = figure.panels.size() > 1;
-    std::vector<std::string> names;
-    for (const Series& s : figure.panels.front().series) names.push_back(s.label);
-    names.pop_back();  // the sum
-    const Translated closure{
-        ". (b) Magnitude of the change of that sum, which is zero for the exact solution; values below 10^{−12} of the "
-        "largest energy are rounding errors and are drawn at the lower edge",
-        "。(b) 该平衡变化量的绝对值，精确解中恒为零；小于最大能量 10^{−12} 的部分属舍入误差，画在下边缘"};
-    return filled(en ? "Energy: {}{}; the black line is the sum of the energies stored and lost less the external work"
-                     : "能量：{}{}；黑线为储能与损失之和减去外功",
-                  both ? "(a) " : "", fmt::format("{}", fmt::join(names, en ? ", " : "、"))) +
-           (both ? closure.in(lang) : "");
+    return prepare_series(
+        scene, keys,
+        {.name = "tip-vibration", .caption = scene.problem.cam ? with : without, .aspect = 0.55, .weight = 0.75},
+        how.lang, studies);
 }
 
 // Only the energies that the scene can have.
@@ -175,13 +171,7 @@ FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies&
                     .label = "$E$"},
                    {.channels = {{ChannelKind::energy_residual, 0}}, .logarithmic = true, .label = "|$ΔE$|"}}};
     return prepare_series(scene, keys,
-                          {.name = "energy",
-                           .title = kEnergyTitle.in(how.lang),
-                           .caption = {},
-                           .aspect = 1.05,
-                           .weight = 0.75,
-                           .horizon = false,
-                           .caption_of = energy_caption},
+                          {.name = "energy", .aspect = 1.05, .weight = 0.75, .horizon = false, .names_energies = true},
                           how.lang, studies);
 }
 
@@ -193,9 +183,11 @@ std::optional<std::string> needs_vibration(const Scene& scene) {
 }  // namespace
 
 const Recipe kSeries{"series", {"Any channels, of one motion or of several", "任意通道"}, no_refusal, prepare_keys};
-const Recipe kAngle{"angle", kAngleTitle, no_refusal, prepare_angle};
-const Recipe kSpeeds{"speeds", kSpeedsTitle, needs_cam, prepare_speeds};
-const Recipe kEnergy{"energy", kEnergyTitle, no_refusal, prepare_energy};
-const Recipe kTipVibration{"tip-vibration", kTipTitle, needs_vibration, prepare_tip};
+const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
+const Recipe kSpeeds{
+    "speeds", {"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"}, needs_cam, prepare_speeds};
+const Recipe kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
+const Recipe kTipVibration{
+    "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

@@ -1,5 +1,3 @@
-#include "scenes/figures/series_abscissa.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -9,6 +7,7 @@
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/series.hpp"
 
 namespace beamcam::scenes {
 
@@ -93,12 +92,11 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {
     if (low_) range.low = *low_ + air;
     if (high_) range.high = *high_ - air;
     const Channel channel = channel_.value_or(Channel{});
-    const bool en = lang_ == Lang::en;
     Measure measure = measure_of(unit(channel, problem), range.largest);
     std::string symbol = render::print_symbol(channel);
     if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
-    if (is_phase()) measure = {1, "(2π)"}, symbol = en ? "phase of the cam" : "凸轮相位";
-    if (is_turns()) measure = {1, ""}, symbol = en ? "turns of the cam" : "凸轮转数";
+    if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam", "凸轮相位");
+    if (is_turns()) measure = {1, ""}, symbol = phrase(lang_, "turns of the cam", "凸轮转数");
     for (Panel& each : figure.panels) {
         each.x.label = axis_label(symbol, measure.unit);
         if (range.high > range.low)

@@ -1,5 +1,3 @@
-#include "scenes/figures/series_caption.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -7,25 +5,24 @@
 
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_panels.hpp"
-#include "scenes/figures/series_spectrum.hpp"
+#include "scenes/figures/series.hpp"
+#include "scenes/figures/series_data.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 std::string channel_text(const sim::Channel& channel, Lang lang) {
     const render::ChannelLabel& label = render::label_of(channel.kind);
-    std::string text = lang == Lang::en ? label.words : label.chinese;
+    std::string text = phrase(lang, label.words, label.chinese);
     if (lang == Lang::en) text.front() = static_cast<char>(std::tolower(text.front()));
     return fmt::format("{} {}", text, render::print_symbol(channel));
 }
 
 // "12 impacts", "no impact" until `end` [s].
 std::string impacts_text(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
-    const auto count = std::ranges::count_if(
-        result.impacts, [&](const sim::Impact& i) { return i.t_start <= end && strikes(problem, i); });
-    if (lang == Lang::zh) return count == 0 ? "无冲击" : fmt::format("{} 次冲击", count);
-    return count == 0 ? "no impact" : fmt::format("{} impact{}", count, count == 1 ? "" : "s");
+    const std::size_t count = strikes(problem, result.impacts, 0, end).size();
+    if (count == 0) return phrase(lang, "no impact", "无冲击");
+    return phrase(lang, count == 1 ? "{} impact" : "{} impacts", "{} 次冲击", count);
 }
 
 // The facts of all motions where they differ by the cam's speed alone, else those of the first.
@@ -37,7 +34,7 @@ std::string common_facts(const std::vector<SeriesMotion>& motions, Lang lang) {
                            return Studies::key(other) == Studies::key(first.problem);
                        });
     if (motions.size() == 1 || alike) return facts(first.problem, lang, {.cam_speed = motions.size() > 1});
-    return filled(lang == Lang::en ? "Of {}: " : "{}：", first.label) + facts(first.problem, lang);
+    return phrase(lang, "Of {}: ", "{}：", first.label) + facts(first.problem, lang);
 }
 
 // The first panel, "(c)", of a motion with separate panels. A panel of differences follows those of the motion with
@@ -55,28 +52,26 @@ std::string motion_name(const SeriesPlan& plan, std::size_t motion, const Figure
 
 // ": (a) ω = 0, no impact; (b) …"; empty: the only motion has no name.
 std::string motions_text(const SeriesPlan& plan, const Figure& figure, const Results& results) {
-    const bool en = plan.lang == Lang::en;
     std::vector<std::string> labels;
     for (std::size_t k = 0; k < plan.motions.size(); ++k) {
         const SeriesMotion& motion = plan.motions[k];
         if (plan.keys.apart)
-            labels.push_back(filled(en ? "{} {}, {}" : "{} {}，{}", first_panel(plan, k, figure), motion.label,
+            labels.push_back(phrase(plan.lang, "{} {}, {}", "{} {}，{}", first_panel(plan, k, figure), motion.label,
                                     impacts_text(motion.problem, *results[motion.study], plan.end, plan.lang)));
         else if (!motion.label.empty())
             labels.push_back(motion.label);
     }
-    return labels.empty() ? "" : filled(en ? ": {}" : "：{}", fmt::join(labels, en ? "; " : "；"));
+    return labels.empty() ? "" : phrase(plan.lang, ": {}", "：{}", fmt::join(labels, phrase(plan.lang, "; ", "；")));
 }
 
 std::string dashed_lines_text(const SeriesPlan& plan, const Figure& figure, const Results& results) {
     if (!plan.keys.impacts || figure.panels.front().rules.empty()) return "";
-    const bool en = plan.lang == Lang::en;
     const SeriesMotion& first = plan.motions.front();  // whose impacts are marked in panels of several motions
     const bool collisions = marks_collisions(*results[first.study], plan.keys.from, plan.end);
     const std::string of =
-        plan.keys.apart || plan.motions.size() == 1 ? "" : filled(en ? " of {}" : "（{}）", first.label);
-    return filled(en ? "Dashed lines: starts of {}{}. " : "虚线：{}{}开始。",
-                  collisions ? (en ? "collisions" : "碰撞") : (en ? "impacts" : "冲击"), of);
+        plan.keys.apart || plan.motions.size() == 1 ? "" : phrase(plan.lang, " of {}", "（{}）", first.label);
+    return phrase(plan.lang, "Dashed lines: starts of {}{}. ", "虚线：{}{}开始。",
+                  collisions ? phrase(plan.lang, "collisions", "碰撞") : phrase(plan.lang, "impacts", "冲击"), of);
 }
 
 // Names data that hold channels of the panels but not the quantity of the x axis.
@@ -84,9 +79,8 @@ std::string undrawn_text(const SeriesPlan& plan) {
     std::string text;
     for (const Measured& each : plan.measured)
         if (!plan.abscissa.of(each.data, plan.motion_with_data().problem))
-            text +=
-                filled(plan.lang == Lang::en ? "Data “{}” do not hold {} and are not drawn. " : "{}：不含 {}，未绘出。",
-                       each.data.label, render::print_symbol(*plan.abscissa.channel()));
+            text += phrase(plan.lang, "Data “{}” do not hold {} and are not drawn. ", "{}：不含 {}，未绘出。",
+                           each.data.label, render::print_symbol(*plan.abscissa.channel()));
     return text;
 }
 
@@ -107,10 +101,7 @@ std::string trust_text(const SeriesPlan& plan, const Figure& figure, const Resul
 
 }  // namespace
 
-std::string panel_letter(std::size_t panel) { return {static_cast<char>('a' + panel)}; }
-
 std::string series_subject(const SeriesKeys& keys, Lang lang) {
-    const bool en = lang == Lang::en;
     std::vector<std::string> words;
     for (const SeriesPanel& panel : keys.panels) {
         for (const SeriesSum& sum : panel.sums) words.push_back(sum.label);
@@ -119,17 +110,17 @@ std::string series_subject(const SeriesKeys& keys, Lang lang) {
             for (const sim::Channel& channel : *side) words.push_back(channel_text(channel, lang));
         }
     }
-    std::string all = fmt::format("{}", fmt::join(words, en ? ", " : "，"));
-    if (en) all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
-    if (keys.against == "phase") return all + (en ? " against the phase of the cam" : "随凸轮相位的变化");
+    std::string all = fmt::format("{}", fmt::join(words, phrase(lang, ", ", "，")));
+    if (lang == Lang::en) all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
+    if (keys.against == "phase") return all + phrase(lang, " against the phase of the cam", "随凸轮相位的变化");
     const auto against = sim::channel_named(keys.against);
     if (!against || against->kind == sim::ChannelKind::t) return all;
-    return all + filled(en ? " against {}" : "随{}的变化", channel_text(*against, lang));
+    return all + phrase(lang, " against {}", "随{}的变化", channel_text(*against, lang));
 }
 
 std::string series_caption(const SeriesPlan& plan, const std::string& subject, const Figure& figure,
                            const Results& results) {
-    return fmt::format("{}{}{}", subject, motions_text(plan, figure, results), plan.lang == Lang::en ? ". " : "。") +
+    return fmt::format("{}{}{}", subject, motions_text(plan, figure, results), phrase(plan.lang, ". ", "。")) +
            dashed_lines_text(plan, figure, results) + trust_text(plan, figure, results) +
            common_facts(plan.motions, plan.lang);
 }

@@ -1,5 +1,3 @@
-#include "scenes/figures/series_panels.hpp"
-
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -11,7 +9,8 @@
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_spectrum.hpp"
+#include "scenes/figures/series.hpp"
+#include "scenes/figures/series_data.hpp"
 #include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
@@ -156,7 +155,8 @@ class SeriesPanelMaker {
         side.measure = plan_.has_sums() ? Measure{1, si} : measure_of(si, most);
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
-                filled(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}", render::print_symbol(channel)));
+                fmt::format(fmt::runtime(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}"),
+                            render::print_symbol(channel)));
     }
     sim::Table rows_of(const SeriesCurve& curve) const {
         sim::Table rows = plan_.rows(curve, results_);
@@ -194,12 +194,13 @@ class SeriesPanelMaker {
         const std::vector<double>& values = side.rows[i].values.back();
         if (sum.plus.size() > 1 && std::ranges::all_of(values, [](double v) { return v == 0; })) return;
         constexpr int kBlack = 6;
-        Series& s = panel_.series.emplace_back();
-        s.label = sum.label;
-        s.x = plan_.abscissa.of(side.rows[i], first_.problem), s.y = values;
-        s.solid = !sum.minus.empty();
-        s.look = s.solid ? kBlack : curves_++;
-        s.weight = s.solid ? 1 : weight_;
+        const bool total = !sum.minus.empty();
+        panel_.series.push_back({.label = sum.label,
+                                 .x = plan_.abscissa.of(side.rows[i], first_.problem),
+                                 .y = values,
+                                 .look = total ? kBlack : curves_++,
+                                 .solid = total,
+                                 .weight = total ? 1 : weight_});
     }
 
     // Paler where θ is not reproducible.
@@ -208,14 +209,15 @@ class SeriesPanelMaker {
         const std::size_t shown = planned_.motions.size();
         const std::string& symbol = side.symbols[i / shown];
         const sim::Table& rows = side.rows[i];
-        Series whole;
-        whole.x = plan_.abscissa.of(rows, motion.problem);
-        whole.y = scaled(rows.values.back(), side.measure.factor);
-        whole.right = side.right;
-        whole.look = curves_++;
-        whole.weight = weight_;
         const bool one_channel = keys_.channels.size() == 1 && keys_.right.empty();
-        whole.label = shown == 1 ? symbol : one_channel ? motion.label : fmt::format("{}, {}", motion.label, symbol);
+        const Series whole{.label = shown == 1    ? symbol
+                                    : one_channel ? motion.label
+                                                  : fmt::format("{}, {}", motion.label, symbol),
+                           .x = plan_.abscissa.of(rows, motion.problem),
+                           .y = scaled(rows.values.back(), side.measure.factor),
+                           .look = curves_++,
+                           .right = side.right,
+                           .weight = weight_};
         auto [sure, unsure] = split(whole, rows.values[0], plan_.lost(*results_[motion.study]));
         unsure.faded = true;
         if (!sure.x.empty()) unsure.label.clear();

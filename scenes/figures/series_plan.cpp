@@ -1,10 +1,9 @@
-#include "scenes/figures/series_plan.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numeric>
 
-#include "scenes/figures/series_spectrum.hpp"
+#include "scenes/figures/series.hpp"
+#include "scenes/figures/series_data.hpp"
 
 namespace beamcam::scenes {
 namespace {

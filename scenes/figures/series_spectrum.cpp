@@ -1,5 +1,3 @@
-#include "scenes/figures/series_spectrum.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -7,6 +5,7 @@
 #include <numbers>
 
 #include "render/base/error.hpp"
+#include "scenes/figures/series_data.hpp"
 #include "scenes/figures/studies.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/observe/spectrum.hpp"
@@ -81,28 +80,27 @@ std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channe
 }
 
 std::string measured_spectrum_text(const std::vector<Measured>& all, Lang lang) {
-    const bool en = lang == Lang::en;
     std::string text;
     for (const Measured& each : all) {
         const std::vector<double>& t = each.data.times;
         text += equally_spaced(t)
-                    ? filled(en ? "Data “{}”: {} samples, resolution {} Hz. " : "{}：{} 个样本，分辨率 {} Hz。",
+                    ? phrase(lang, "Data “{}”: {} samples, resolution {} Hz. ", "{}：{} 个样本，分辨率 {} Hz。",
                              each.data.label, t.size(), number(1.5 / (t.back() - t.front()), 2))
-                    : filled(en ? "Data “{}” have no spectrum: their instants are {}. " : "{}：{}，无频谱。",
+                    : phrase(lang, "Data “{}” have no spectrum: their instants are {}. ", "{}：{}，无频谱。",
                              each.data.label,
-                             t.size() < kFewestMeasured ? (en ? "too few" : "时刻过少")
-                                                        : (en ? "not equally spaced" : "时刻不等距"));
+                             t.size() < kFewestMeasured ? phrase(lang, "too few", "时刻过少")
+                                                        : phrase(lang, "not equally spaced", "时刻不等距"));
     }
     return text;
 }
 
 std::string spectrum_text(const sim::Problem& problem, double from, double to, Lang lang) {
     const int count = samples(problem, to - from);
-    return filled(lang == Lang::en
-                      ? "Amplitude spectrum of the interval from {} s to {} s less its mean, {} samples, Hann window, "
-                        "resolution {} Hz. "
-                      : "{} s 至 {} s 区间（去均值）的幅值谱，{} 个样本，Hann 窗，分辨率 {} Hz。",
-                  number(from, 4), number(to, 4), count, number(1.5 / (to - from), 2));
+    return phrase(lang,
+                  "Amplitude spectrum of the interval from {} s to {} s less its mean, {} samples, Hann window, "
+                  "resolution {} Hz. ",
+                  "{} s 至 {} s 区间（去均值）的幅值谱，{} 个样本，Hann 窗，分辨率 {} Hz。", number(from, 4),
+                  number(to, 4), count, number(1.5 / (to - from), 2));
 }
 
 }  // namespace beamcam::scenes

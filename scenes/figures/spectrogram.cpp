@@ -8,8 +8,8 @@
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/series_caption.hpp"
-#include "scenes/figures/series_spectrum.hpp"
+#include "scenes/figures/series.hpp"
+#include "scenes/figures/series_data.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/observe/spectrum.hpp"
 
@@ -88,12 +88,12 @@ render::figure::Cells cells_of(const Spectrogram& s, double most, double factor)
 }
 
 std::string spectrogram_caption(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
-    return filled(
-        lang == Lang::en
-            ? "{}: amplitude by frequency and time, a Hann window of {} s every {} s ({} samples per second), "
-              "resolution "
-              "{} Hz; amplitudes below a thousandth of the largest are white. "
-            : "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} Hz；小于最大值千分之一者不显示。",
+    return phrase(
+        lang,
+        "{}: amplitude by frequency and time, a Hann window of {} s every {} s ({} samples per second), "
+        "resolution "
+        "{} Hz; amplitudes below a thousandth of the largest are white. ",
+        "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} Hz；小于最大值千分之一者不显示。",
         series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3), number(s.hop, 2),
         number(rate, 4), number(1.5 / s.window, 2));
 }
@@ -108,19 +108,16 @@ sim::Channel channel_of(const Scene& scene, const SeriesKeys& keys) {
 // `measure`: of the amplitudes, of which `most` is the largest.
 Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most, const Measure& measure) {
     const double largest = most * measure.factor;
-    Panel panel;
-    panel.legend = Legend::none;
-    panel.x.label = "$t$ / s";
-    panel.y.label = "$f$ / Hz";
-    panel.y.tight = true;
-    panel.color_bar =
-        render::figure::ColorBar{.label = axis_label(fmt::format("|{}|", render::print_symbol(channel)), measure.unit),
-                                 .scale = render::Scale::logarithmic,
-                                 .from = largest * std::pow(10, -kDecades),
-                                 .to = largest};
-    panel.cells.push_back(cells_of(s, most, measure.factor));
-    panel.name = name(channel);
-    return panel;
+    return {.x = {.label = "$t$ / s", .tight = true},
+            .y = {.label = "$f$ / Hz", .tight = true},
+            .cells = {cells_of(s, most, measure.factor)},
+            .color_bar =
+                render::figure::ColorBar{.label = axis_label("|" + render::print_symbol(channel) + "|", measure.unit),
+                                         .scale = render::Scale::logarithmic,
+                                         .from = largest * std::pow(10, -kDecades),
+                                         .to = largest},
+            .legend = Legend::none,
+            .name = name(channel)};
 }
 
 FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -135,7 +132,7 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
     std::vector<sim::TableRequest>& tables = studies.request(study).tables;
     const std::size_t table = tables.size();
     tables.push_back({spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
-    return [=, problem = scene.problem, lang = how.lang, highest = keys.highest](const Results& results) {
+    return [=, problem = scene.problem, lang = how.lang, highest = keys.highest](const Results& results) -> Figure {
         const sim::Table& rows = results[study]->tables[table];
         const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
         Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
@@ -146,11 +143,9 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
         if (!highest) shorten(s, most * std::pow(10, -kDecades));
         Panel panel = spectrogram_panel(channel, s, most, measure_of(sim::unit(channel, problem), most));
         panel.x.from = from, panel.x.to = to;
-        Figure figure;
-        figure.panels.push_back(std::move(panel));
-        figure.caption = spectrogram_caption(channel, s, rate, lang) + facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, results[study]}}, lang);
-        return figure;
+        return {.panels = {std::move(panel)},
+                .caption = spectrogram_caption(channel, s, rate, lang) + facts(problem, lang),
+                .accuracy = accuracy({{&problem, results[study]}}, lang)};
     };
 }
 

@@ -109,32 +109,32 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
 }
 
 std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang) {
-    const bool en = lang == Lang::en;
     return count == 1
-               ? filled(en ? "The mechanism at {} s, deflection to scale. " : "{} s 时的机构，挠度按比例。",
+               ? phrase(lang, "The mechanism at {} s, deflection to scale. ", "{} s 时的机构，挠度按比例。",
                         number(shown.from, 4))
-               : filled(en ? "The mechanism at {} instants from {} s (pale) to {} s (dark), equally spaced, deflection "
-                             "to scale. "
-                           : "机构在 {} 个等距时刻的位置，自 {} s（浅）至 {} s（深），挠度按比例。",
-                        count, number(shown.from, 4), number(shown.to, 4));
+               : phrase(lang,
+                        "The mechanism at {} instants from {} s (pale) to {} s (dark), equally spaced, deflection "
+                        "to scale. ",
+                        "机构在 {} 个等距时刻的位置，自 {} s（浅）至 {} s（深），挠度按比例。", count,
+                        number(shown.from, 4), number(shown.to, 4));
 }
 
 FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
-    return [=, problem = scene.problem, lang = how.lang](const Results& results) {
+    return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
         const sim::Result& result = *results[shown.study];
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
         render::Bounds extent;
-        Figure figure;
-        figure.panels.push_back(strobe_panel(poses, problem, extent));
+        Panel panel = strobe_panel(poses, problem, extent);
         // The shapes with a margin and room for labels.
-        figure.aspect =
+        const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        figure.caption = strobe_caption(poses.size(), shown, lang) + facts(problem, lang);
-        figure.accuracy = accuracy({{&problem, &result}}, lang);
-        return figure;
+        return {.panels = {std::move(panel)},
+                .aspect = aspect,
+                .caption = strobe_caption(poses.size(), shown, lang) + facts(problem, lang),
+                .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }
 

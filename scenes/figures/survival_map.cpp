@@ -1,10 +1,9 @@
-#include "scenes/figures/survival_map.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "render/draw/markup.hpp"
+#include "scenes/figures/study_figures.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -52,19 +51,16 @@ void add_stripes(const GridOutcomes& outcomes, std::size_t rows, std::size_t col
     cells.x = edges_of(columns, stripes), cells.y = edges_of(rows, 1);
     const std::size_t width = cells.x.size() - 1;
     cells.colors.assign(width * (cells.y.size() - 1), render::Color{0, 0, 0, 0});
-    Series failed;
-    failed.line = false, failed.every_point = true;
-    failed.look = 5;  // crosses
-    failed.color = render::rgb(0xFFFFFF);
-    failed.name = "failed";
+    constexpr int kCrosses = 5;
+    Series failed{
+        .name = "failed", .look = kCrosses, .line = false, .every_point = true, .color = render::rgb(0xFFFFFF)};
     for (std::size_t at = 0; at < outcomes.size(); ++at) {
         const std::size_t up = 2 * (rows - 1 - at / columns), first = at % columns * (stripes + 1);
         for (std::size_t j = 0; j < stripes && !outcomes[at].empty(); ++j) {
             const sim::Outcome outcome = outcomes[at][j * outcomes[at].size() / stripes];
             cells.colors[up * width + first + j] = color_of(outcome);
             if (outcome != sim::Outcome::failed) continue;
-            failed.x.push_back(0.5 * (cells.x[first + j] + cells.x[first + j + 1]));
-            failed.y.push_back(0.5 * (cells.y[up] + cells.y[up + 1]));
+            failed.add(0.5 * (cells.x[first + j] + cells.x[first + j + 1]), 0.5 * (cells.y[up] + cells.y[up + 1]));
         }
     }
     if (!failed.x.empty()) panel.series.push_back(std::move(failed));
@@ -88,12 +84,11 @@ std::vector<std::string> markup_of(const std::vector<std::string>& names) {
 }
 
 Panel grid_panel(const sim::CaseGrid& grid, const GridOutcomes& outcomes) {
-    Panel panel;
-    panel.title = markup_of(grid.title);
-    panel.x = {.label = markup_of(grid.column_title), .names = markup_of(grid.columns)};
-    panel.y = {.label = markup_of(grid.row_title), .names = markup_of(grid.rows)};
+    Panel panel{.title = markup_of(grid.title),
+                .x = {.label = markup_of(grid.column_title), .names = markup_of(grid.columns)},
+                .y = {.label = markup_of(grid.row_title), .names = markup_of(grid.rows)},
+                .legend = Legend::none};
     std::ranges::reverse(panel.y.names);  // the first row is the highest
-    panel.legend = Legend::none;
     add_stripes(outcomes, grid.rows.size(), grid.columns.size(), panel);
     return panel;
 }

@@ -1,6 +1,7 @@
 #include "scenes/figures/sweeps.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>
@@ -9,9 +10,8 @@
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/bifurcation_diagram.hpp"
-#include "scenes/figures/key_map.hpp"
 #include "scenes/figures/recipes.hpp"
+#include "scenes/figures/swept_points.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -24,16 +24,16 @@ using sim::AttractorClass;
 
 std::string span_text(const sim::CamSpan& span, Lang lang) {
     if (span.time) return fmt::format("{:g} s", *span.time);
-    return filled(lang == Lang::en ? "{:g} turns of the cam" : "凸轮 {:g} 转", span.turns);
+    return phrase(lang, "{:g} turns of the cam", "凸轮 {:g} 转", span.turns);
 }
 
 std::string axes_text(const SweptPoints& points) {
     std::string text;
     for (const output::SweepAxis& axis : points.data.axes)
-        text += filled(
-            points.lang == Lang::en ? "{} = {:.6g} … {:.6g}{} in {} values; " : "{} = {:.6g} … {:.6g}{}，共 {} 值；",
-            symbol_of(axis.name), *std::ranges::min_element(axis.values), *std::ranges::max_element(axis.values),
-            axis.unit == "1" ? "" : " " + axis.unit, axis.values.size());
+        text +=
+            phrase(points.lang, "{} = {:.6g} … {:.6g}{} in {} values; ", "{} = {:.6g} … {:.6g}{}，共 {} 值；",
+                   symbol_of(axis.name), *std::ranges::min_element(axis.values), *std::ranges::max_element(axis.values),
+                   axis.unit == "1" ? "" : " " + axis.unit, axis.values.size());
     return text;
 }
 
@@ -41,26 +41,20 @@ std::string starts_text(const SweptPoints& points) {
     std::string text;
     for (std::uint64_t k = 0; k < std::min<std::uint64_t>(points.seeds(), 3); ++k) {
         if (k > 0 && points.seed(k) == points.seed(k - 1)) continue;
-        text += (k > 0 ? points.lang == Lang::en ? ", " : "、" : "") + look_of(points.seed(k)).label.in(points.lang);
+        text += (k > 0 ? phrase(points.lang, ", ", "、") : "") + look_of(points.seed(k)).label.in(points.lang);
     }
     return points.seeds() > 3 ? fmt::format("{} ({})", text, points.seeds()) : text;
 }
 
 // How many points are of each class.
 std::string class_counts(const std::map<AttractorClass, std::uint64_t>& kinds, Lang lang) {
-    const bool en = lang == Lang::en;
-    std::string counts;
+    std::vector<std::string> counts;
     for (const auto& [kind, count] : kinds)
-        counts += filled(en ? "{}{} {}" : "{0}{2} {1}",
-                         counts.empty() ? ""
-                         : en           ? ", "
-                                        : "，",
-                         count, class_label(kind, lang));
-    return counts + (en ? ". " : "。");
+        counts.push_back(phrase(lang, "{} {}", "{1} {0}", count, class_label(kind, lang)));
+    return phrase(lang, "{}. ", "{}。", fmt::join(counts, phrase(lang, ", ", "，")));
 }
 
 std::string sweep_caption(const SweptPoints& points) {
-    const bool en = points.lang == Lang::en;
     std::map<AttractorClass, std::uint64_t> kinds;
     int longest = 0;  // period
     for (std::uint64_t k = 0; k < points.data.points(); ++k) {
@@ -71,33 +65,31 @@ std::string sweep_caption(const SweptPoints& points) {
     }
     const sim::Sampling& s = points.scene.sweep->sampling;
     std::string text = axes_text(points);
-    text += filled(en ? "samples: {}; transient {}, then {} kept; starts: {}. Points: "
-                      : "样本：{}；舍去 {}，保留 {}；初值：{}。点数：",
-                   text_of_sample(s), span_text(s.transient, points.lang), span_text(s.keep, points.lang),
-                   starts_text(points));
+    text += phrase(points.lang, "samples: {}; transient {}, then {} kept; starts: {}. Points: ",
+                   "样本：{}；舍去 {}，保留 {}；初值：{}。点数：", text_of_sample(s),
+                   span_text(s.transient, points.lang), span_text(s.keep, points.lang), starts_text(points));
     text += class_counts(kinds, points.lang);
     if (kinds.contains(AttractorClass::chaotic))
-        text += en ? "Samples of chaotic motions depend on their start, transient and number of periods. "
-                   : "混沌处的点是其初值、过渡与周期数的统计。";
+        text +=
+            phrase(points.lang, "Samples of chaotic motions depend on their start, transient and number of periods. ",
+                   "混沌处的点是其初值、过渡与周期数的统计。");
     if (!s.keep.time && longest > s.keep.turns)
-        text += filled(en ? "Of periods longer than the kept turns, up to {}, only a part is sampled. "
-                          : "周期长于保留转数（最长 {} 转）时只取其一部分。",
-                       longest);
-    Varied varied;
-    varied.cam_speed =
+        text += phrase(points.lang, "Of periods longer than the kept turns, up to {}, only a part is sampled. ",
+                       "周期长于保留转数（最长 {} 转）时只取其一部分。", longest);
+    const bool over_speed =
         std::ranges::find(points.data.axes, "cam.speed", &output::SweepAxis::name) != points.data.axes.end();
-    return text + (en ? "Other parameters: " : "其他参数：") + facts(points.scene.problem, points.lang, varied);
+    return text + phrase(points.lang, "Other parameters: ", "其他参数：") +
+           facts(points.scene.problem, points.lang, {.cam_speed = over_speed});
 }
 
 std::string tolerance_text(const SweptPoints& points) {
-    const bool en = points.lang == Lang::en;
     const sim::Problem& problem = points.scene.problem;
     const bool closed =
         problem.beam.model == sim::ModelKind::rigid && problem.contact.model == sim::ContactModel::restitution;
-    return filled(en ? "Relative tolerance {}{}." : "相对容差 {}{}。", one_digit(problem.solver.rtol),
+    return phrase(points.lang, "Relative tolerance {}{}.", "相对容差 {}{}。", one_digit(problem.solver.rtol),
                   !closed ? ""
-                  : en    ? ", or rounding where the rigid beam is followed in closed form"
-                          : "，刚性梁以闭式求解时为舍入误差");
+                          : phrase(points.lang, ", or rounding where the rigid beam is followed in closed form",
+                                   "，刚性梁以闭式求解时为舍入误差"));
 }
 
 // ---- all samples in one plane ---------------------------------------------------------------------
@@ -120,32 +112,28 @@ std::vector<figure::Cloud> clouds_of_values(const SweptPoints& points) {
 // sample after.
 figure::Figure sample_plane(const SweptPoints& points, const std::string& x, const std::string& y, bool next) {
     const std::size_t cx = points.column(x), cy = points.column(y), width = points.data.columns.size();
-    figure::Panel panel;
-    panel.name = y;
-    panel.clouds = clouds_of_values(points);
-    panel.legend = figure::Legend::box;
+    std::vector<figure::Cloud> clouds = clouds_of_values(points);
     for (std::uint64_t k = 0; k < points.data.points(); ++k) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
         if (!has_section(kind_of(p))) continue;
-        figure::Cloud& cloud = panel.clouds[panel.clouds.size() > 1 ? k / points.seeds() : 0];
+        figure::Cloud& cloud = clouds[clouds.size() > 1 ? k / points.seeds() : 0];
         const std::size_t later = next ? width : 0;
         for (std::size_t i = 0; i + later < p.samples.size(); i += width)
-            add(cloud, drawn(points, cx, p.samples[i + cx]), drawn(points, cy, p.samples[i + later + cy]));
+            cloud.add(drawn(points, cx, p.samples[i + cx]), drawn(points, cy, p.samples[i + later + cy]));
     }
-    if (all_empty(panel.clouds))
+    if (all_empty(clouds))
         throw render::PictureError(
             "no point has a section to show: all rest, follow the cam, have left it or have not settled");
-    const bool en = points.lang == Lang::en;
-    const auto axis = [&](std::size_t c, const char* which, const char* zh) {
-        return column_label(points, c) + (next ? en ? which : zh : "");
+    const auto axis = [&](std::size_t c, const char* en, const char* zh) -> render::Axis {
+        return {.label = column_label(points, c) + (next ? phrase(points.lang, en, zh) : "")};
     };
-    panel.x = {.label = axis(cx, ", impact $k$", "，第 $k$ 次碰撞")};
-    panel.y = {.label = axis(cy, ", impact $k$ + 1", "，第 $k$ + 1 次碰撞")};
-    figure::Figure out;
-    out.panels = {std::move(panel)};
-    out.aspect = 0.9;
-    return out;
+    return {.panels = {{.x = axis(cx, ", impact $k$", "，第 $k$ 次碰撞"),
+                        .y = axis(cy, ", impact $k$ + 1", "，第 $k$ + 1 次碰撞"),
+                        .clouds = std::move(clouds),
+                        .legend = figure::Legend::box,
+                        .name = y}},
+            .aspect = 0.9};
 }
 
 // ---- the figures by name --------------------------------------------------------------------------
@@ -158,8 +146,7 @@ FigureMaker prepare(const Scene&, const FigureOutput& how, Studies&) {
         if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
         const SweptPoints points(*results.swept, how.lang);
         figure::Figure out = draw(points, how);
-        out.title =
-            filled(how.lang == Lang::en ? "{} over {}" : "{}：{}", recipe.title.in(how.lang), points.axis(0).name);
+        out.title = phrase(how.lang, "{} over {}", "{}：{}", recipe.title.in(how.lang), points.axis(0).name);
         out.caption = sweep_caption(points) + (out.caption.empty() ? "" : " ") + out.caption;
         out.accuracy = tolerance_text(points);
         return out;
@@ -246,7 +233,7 @@ std::string point_text(const Swept& swept, std::uint64_t point, std::optional<in
     const std::string number = decimals ? fmt::format("{:.{}f}", value, *decimals) : fmt::format("{:.6g}", value);
     std::string text = fmt::format("{} = {}{}", render::to_plain(symbol_of(axis.name)), number,
                                    axis.unit == "1" ? "" : " " + axis.unit);
-    text += lang == Lang::en ? ": " : "：";
+    text += phrase(lang, ": ", "：");
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
     if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);
     const auto plural = [](auto count) { return count == 1 ? "" : "s"; };

@@ -2,12 +2,14 @@
 // maps.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "render/plot/figure.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/scene/scene.hpp"
 
@@ -21,5 +23,20 @@ std::vector<std::string> diagram_values(std::string_view diagram, const Scene& s
 
 // "ω = 45.2 rad/s: period 2, 3 impacts", without markup. `decimals`: of the value; absent: six significant digits.
 std::string point_text(const Swept& swept, std::uint64_t point, std::optional<int> decimals, Lang lang);
+
+// The bifurcation diagram of a film, of which each frame shows more points.
+class GrowingDiagram {
+  public:
+    // `place`: of each point in the order in which the film shows them. The sweep must outlive this. Throws
+    // PictureError like `bifurcation`.
+    GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place);
+    // The points up to this place, and a line at a value of the key.
+    render::figure::Figure until(std::size_t last, double at) const;
+
+  private:
+    render::figure::Figure whole_;
+    std::vector<std::vector<std::vector<std::size_t>>> places_;  // of the points of each cloud of each panel, ascending
+    std::vector<std::size_t> cells_;                             // of the last panel's cells
+};
 
 }  // namespace beamcam::scenes

@@ -64,9 +64,8 @@ std::string class_label(AttractorClass kind, Lang lang) { return lang == Lang::e
 const StartLook& look_of(SeedKind kind) { return *std::ranges::find(kStarts, kind, &StartLook::kind); }
 
 std::string column_label(const SweptPoints& points, std::size_t column) {
-    const bool en = points.lang == Lang::en;
     const std::string &name = points.data.columns[column].name, &unit = points.data.columns[column].unit;
-    if (name == "cam_phase") return en ? "cam phase / turn" : "凸轮相位 / 转";
+    if (name == "cam_phase") return phrase(points.lang, "cam phase / turn", "凸轮相位 / 转");
     if (name == kApproach) return axis_label(kApproachSpeed.in(points.lang), unit);
     return axis_label(symbol_of(name), unit);
 }
@@ -77,7 +76,6 @@ double drawn(const SweptPoints& points, std::size_t column, double sample) {
 
 std::string label_of(const output::SweepAxis& axis) { return axis_label(symbol_of(axis.name), axis.unit); }
 
-// Edges of cells around the values, half-way between neighbours.
 std::vector<double> edges_around(std::vector<double> values) {
     std::ranges::sort(values);
     if (values.size() == 1) return {values[0] - 0.5, values[0] + 0.5};
@@ -86,7 +84,6 @@ std::vector<double> edges_around(std::vector<double> values) {
     edges.push_back(values.back() + 0.5 * (values.back() - values[values.size() - 2]));
     return edges;
 }
-// By index the place of each value in ascending order.
 std::vector<std::size_t> ranks(const std::vector<double>& values) {
     std::vector<std::size_t> order(values.size()), rank(values.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;

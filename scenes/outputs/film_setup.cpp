@@ -9,7 +9,7 @@
 
 #include "render/draw/markup.hpp"
 #include "scenes/figures/caption.hpp"
-#include "scenes/figures/reproducible.hpp"
+#include "scenes/figures/series_data.hpp"
 
 namespace beamcam::scenes {
 namespace {

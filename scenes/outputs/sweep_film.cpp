@@ -15,7 +15,6 @@
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
-#include "scenes/figures/bifurcation_diagram.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenes/figures/branches.hpp"
+#include "scenes/figures/study_figures.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {

@@ -13,11 +13,10 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
-#include "scenes/figures/accuracy.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/findings.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/survival_map.hpp"
+#include "scenes/figures/study_figures.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
 #include "tests/scenes/support.hpp"

@@ -6,10 +6,8 @@
 
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
-#include "scenes/figures/bifurcation_diagram.hpp"
-#include "scenes/figures/branches.hpp"
 #include "scenes/figures/recipes.hpp"
-#include "scenes/figures/sweeps.hpp"
+#include "scenes/figures/study_figures.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
 #include "tests/scenes/support.hpp"

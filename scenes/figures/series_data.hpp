@@ -1,0 +1,67 @@
+// The curves of a series: where they are reproducible, the measured data among them, and spectra of both.
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+#include "scenes/figures/caption.hpp"
+#include "scenes/figures/studies.hpp"
+
+namespace beamcam::scenes {
+
+// ---- the intervals in which θ is not reproducible, where curves are drawn lighter -------------------------
+
+// Within it θ is not reproducible [s].
+struct Lost {
+    double from, to;
+    bool holds(double t) const { return t > from && t <= to; }
+};
+// Of a study with a horizon, until `end`.
+std::vector<Lost> unreliable(const sim::Result& result, double end);
+
+// The curve outside of the intervals, and the curve within them; neighbouring pieces share a point. `times`: of its
+// points.
+std::array<render::figure::Series, 2> split(const render::figure::Series& whole, const std::vector<double>& times,
+                                            const std::vector<Lost>& intervals);
+
+// A sentence that names these intervals, by the names of the motions if there are several; empty: there are none.
+std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
+                         double end, Lang lang);
+
+// ---- measured or foreign data ---------------------------------------------------------------------------
+
+// Data with the table that holds the motion at their instants.
+struct Measured {
+    Measurement data;
+    std::size_t table = 0;
+};
+
+// The scene's data of these channels within [from, to]; adds the table that they are compared with.
+std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channel>& channels, double from, double to,
+                               std::size_t study, Studies& studies);
+
+// Points, or a line if they are many. `x`, `y`: of the rows of the data, as drawn.
+render::figure::Series measured_series(const Measurement& data, std::vector<double> x, std::vector<double> y, int look);
+
+// "rig: 200 instants, root mean square difference of $θ$ 1.2×10^{−3} rad. "
+std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
+                           Lang lang);
+
+// ---- amplitude spectra ----------------------------------------------------------------------------------
+
+// Equally spaced, so close that the vibrations of all modes are far below half of their rate.
+std::vector<double> spectrum_instants(const sim::Problem& problem, double from, double to);
+// Frequency [Hz] and amplitude, until `highest`; without it, once and a half the highest mode at least.
+sim::Table spectrum_table(const sim::Table& rows, std::optional<double> highest);
+// Of measured values, at their own rate, until `highest`; nothing where their instants are few or not equally spaced.
+std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channel channel, double highest);
+// States the resolution of the spectra of the data, and which data have none.
+std::string measured_spectrum_text(const std::vector<Measured>& all, Lang lang);
+// States window, resolution and number of samples.
+std::string spectrum_text(const sim::Problem& problem, double from, double to, Lang lang);
+
+}  // namespace beamcam::scenes

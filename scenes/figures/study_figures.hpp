@@ -1,0 +1,36 @@
+// The figures of commands: an assessment of accuracy, periodic orbits, Lyapunov exponents, a stress campaign.
+#pragma once
+
+#include <vector>
+
+#include "output/data/orbit_records.hpp"
+#include "render/plot/figure.hpp"
+#include "scenes/scene/scene.hpp"
+#include "sim/orbit/exponents.hpp"
+#include "sim/studies/accuracy.hpp"
+#include "sim/studies/stress.hpp"
+
+namespace beamcam::scenes {
+
+// Error against run time of every method, and against the number of modes. Throws render::PictureError when nothing was
+// measured.
+render::figure::Figure accuracy_figure(const sim::Accuracy& accuracy, const sim::Problem& problem, Lang lang);
+
+// Impacts of a sweep of the same key: values of the key and approach speeds [m/s].
+struct SweptImpacts {
+    std::vector<double> parameter, approach;
+};
+// Branches of periodic orbits over a parameter: impact speeds, stable solid and unstable dashed, above the impacts of
+// the sweep if there are any. Throws PictureError where no branch has impacts.
+render::figure::Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept,
+                                       const sim::Problem& problem, Lang lang);
+
+// The convergence of the Lyapunov exponents of a motion. Throws PictureError where every exponent is −∞.
+render::figure::Figure exponents_figure(const sim::Exponents& exponents, const sim::Problem& problem, Lang lang);
+
+// The outcomes of a stress campaign: a panel for each grid, a cell for each pair of extremes, in it a stripe for each
+// variant, coloured by its outcome. Failures are crossed out as well, so that colour alone does not carry them.
+// `results` belong to `campaign.cases`, in their order.
+render::figure::Figure survival_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
+
+}  // namespace beamcam::scenes
