@@ -1,6 +1,7 @@
 #include "render/gl/lit.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -21,6 +22,9 @@ namespace {
 constexpr std::pair<const char*, const char*> kChosen[] = {{"GALLIUM_DRIVER", "llvmpipe"},
                                                            {"LIBGL_ALWAYS_SOFTWARE", "1"}};
 
+// Of several implementations of EGL, Mesa's: that of a graphics card's maker may be asked first.
+constexpr const char* kMesaEgl = "/usr/share/glvnd/egl_vendor.d/50_mesa.json";
+
 // The number of threads (LP_NUM_THREADS) changes only the speed.
 bool is_read_by_mesa(std::string_view name) {
     constexpr std::string_view kPrefixes[] = {"MESA_", "GALLIUM_",  "GALLIVM_", "LP_",    "DRAW_", "ST_",
@@ -40,13 +44,19 @@ std::vector<std::string> choose_driver() {
         setenv(name, value, 1);
         std::erase(found, std::string(name) + "=" + value);
     }
+    if (std::getenv("__EGL_VENDOR_LIBRARY_DIRS") == nullptr && access(kMesaEgl, R_OK) == 0)
+        setenv("__EGL_VENDOR_LIBRARY_FILENAMES", kMesaEgl, 0);
     return found;
 }
 
 // The modules in order of preference: OSMesa loads faster; newer releases of Mesa have only EGL.
 std::vector<std::string> modules() {
-    if (const char* one = std::getenv("BEAMCAM_GL"); one != nullptr && *one != '\0') return {one};
-    return {"osmesa", "egl"};
+    const std::vector<std::string> all = {"osmesa", "egl"};
+    const char* one = std::getenv("BEAMCAM_GL");
+    if (one == nullptr || *one == '\0') return all;
+    if (std::ranges::find(all, one) == all.end())
+        throw GlError(fmt::format("BEAMCAM_GL=\"{}\" is unknown; it selects {}", one, fmt::join(all, " or ")));
+    return {one};
 }
 
 // Mesa draws in one thread per processor, up to 32, compiles in a few more, and waits forever for threads that could

@@ -144,7 +144,14 @@ TEST(GlWays, OsmesaAndEglDrawTheSamePixels) {
         return shell(folder, fmt::format("BEAMCAM_GL={} $BEAMCAM doctor --json | grep -A9 fingerprint", way)).out;
     };
     EXPECT_EQ(fingerprint("osmesa"), fingerprint("egl"));
-    EXPECT_EQ(shell(folder, "BEAMCAM_GL=vulkan $BEAMCAM render s.json -o x.png --at 0 --style lit").code, 5);
+}
+
+TEST(GlWays, AnUnknownWayIsRejectedWithTheKnownOnes) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const Finished unknown = shell(folder, "BEAMCAM_GL=vulkan $BEAMCAM render s.json -o x.png --at 0 --style lit 2>&1");
+    EXPECT_EQ(unknown.code, 5);
+    EXPECT_THAT(unknown.out, HasSubstr("osmesa or egl"));
 }
 
 // Drivers that this machine lacks, and switches that make Mesa crash.
