@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/base/linear_algebra.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -82,9 +83,9 @@ std::vector<double> frequencies(const Problem& p, double speed, bool held) {
     if (!held) inertia -= mass.bottomLeftCorner(n - 1, 1) * mass.topRightCorner(1, n - 1) / mass(0, 0);
     const Matrix elastic =
         stiffness.bottomRightCorner(n - 1, n - 1) + speed * speed * centrifugal.bottomRightCorner(n - 1, n - 1);
-    const Eigen::GeneralizedSelfAdjointEigenSolver<Matrix> modes(elastic, inertia);
+    const Vector squares = eigenmodes(elastic, inertia).omega_squared;
     std::vector<double> omega;
-    for (int i = 0; i < n - 1; ++i) omega.push_back(std::sqrt(modes.eigenvalues()[i]));
+    for (int i = 0; i < n - 1; ++i) omega.push_back(std::sqrt(squares[i]));
     return omega;
 }
 

@@ -5,6 +5,7 @@
 #include <iterator>
 #include <vector>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/beam/model.hpp"
 #include "tests/sim/support.hpp"
 
@@ -379,9 +380,8 @@ std::vector<std::complex<double>> damped_modes(Model& model, bool held) {
     companion.topRightCorner(m, m).setIdentity();
     companion.bottomLeftCorner(m, m) = -inverse.solve(Matrix(part(stiffness)));
     companion.bottomRightCorner(m, m) = -inverse.solve(Matrix(part(damping)));
-    const Eigen::EigenSolver<Matrix> solver(companion, false);
     std::vector<std::complex<double>> modes;
-    for (const std::complex<double>& value : solver.eigenvalues())
+    for (const std::complex<double>& value : eigenvalues(companion))
         if (value.imag() > 1e-3) modes.push_back(value);
     std::sort(modes.begin(), modes.end(), [](auto a, auto b) { return std::abs(a) < std::abs(b); });
     return modes;
