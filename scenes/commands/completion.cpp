@@ -36,10 +36,11 @@ Names channel_names() {
     return names;
 }
 
-Names key_names() {
+// Of keys of a scene, each with this ending.
+Names key_names(const char* ending) {
     Names names;
     for (const KeyRow& row : key_rows()) {
-        const std::string name = row.path + "=";
+        const std::string name = row.path + ending;
         if (row.path.find('[') == std::string::npos && std::ranges::find(names, name) == names.end())
             names.push_back(name);
     }
@@ -53,9 +54,11 @@ Completion completion_of(const Parameter& parameter) {
     if (placeholder == "CHANNEL,...") {
         out.words = channel_names();
         out.in_list = true;
-    } else if (placeholder == "KEY=VALUE") {
-        out.words = key_names();
+    } else if (placeholder == "KEY=VALUE" || placeholder == "KEY=VALUES" || placeholder == "KEY=FROM:TO") {
+        out.words = key_names("=");
         out.open = true;
+    } else if (placeholder == "PATTERN") {
+        out.words = key_names("");
     } else if (placeholder == "FIGURE") {
         out.words = recipe_names();
     } else if (placeholder == "EXAMPLE") {
@@ -169,10 +172,14 @@ std::string zsh_values(const Completion& c) {
 
 std::string zsh_command(const Command& command) {
     std::string lines;
+    const auto arguments = std::ranges::count_if(command.parameters, [](const Parameter& p) { return !p.is_option(); });
+    int place = 0;
     for (const Parameter& parameter : command.parameters) {
         const std::string meaning = quoted_for_zsh(help_of(parameter)), values = zsh_values(completion_of(parameter));
         if (!parameter.is_option()) {
-            lines += fmt::format(" \\\n                '*:{}:{}'", parameter.names, values);
+            // The last argument may be repeated; zsh accepts only one of that kind.
+            const std::string which = ++place < arguments ? std::to_string(place) : "*";
+            lines += fmt::format(" \\\n                '{}:{}:{}'", which, parameter.names, values);
             continue;
         }
         for (const std::string& spelling : spellings(parameter))
@@ -235,7 +242,10 @@ std::string fish_parameter(const Command& command, const Parameter& parameter) {
     } else if (completion.words.empty()) {
         return "";
     }
-    if (!completion.words.empty()) line += fmt::format(" -a '{}'", fmt::join(completion.words, " "));
+    if (completion.in_list)
+        line += fmt::format(" -a '(__fish_complete_list , \"string split , {}\")'", fmt::join(completion.words, ","));
+    else if (!completion.words.empty())
+        line += fmt::format(" -a '{}'", fmt::join(completion.words, " "));
     return line + "\n";
 }
 

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sstream>
 #include <string>
 
 #include "scenes/commands/commands.hpp"
@@ -34,9 +35,29 @@ TEST(Completion, BashOffersCommandsOptionsAndValues) {
     EXPECT_EQ(completed(folder, "figure s.json ener"), "energy\n");
     EXPECT_EQ(completed(folder, "simulate s.json --channels theta,contact_fo"), "theta,contact_force\n");
     EXPECT_EQ(completed(folder, "run --set cam.ecc"), "cam.eccentricity=\n");
+    EXPECT_EQ(completed(folder, "sweep s.json --over cam.ecc"), "cam.eccentricity=\n");
+    EXPECT_EQ(completed(folder, "keys cam.ecc"), "cam.eccentricity\n");
     EXPECT_EQ(completed(folder, "init --from paper/mod"), "paper/models\n");
     EXPECT_EQ(completed(folder, "cache cl"), "clear\n");
     EXPECT_EQ(completed(folder, "check sce"), "scene.json\n");
+}
+
+// zsh offers nothing for a command with two arguments that may be repeated ("doubled rest argument definition").
+TEST(Completion, ZshHasOneRepeatedArgumentForEachCommand) {
+    std::istringstream script(shell(Folder(), "$BEAMCAM completion zsh").out);
+    std::string line, command;
+    int repeated = 0, commands = 0;
+    while (std::getline(script, line)) {
+        if (line.ends_with(")") && line.starts_with("        ")) {
+            command = line;
+            repeated = 0;
+            ++commands;
+        }
+        if (line.find("'*:") != std::string::npos) {
+            EXPECT_EQ(++repeated, 1) << command << line;
+        }
+    }
+    EXPECT_GT(commands, 20);
 }
 
 TEST(Completion, EveryShellKnowsEveryCommandAndOption) {
