@@ -107,8 +107,12 @@ void LitMechanism::draw_solid(const MechanismScene& s, const std::vector<Color>&
     inside.centre = inside.centre - Vec2{s.at.box.x, s.at.box.y};
     const SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.look.unit, rim);
     renderer_->draw(scene, image_);
-    s.canvas.image_part(image_, static_cast<int>(s.at.box.x), static_cast<int>(s.at.box.y),
-                        {0, 0, s.at.box.w, s.at.box.h});
+    const int x = static_cast<int>(s.at.box.x), y = static_cast<int>(s.at.box.y);
+    DirtyTiles where(s.canvas.image().width, s.canvas.image().height);
+    scene.seen.for_each_run([&](double left, double top, double right, double bottom) {
+        where.add({x + left, y + top, right - left - 1, bottom - top - 1});
+    });
+    s.canvas.image_tiles(image_, x, y, where);
 }
 
 }  // namespace beamcam::render

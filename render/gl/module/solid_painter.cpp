@@ -85,10 +85,12 @@ void SolidPainter::draw(const SolidScene& scene, Image& out) {
     upload(GL_ARRAY_BUFFER, buffer_, scene.mesh.vertices);
     upload(GL_ELEMENT_ARRAY_BUFFER, corners_, scene.mesh.corners);
     glEnable(GL_DEPTH_TEST);
+    glEnable(GL_CULL_FACE);
     glDisable(GL_BLEND);
     draw_depths(scene);
     draw_scene(scene);
     glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
     glEnable(GL_BLEND);
     read(scene.seen, out);
     require_no_error();
@@ -101,6 +103,7 @@ void SolidPainter::draw_depths(const SolidScene& scene) {
     glClear(GL_DEPTH_BUFFER_BIT);
     glUseProgram(depths_);
     set_light(depths_, scene.reach);
+    glFrontFace(GL_CCW);
     draw_triangles(scene.wall, scene.mesh.corners.size());
 }
 
@@ -110,10 +113,8 @@ void SolidPainter::draw_scene(const SolidScene& scene) {
     glViewport(0, 0, width_, height_);
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
     use_program(bodies_, scene);
-    glEnable(GL_CULL_FACE);
     glFrontFace(GL_CW);  // the picture's rows run from top to bottom
     draw_triangles(scene.wall, scene.mesh.corners.size());
-    glDisable(GL_CULL_FACE);
     use_program(wall_, scene);
     set(wall_, "opacity", float(scene.shadow));
     draw_triangles(0, scene.wall);  // after the bodies, so that hidden pixels are not shaded
