@@ -26,9 +26,12 @@ inline constexpr int kMaxNewtonSteps = 60, kMaxHalvings = 20;  // iterations; ha
 inline constexpr double kNewtonDifference = 1e-7;  // of an unknown's magnitude: step of the finite differences
 inline constexpr double kShallowDifference = 0.1;  // of the static penetration: the same in a stiff contact
 inline constexpr double kNewtonConverged = 1e-13;  // of an unknown's magnitude: a converged step
-inline constexpr double kEquilibriumGap = 1e-10;   // of the length: largest gap of a beam that rests on the cam
-inline constexpr double kSeparatedPull = 1e-6;     // of K: the spring that pulls a separated iterate back to the cam
-inline constexpr double kBalanced = 1e-9;          // of the natural forces: largest residual in equilibrium
+// Of the load mgL²/(EI), by which the beam bends: from one equilibrium to the next, up to 7 are followed. A beam that
+// needs more steps than the second number is a chain: 5·10³ of the load.
+inline constexpr double kLoadStep = 5, kMostLoadSteps = 1000;
+inline constexpr double kEquilibriumGap = 1e-10;  // of the length: largest gap of a beam that rests on the cam
+inline constexpr double kSeparatedPull = 1e-6;    // of K: the spring that pulls a separated iterate back to the cam
+inline constexpr double kBalanced = 1e-9;         // of the natural forces: largest residual in equilibrium
 // [rad] of the cam: steps of finite differences of fourth and second order, at which truncation and rounding errors
 // are equal.
 inline constexpr double kFollowingDifference = 5e-3, kLeavingDifference = 1e-5;

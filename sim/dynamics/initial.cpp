@@ -1,5 +1,6 @@
 #include "sim/dynamics/initial.hpp"
 
+#include <Eigen/Cholesky>
 #include <Eigen/Core>
 #include <algorithm>
 #include <cmath>
@@ -117,6 +118,46 @@ bool clamped_equilibrium(System& system, double angle, Eigen::VectorXd& xi) {
     const bool found = newton(residual, x, scale, size);
     xi = x.head(n);
     return found;
+}
+
+// True if a small bend out of the clamped equilibrium ξ costs energy: the second variation of the potential for θ =
+// const, −∂f/∂q with Θ = −h·q, is positive.
+bool is_stable(Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& scale) {
+    const Eigen::Index n = model.size();
+    const Eigen::Map<const Eigen::VectorXd> hub(model.hub_row(), n);
+    Eigen::VectorXd plus(n), minus(n);
+    Eigen::MatrixXd variation(n - 1, n - 1);
+    for (Eigen::Index j = 1; j < n; ++j) {
+        const double step = kNewtonDifference * scale[j];
+        Eigen::VectorXd aside = Eigen::VectorXd::Zero(n);
+        aside[j] = step;
+        aside[0] = -step * hub[j] / hub[0];
+        static_force(model, xi + aside, plus);
+        static_force(model, xi - aside, minus);
+        const Eigen::VectorXd change = (plus - minus) / (2 * step);
+        variation.col(j - 1) = -(change.tail(n - 1) - hub.tail(n - 1) * (change[0] / hub[0]));
+    }
+    return Eigen::LLT<Eigen::MatrixXd>(0.5 * (variation + variation.transpose())).info() == Eigen::Success;
+}
+
+// Calls solve(system) for ever softer beams, from one that bends little to the given one, until one has no solution.
+// Each starts from the solution before, so that a beam that bends far takes the equilibrium that its straight form
+// leads to.                                                                                                     (S90)
+template <class Solve>
+bool soften(const System& given, Solve&& solve) {
+    Problem problem = given.problem();
+    const double length = problem.beam.length, stiffness = problem.beam.youngs_modulus;
+    const double load = problem.beam.model == ModelKind::rigid
+                            ? 0
+                            : force_size(given) * length * length / problem.beam.bending_stiffness();
+    const double steps = std::clamp(std::ceil(load / kLoadStep), 1.0, kMostLoadSteps);
+    for (double step = 1; step < steps; ++step) {
+        problem.beam.youngs_modulus = stiffness * steps / step;
+        System stiffer(problem);
+        if (!solve(stiffer)) return false;
+    }
+    System system(given);
+    return solve(system);
 }
 
 // One instant of a motion in which the beam follows the cam.
@@ -280,8 +321,10 @@ InitialState initial_state(const System& original) {
             xi[0] -= set_shape_coordinates(system, problem.initial.q, xi);
             break;
         case InitialShape::static_equilibrium:
-            if (!clamped_equilibrium(system, xi[0], xi))
+            if (const double angle = xi[0];
+                !soften(original, [&](System& softer) { return clamped_equilibrium(softer, angle, xi); }))
                 throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
+            state.unstable = n > 1 && !is_stable(system.model(), xi, scales(problem, n));
             break;
         case InitialShape::resting: {
             xi = rod_on_cam(system);
@@ -290,8 +333,11 @@ InitialState initial_state(const System& original) {
             system.set_phase(phase);
             const Eigen::VectorXd still = Eigen::VectorXd::Zero(n);
             FollowingState start{xi, still, still};
-            if (!equilibrium_on_cam(system, 0, start))
-                throw StepFailure("no equilibrium of the beam resting on the cam was found");
+            const auto rest = [&](System& softer) {
+                softer.set_phase(phase);
+                return equilibrium_on_cam(softer, 0, start);
+            };
+            if (!soften(original, rest)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
             if (problem.cam->speed != 0) {
                 CamFollowing following(system, start.xi);
                 state.left_behind = !following.find();

@@ -11,8 +11,9 @@ namespace beamcam::sim {
 struct InitialState {
     std::vector<double> y;  // System::size numbers
     Phase phase;
-    bool left_behind =
-        false;  // a resting beam starts from the equilibrium without inertia, because the cam is too fast
+    // A resting beam starts from the equilibrium without inertia, because the cam is too fast.
+    bool left_behind = false;
+    bool unstable = false;  // the static equilibrium: the beam has buckled under its weight
 };
 
 // Throws StepFailure if no equilibrium is found.

@@ -9,10 +9,12 @@ namespace beamcam::sim {
 struct Fallbacks {
     long steps = 0;        // by `method` instead of the exponential collocation
     long handed_over = 0;  // contacts that the collocation could not solve
-    long friction_changes = 0;  // steps in which stick and slip alternate at one instant and the grip was left as it was
+    long friction_changes =
+        0;                 // steps in which stick and slip alternate at one instant and the grip was left as it was
     long strikes = 0;      // taken as plastic because the rebound is below the error of the step
     long coarse = 0;       // steps whose vibration is faster than the touch search resolves
     long left_behind = 0;  // starts at rest on a turning cam where no motion along with it was found
+    long unstable = 0;     // static starts of a beam that has buckled
     long searches = 0;     // for an extremum that were incomplete
     double gap = 0;        // largest magnitude of the gap at an event, subtracted from there on [m]
     Method method = Method::rk8;

@@ -65,7 +65,8 @@ void visit(Archive& a, RunStatistics& s) {
     Counters& c = s.counters;
     Fallbacks& f = s.fallbacks;
     a(c.steps), a(c.rejected), a(c.rhs_evaluations), a(c.gap_evaluations), a(c.jacobians), a(s.floored), a(s.chatters);
-    a(f.steps), a(f.handed_over), a(f.friction_changes), a(f.strikes), a(f.coarse), a(f.left_behind), a(f.gap), a(f.method);
+    a(f.steps), a(f.handed_over), a(f.friction_changes), a(f.strikes), a(f.coarse), a(f.left_behind), a(f.unstable),
+        a(f.gap), a(f.method);
 }
 
 template <class Archive>

@@ -79,6 +79,10 @@ void warn_of_fallbacks(const Problem& problem, const Result& result, const RunSt
         out.push_back(
             "no motion was found in which the resting beam follows the turning cam: it starts from the equilibrium "
             "without inertia and may leave the cam");
+    if (f.unstable > 0)
+        out.push_back(
+            "the static equilibrium at the start is unstable, since the beam buckles under its weight: the smallest "
+            "disturbance makes it fall");
     if (f.friction_changes > 0)
         out.push_back(fmt::format(
             "in {} the friction alternated between stick and slip at one instant and kept its state: tighten "

@@ -28,11 +28,12 @@ Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Val
 
 SectionMap BranchArc::map(double share) const {
     const double p = request_.from + share * (request_.to - request_.from);
-    return {for_orbits(family_(p)), like_.section, turns_, like_.start, scale_.units, scale_.size};
+    const Progress poll = [progress = progress_, p](double) { return !progress || progress(p); };
+    return {for_orbits(family_(p)), like_.section, turns_, like_.start, scale_, poll};
 }
 
 BranchArc BranchArc::recentred(const BranchPoint& point) const {
-    return {family_, request_, sim::recentred(family_(point.parameter), point.orbit), turns_, scale_};
+    return {family_, request_, sim::recentred(family_(point.parameter), point.orbit), turns_, scale_, progress_};
 }
 
 Eigen::VectorXd BranchArc::place(const BranchPoint& point) const {

@@ -20,10 +20,10 @@ struct ArcPoint {
 
 class BranchArc {
   public:
-    // The orbits have the section and the phase of `like`.
+    // The orbits have the section and the phase of `like`. `progress` receives the parameter.
     BranchArc(const Family& family, const ContinuationRequest& request, const PeriodicOrbit& like, int turns,
-              const SectionScale& scale)
-        : family_(family), request_(request), like_(like), turns_(turns), scale_(scale) {}
+              const SectionScale& scale, const Progress& progress)
+        : family_(family), request_(request), like_(like), turns_(turns), scale_(scale), progress_(progress) {}
 
     double parameter(const Eigen::VectorXd& z) const {
         return request_.from + z[z.size() - 1] * (request_.to - request_.from);
@@ -51,6 +51,7 @@ class BranchArc {
     PeriodicOrbit like_;
     int turns_;
     SectionScale scale_;
+    Progress progress_;
 };
 
 }  // namespace beamcam::sim

@@ -252,7 +252,7 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
         Continuation(arc, request, progress).follow(std::move(at), branch, branch.last_end);
     };
     {
-        const BranchArc arc(family, request, start.orbit, start.orbit.turns, scale);
+        const BranchArc arc(family, request, start.orbit, start.orbit.turns, scale, progress);
         const Eigen::Index n = scale.units.size();
         const auto first = arc.correct(arc.place(start), Eigen::VectorXd::Unit(n + 1, n));
         if (!first) return {};
@@ -262,8 +262,8 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
         const std::vector<SpecialPoint> special = branches[i].special;
         for (const SpecialPoint& point : special) {
             if (point.change != OrbitChange::period_doubling) continue;
-            const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale);
-            const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale);
+            const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale, progress);
+            const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale, progress);
             if (auto at = doubled(once, twice, point, kDoubledShift)) run(twice, *at, false, branches.emplace_back());
         }
     }

@@ -96,7 +96,7 @@ std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& 
     for (int turns = 1; turns <= last; ++turns) {
         if (turns > 1) map = flow_map(here, map.end, cam_period(problem), false, progress);
         if (turns < first || (request.turns == 0 && (y_of(map.end) - start).norm() > kReturn * size)) continue;
-        const SectionMap section(problem, place.section, turns, place.state, units, size);
+        const SectionMap section(problem, place.section, turns, place.state, {units, size}, progress);
         if (auto orbit = newton_quietly(section, start / size); orbit && !repeats(*orbit)) return orbit;
     }
     return std::nullopt;

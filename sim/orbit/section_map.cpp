@@ -33,16 +33,17 @@ SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit) {
     return {map.units, size_of(problem, map, map.units.cwiseProduct(state))};
 }
 
-SectionMap::SectionMap(const Problem& problem, double section, int turns, InitialState like, Eigen::VectorXd units,
-                       double size)
+SectionMap::SectionMap(const Problem& problem, double section, int turns, InitialState like, const SectionScale& scale,
+                       Progress progress)
     : problem_(at_section(problem, section)),
       section_(section),
       cam_phase_(section_phase(problem, section)),
       period_(turns * cam_period(problem)),
-      size_(size),
+      size_(scale.size),
       turns_(turns),
       like_(std::move(like)),
-      units_(std::move(units)) {
+      units_(scale.units),
+      progress_(std::move(progress)) {
     std::fill(like_.y.begin() + units_.size(), like_.y.end(), 0.0);
 }
 
@@ -54,7 +55,7 @@ SectionMap::Value SectionMap::at(const Eigen::VectorXd& y, bool derivative) cons
     InitialState start = like_;
     Eigen::Map<Eigen::VectorXd>(start.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
     Value value;
-    value.map = flow_map(problem_, start, period_, derivative);
+    value.map = flow_map(problem_, start, period_, derivative, progress_);
     value.image = scaled(value.map.end);
     if (derivative) value.derivative = units_.asDiagonal() * value.map.derivative * units_.cwiseInverse().asDiagonal();
     return value;
@@ -76,7 +77,7 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
         orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach, touch.x, touch.overhang});
     Eigen::MatrixXd derivative = value.derivative;
     if (like_.phase.held)  // only neighbouring states on the cam
-        derivative = flow_map(problem_, orbit.start, period_, true, {}, StartOnCam::kept).derivative;
+        derivative = flow_map(problem_, orbit.start, period_, true, progress_, StartOnCam::kept).derivative;
     const Eigen::VectorXcd multipliers = eigenvalues(derivative);
     orbit.multipliers.assign(multipliers.begin(), multipliers.end());
     std::stable_sort(orbit.multipliers.begin(), orbit.multipliers.end(),

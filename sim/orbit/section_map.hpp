@@ -8,12 +8,18 @@
 
 namespace beamcam::sim {
 
-// States are scaled: multiplied by `units` and divided by `size`.
+// Scale of the states near an orbit.
+struct SectionScale {
+    Eigen::VectorXd units;
+    double size = 1;
+};
+
+// States are scaled: multiplied by `units` and divided by `size`. Functions throw SolverError, Interrupted.
 class SectionMap {
   public:
-    // `like` supplies the phase and the remaining state variables.
-    SectionMap(const Problem& problem, double section, int turns, InitialState like, Eigen::VectorXd units,
-               double size);
+    // `like` supplies the phase and the remaining state variables. `progress` may interrupt each evaluation.
+    SectionMap(const Problem& problem, double section, int turns, InitialState like, const SectionScale& scale,
+               Progress progress);
     struct Value {
         Eigen::VectorXd image;
         Eigen::MatrixXd derivative;  // empty if not requested
@@ -30,13 +36,9 @@ class SectionMap {
     int turns_;
     InitialState like_;
     Eigen::VectorXd units_;
+    Progress progress_;
 };
 
-// Scale of the states near an orbit.
-struct SectionScale {
-    Eigen::VectorXd units;
-    double size = 1;
-};
 SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit);
 
 // The problem with tight tolerances, with which Newton's method converges to rounding.

@@ -73,6 +73,7 @@ void Run::start() {
     const InitialState initial = start_ ? *start_ : initial_state(dynamics_);
     state_.y = initial.y;
     state_.statistics.fallbacks.left_behind = initial.left_behind;
+    state_.statistics.fallbacks.unstable = initial.unstable;
     state_.phase = initial.phase;
     transitions_.enter_phase();
     started_ = true;

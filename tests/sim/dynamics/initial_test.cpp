@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numbers>
 #include <optional>
 
 #include "tests/sim/support.hpp"
@@ -73,6 +74,59 @@ TEST(Equilibrium, ThatDoesNotExistIsNotFoundInABeamOfAMillimetre) {
     // Too soft to rest on the cam.
     for (const double size : {1.0, 1e-3, 1e2})
         EXPECT_FALSE(equilibrium(ModelKind::first_order, InitialShape::resting, 1e5, size).has_value()) << size;
+}
+
+// A beam without a cam, on a hub held at this angle; load: mgL²/(EI).
+Problem held_beam(ModelKind kind, int modes, double load, double angle) {
+    Problem p;
+    p.beam.model = kind;
+    p.beam.modes = modes;
+    p.beam.youngs_modulus = p.beam.line_density() * p.gravity / (load * p.beam.second_moment);  // L = 1 m
+    p.cam.reset();
+    p.hub.drive = ConstantSpeed{};
+    p.initial.shape = InitialShape::static_equilibrium;
+    p.initial.angle = angle;
+    return p;
+}
+
+double tip_deflection(const Model& model) {
+    BeamPoint tip, root;
+    model.point(model.length(), tip);
+    model.point(0, root);
+    return dot(tip.r - root.r, perp(unit(model.hub_angle())));
+}
+
+// Tip deflections over the length by shooting: EI ψ″ = ρAg(L − s) cos ψ, ψ(0) = θ, ψ′(L) = 0, integrated to 1e-12; of
+// several solutions the one that grows out of the straight beam, whose bending moment has one sign.
+TEST(Equilibrium, OfASoftBeamIsTheOneThatItsStraightFormLeadsTo) {
+    struct Reference {
+        double load, angle, tip;
+    };
+    for (const auto& [load, angle, tip] : {Reference{17.4732206, 0.7, -0.8807306777},
+                                           {17.4732206, 1.0, -0.8554404362},
+                                           {17.4732206, 1.4, -0.7903889026},
+                                           {34.946, 0.7, -0.8528044336},
+                                           {116.488, 0, -0.9424482264}})
+        for (const int modes : {12, 20}) {
+            Problem p = held_beam(ModelKind::exact, modes, load, angle);
+            System system(p);
+            const InitialState state = initial_state(system);
+            system.set_state(0, state.y.data());
+            EXPECT_FALSE(state.unstable) << load << " " << angle;
+            // Twelve shapes leave 1e-5 of a beam whose bend is concentrated at its root.
+            EXPECT_NEAR(tip_deflection(system.model()), tip, modes == 20 ? 1e-7 : 2e-4) << load << " " << angle;
+        }
+}
+
+// An upright beam buckles under its weight at mgL²/(EI) = 7.837347 (Greenhill 1881).
+TEST(Equilibrium, OfAnUprightBeamIsStableBelowGreenhillsLoad) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
+        for (const int modes : {8, 20, 40}) {
+            const double upright = 0.5 * std::numbers::pi;
+            EXPECT_FALSE(initial_state(held_beam(kind, modes, 7.83, upright)).unstable) << name(kind) << modes;
+            EXPECT_TRUE(initial_state(held_beam(kind, modes, 7.85, upright)).unstable) << name(kind) << modes;
+            EXPECT_FALSE(initial_state(held_beam(kind, modes, 0.0035, 0.7)).unstable) << name(kind) << modes;
+        }
 }
 
 // The problem whose motion begins where the given one is at an instant in flight. Rates of the shapes are differences
