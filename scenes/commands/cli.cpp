@@ -138,9 +138,10 @@ int parse_and_run(int argc, const char* const* argv) {
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {  // --help, --version
-        for (const auto& [option, parameter] : parsers.key_options) option->description(help_of(*parameter));
+        if (dynamic_cast<const CLI::CallForHelp*>(&success))
+            for (const auto& [option, parameter] : parsers.key_options) option->description(help_of(*parameter));
         app.exit(success, std::cout, std::cerr);
-        std::cout.flush();
+        output::flush_data();
         return kDone;
     } catch (const CLI::ParseError& error) {
         std::string name;

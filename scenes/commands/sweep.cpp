@@ -77,7 +77,8 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
     const double step = counted ? 0 : signed_argument(option, third, dimension);
     const double count = counted ? output::number_in<int>(third).value_or(0)
                                  : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
-    if (!(count >= 1 && count <= 1e8))
+    const double fewest = counted || over.from == over.to ? 1 : 2;  // a step within the range leads to a second value
+    if (!(count >= fewest && count <= 1e8))
         throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, parts[2],
                                      counted ? "number of values" : "step", parts[0], parts[1]));
     if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away

@@ -250,6 +250,12 @@ TEST(CommandLine, UnreadMessagesChangeNothing) {
     EXPECT_GT(std::filesystem::file_size(folder / "t.csv"), 100u);
 }
 
+TEST(CommandLine, HelpThatCannotBeWrittenIsAnError) {
+    const Folder folder;
+    for (const char* option : {"--help", "--version", "run --help", "keys"})
+        EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM {} >/dev/full", option)).code, 6) << option;
+}
+
 TEST(CommandLine, ProgressForProgramsIsAnObjectALine) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory"}]})");

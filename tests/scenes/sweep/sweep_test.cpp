@@ -194,6 +194,7 @@ TEST(SweepCommand, RefusesInWords) {
           {"--over cam.speed=40:44:1:log", 2, "one value cannot have two ends"},
           {"--over cam.speed=40:44:0", 2, "0 is not a step"},
           {"--over cam.speed=44:40:1", 2, "1 is not a step"},
+          {"--over cam.speed=40:44:1e9", 2, "1e9 is not a step"},
           {"--over cam.speed=40:44:0n", 2, "0 is not a number of values"},
           {"--over cam.speed=40:44:-3n", 2, "is not a number of values"},
           {"--over cam.speed=0:44:3:log", 2, "log"},
