@@ -338,6 +338,9 @@ std::string xml(std::string_view text) {
             case '>':
                 out += "&gt;";
                 break;
+            case '"':
+                out += "&quot;";
+                break;
             default:
                 out += c;
         }

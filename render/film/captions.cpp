@@ -250,9 +250,9 @@ class Captions {
     }
 
     // To the right of the cam, below the horizontal, where neither beam nor force arrow come, with space below for
-    // captions that appear while it is visible.
+    // captions that appear while it is visible. A near camera sees the bodies everywhere: there it is at the contact.
     Box first_plate(const Callout& callout) const {
-        const auto& cam = s.at.problem().cam;
+        const auto& cam = s.at.moved ? std::nullopt : s.at.problem().cam;
         const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
         const Vec2 from = cam ? s.px(s.pose.cam_centre) : contact_foot();
         const Caption caption = caption_of(callout, {from.x + swept + 60 * u, from.y + 26 * u});
