@@ -721,8 +721,9 @@ TEST(Films, ATitleThatDoesNotFitIsTold) {
     const std::string run = "$BEAMCAM run s.json --force --set 'title=";
     const std::string words = "a beam of aluminium falls on a cam ";  // 35 letters
     EXPECT_THAT(shell(folder, run + words + words + words + "'").err, ::testing::Not(HasSubstr("title")));
-    EXPECT_THAT(shell(folder, run + words + words + words + words + words + words + "'").err,
-                HasSubstr("warning: a.png shows only the beginning of the title: 320 × 180"));
+    EXPECT_THAT(
+        shell(folder, run + words + words + words + words + words + words + words + words + words + words + "'").err,
+        HasSubstr("warning: a.png shows only the beginning of the title: 320 × 180"));
 }
 
 // ---- colours of a GIF --------------------------------------------------------------------------

@@ -159,7 +159,7 @@ TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
     add_omitted_text(p, scene);
     EXPECT_THAT(
         to_text(p, scene),
-        HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10^8 N m^−1.5, c = 0.7; "
+        HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10⁸ N m^−1.5, c = 0.7; "
                   "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
                   "  simulation from 0 s"));
 }

@@ -139,7 +139,7 @@ class PropertyOfProblems : public ::testing::TestWithParam<Trial> {
 
 constexpr double kEnd = 0.12;  // [s]: a few impacts, before sensitivity has made 1e-8 into 1e-5
 // Difference of θ [rad] after kEnd between two computations of one motion: rtol = 1e-8, amplified by impacts.
-constexpr double kSame = 2e-6;
+constexpr double kSameResult = 2e-6;
 
 double theta_at(const Problem& p, double t) { return series(p, "theta", {t})[0]; }
 
@@ -230,7 +230,7 @@ TEST_P(PropertyOfProblems, FrictionCannotMoveARigidRodThroughItsHinge) {
                 if (i.x > 0.999 * p.beam.length) return std::nullopt;  // at the tip t is not radial
             const double without = theta_at(p, kEnd);
             p.contact.friction = CoulombFriction{0.5, 1e-3};
-            return differ("theta", theta_at(p, kEnd), without, kSame);
+            return differ("theta", theta_at(p, kEnd), without, kSameResult);
         },
         0.5);
 }
@@ -292,7 +292,7 @@ TEST_P(PropertyOfProblems, TheMirroredProblemHasTheMirroredMotion) {
                 m.hub.drive = ConstantTorque{-torque->value};
             const Result there = run(p, kEnd);
             if (grazing(there)) return std::nullopt;
-            if (auto wrong = differ("theta", theta_at(m, kEnd), std::numbers::pi - theta_at(p, kEnd), kSame))
+            if (auto wrong = differ("theta", theta_at(m, kEnd), std::numbers::pi - theta_at(p, kEnd), kSameResult))
                 return wrong;
             return differ("impacts", static_cast<double>(run(m, kEnd).impacts.size()),
                           static_cast<double>(there.impacts.size()), 0);
@@ -329,7 +329,7 @@ TEST_P(PropertyOfProblems, ScaledLengthMassAndTimeScaleTheMotion) {
             s.gravity *= l / (t * t);
             s.initial.angular_velocity /= t;
             if (grazing(run(p, kEnd))) return std::nullopt;
-            return differ("theta", theta_at(s, t * kEnd), theta_at(p, kEnd), kSame);
+            return differ("theta", theta_at(s, t * kEnd), theta_at(p, kEnd), kSameResult);
         },
         0.5);
 }
@@ -350,7 +350,7 @@ TEST_P(PropertyOfProblems, ARigidRodStartedAgainInFlightGoesOnTheSame) {
             later.cam->phase = p.cam->phase - p.cam->speed * middle;
             // A new start drops the approach speed of the collision's first touch.
             if (p.contact.approach_floor.policy == ApproachFloorPolicy::first_touch) later.contact.approach_floor = {};
-            return differ("theta", theta_at(later, kEnd - middle), theta_at(p, kEnd), kSame);
+            return differ("theta", theta_at(later, kEnd - middle), theta_at(p, kEnd), kSameResult);
         },
         0.5);
 }
