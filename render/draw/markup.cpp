@@ -338,9 +338,6 @@ std::string xml(std::string_view text) {
             case '>':
                 out += "&gt;";
                 break;
-            case '"':
-                out += "&quot;";
-                break;
             default:
                 out += c;
         }

@@ -110,7 +110,7 @@ TEST(Page, StandsAloneAndItsTitleIsText) {
     const std::string page = render::html_page(setup_until(0.05, 500));
     for (const char* outside : {"http:", "https:", "src=", "@import", "url("})
         EXPECT_THAT(page, Not(HasSubstr(outside)));
-    EXPECT_THAT(page, HasSubstr("<title>a &lt;/script&gt; &amp; &quot;b&quot;</title>"));
+    EXPECT_THAT(page, HasSubstr("<title>a &lt;/script&gt; &amp; \"b\"</title>"));
     EXPECT_EQ(data_of(page)["title"], "a </script> & \"b\"");
     EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
 }
