@@ -62,7 +62,9 @@ TEST(ParameterLine, TheFirstPiecesStandBesideAShortTitle) {
     for (std::size_t i = 0; i < beside.pieces.size(); ++i) {
         const ParameterLine::Piece& piece = beside.pieces[i];
         EXPECT_LE(piece.baseline.x + with.canvas.measure(piece.markup, {.size = beside.size}).w, 500);
-        if (i > 0) EXPECT_GE(piece.baseline.y, beside.pieces[i - 1].baseline.y);  // in reading order
+        if (i > 0) {  // in reading order
+            EXPECT_GE(piece.baseline.y, beside.pieces[i - 1].baseline.y);
+        }
     }
 }
 
