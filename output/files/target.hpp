@@ -11,6 +11,7 @@ namespace beamcam::output {
 
 struct Target {
     template <typename Path>
+    // NOLINTNEXTLINE(bugprone-forwarding-reference-overload): a target is no path, so it never hides a copy.
     requires std::convertible_to<Path, std::filesystem::path> Target(Path&& file)
         : path(std::forward<Path>(file)) {}  // implicit: a path is a target
 

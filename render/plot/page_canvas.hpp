@@ -43,7 +43,7 @@ class PageCanvas : public Painter {
   public:
     // Throws PictureError for a size that no surface can have, FontError later for missing glyphs.
     PageCanvas(Medium medium, const Paper& paper, const Fonts& fonts, const Document& document = {});
-    ~PageCanvas() noexcept(false);
+    ~PageCanvas() noexcept(false) override;
 
     Color shown(Color color) const { return recolor_ ? recolor_(color) : color; }  // on this paper
     double grain() const;  // the smallest distance that shows [pt]

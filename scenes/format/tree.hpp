@@ -22,8 +22,8 @@ class Members {
     Member* find(std::string_view key);
     Member& add(Member member);  // at the end; `find` returns the first of equal keys
 
-    const Member& back() const { return all_.back(); }
-    std::size_t size() const { return all_.size(); }
+    const Member& back() const;
+    std::size_t size() const;
     bool empty() const { return all_.empty(); }
     auto begin() const { return all_.begin(); }
     auto end() const { return all_.end(); }
@@ -56,6 +56,9 @@ struct Member {
     Place key_place;
     Node value;
 };
+
+inline const Member& Members::back() const { return all_.back(); }
+inline std::size_t Members::size() const { return all_.size(); }
 
 // Nodes without a position.
 Node number_node(double value);

@@ -150,8 +150,8 @@ bool soften(const System& given, Solve&& solve) {
     const double load = problem.beam.model == ModelKind::rigid
                             ? 0
                             : force_size(given) * length * length / problem.beam.bending_stiffness();
-    const double steps = std::clamp(std::ceil(load / kLoadStep), 1.0, kMostLoadSteps);
-    for (double step = 1; step < steps; ++step) {
+    const auto steps = static_cast<int>(std::clamp(std::ceil(load / kLoadStep), 1.0, kMostLoadSteps));
+    for (int step = 1; step < steps; ++step) {
         problem.beam.youngs_modulus = stiffness * steps / step;
         System stiffer(problem);
         if (!solve(stiffer)) return false;
