@@ -3,7 +3,9 @@
 
 namespace beamcam::sim {
 
-inline constexpr int kShapePlaces = 101;  // points of a natural mode: a polyline of 20 waves looks smooth
+inline constexpr int kShapePlaces = 101;        // points of a natural mode: a polyline of 20 waves looks smooth
+inline constexpr int kPlacesPerWave = 32;       // where natural modes are evaluated for their largest values
+inline constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd of a half wave apart: 1.0012
 inline constexpr double kUncoupledDamping =
     1e-9;                                     // of the largest entry of C_d: smaller off-diagonal ones are rounding
 inline constexpr double kLostInertia = 1e-9;  // of the straight beam's inertia: anything less counts as not positive

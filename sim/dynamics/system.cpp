@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <mutex>
 
 #include "sim/base/assert.hpp"
+#include "sim/beam/natural_modes.hpp"
 #include "sim/dynamics/constants.hpp"
 
 namespace beamcam::sim {
@@ -17,9 +19,21 @@ NormalLaw normal_law_of(const Problem& problem) {
 
 }  // namespace
 
+struct System::SharedModes {
+    std::once_flag once;
+    std::unique_ptr<const NaturalModes> modes;
+};
+
+const NaturalModes& System::natural_modes() const {
+    std::call_once(natural_modes_->once,
+                   [this] { natural_modes_->modes = std::make_unique<NaturalModes>(*model_, problem_); });
+    return *natural_modes_->modes;
+}
+
 System::System(const Problem& problem)
     : problem_(problem),
       model_(make_model(problem)),
+      natural_modes_(std::make_shared<SharedModes>()),
       drive_(problem.hub.drive, problem.initial.angle),
       law_(normal_law_of(problem)),
       friction_(FrictionLaw::of(problem, law_, model_->mass())),
@@ -39,6 +53,7 @@ System::System(const System& other)
     : Ode(other),
       problem_(other.problem_),
       model_(other.model_->clone()),
+      natural_modes_(other.natural_modes_),
       drive_(other.drive_),
       law_(other.law_),
       friction_(other.friction_),

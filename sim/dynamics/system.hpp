@@ -19,6 +19,8 @@
 
 namespace beamcam::sim {
 
+struct NaturalModes;
+
 // The integrals of the energy balance (S38).
 enum Ledger : int {
     kLossStructural,
@@ -95,6 +97,8 @@ class System final : public Ode {
     // The same after `set_state`, in flight or with the contact forces of `c`.
     void current_acceleration(double t, const ContactState& c, double* acc);
 
+    // Computed when first needed, and shared by copies.
+    const NaturalModes& natural_modes() const;
     double highest_frequency() const { return highest_frequency_; }
     double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]
 
@@ -124,8 +128,11 @@ class System final : public Ode {
     void require_inertia(double* f);  // the same, but throws InertiaLost
     EnergyBalance mechanical_balance(double t, const double* y);
 
+    struct SharedModes;
+
     Problem problem_;
     std::unique_ptr<Model> model_;
+    std::shared_ptr<SharedModes> natural_modes_;
     DriveLaw drive_;
     NormalLaw law_;
     FrictionLaw friction_;

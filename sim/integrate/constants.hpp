@@ -33,12 +33,9 @@ inline constexpr double kMostDampingInLanes = 0.5;  // the largest ζ of oscilla
 inline constexpr double kSeriesRadians = 2;         // [rad], or decays, up to which responses come from their series
 // The nodes do not resolve vibration that turns by more radians, or decays by more, in a step.
 inline constexpr double kResolvedRadians = 3;
-inline constexpr int kPlacesPerWave = 32;       // where shapes are evaluated for their largest values
-inline constexpr double kBetweenPlaces = 1.05;  // a sine between places a 32nd of a half wave apart: 1.0012
 // Bounds within a step.
-inline constexpr double kNodeOvershoot = 1.5;        // largest value of a polynomial over that at the nodes
-inline constexpr double kFarthestFromNode = 0.1;     // of the step: no instant is farther from the nearest node
-inline constexpr double kVibrationRounding = 1e-11;  // of the speed of the beam's points: slower is negligible
+inline constexpr double kNodeOvershoot = 1.5;     // largest value of a polynomial over that at the nodes
+inline constexpr double kFarthestFromNode = 0.1;  // of the step: no instant is farther from the nearest node
 
 // ---- iterations ----
 inline constexpr int kMostSweeps = 12;         // in flight: at a contraction of a half a step half as long is cheaper

@@ -84,13 +84,11 @@ const MotionBounds* ExponentialSegment::bounds() const {
     MotionBounds& b = bounds_;
     b = {};
     VibrationBounds sum;
-    double speeds[kMaxModes];
     for (std::size_t g = 0; g < form_->groups.size(); ++g) find_largest(g);
     for (std::size_t i = 0; i < n_; ++i) {
         const auto& [force, amplitude, speed] = largest_[i];
         const Oscillator& o = form_->oscillators[i];
         sum.add(*form_, i, {amplitude, speed, o.omega * o.omega * amplitude + force + 2 * o.gamma * speed});
-        speeds[i] = form_->shape[i] * speed;
     }
     double low = theta_dot[0], high = theta_dot[0];
     for (int k = 1; k < kNodes; ++k) {
@@ -105,10 +103,6 @@ const MotionBounds* ExponentialSegment::bounds() const {
     b.theta_dot = std::max(std::fabs(low), std::fabs(high));
     b.theta_ddot = form_->prescribed ? 4 * (high - low) / h
                                      : std::max(2 * largest(p_dot) / form_->J, hub_acceleration(sum, b.theta_dot));
-    const double whole = b.theta_dot * (std::fabs(form_->radius) + form_->length) + sum.deflection.rate;
-    double faster = 0;
-    for (std::size_t i = n_; i-- > 0 && b.fastest == 0;)
-        if ((faster += speeds[i]) > kVibrationRounding * whole) b.fastest = form_->oscillators[i].omega;
     bound_points(sum, b);
     b.rate_low = low - sum.turn_rate;
     b.rate_high = high + sum.turn_rate;
@@ -142,63 +136,116 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
     b.slope_speed = std::max(sum.slope_speed, sum.slope_rate * (1 + sum.slope));
 }
 
+void ModalBounds::Mode::set_frequencies(double jerk) {
+    const auto frequency = [](double largest, double first, double second) {
+        return largest > 0 ? std::max(first / largest, std::sqrt(second / largest)) : 0;
+    };
+    q_frequency = frequency(amplitude, rate, acceleration);
+    rate_frequency = frequency(rate, acceleration, jerk);
+}
+
 // Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
-// by those of its Legendre polynomials, and the largest vibration √(x² + (ẋ/ω)²) at the nodes, x = q − f/ω².
+// by those of its Legendre polynomials, and x = q − f/ω² and ẋ at the start and the nodes.
 struct ExponentialSegment::ForcingBounds {
-    Lanes mean, range{}, rate{}, second{}, vibration{};
+    Lanes mean{}, range{}, rate{}, second{};
+    Lanes x[kPoints] = {}, dx[kPoints] = {};
 };
 
 ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t g, const Lanes* legendre) const {
+    const Collocation& gauss = Collocation::get();
     const OscillatorLanes& group = form_->groups[g];
-    ForcingBounds out{.mean = legendre[0]};
+    ForcingBounds out;
+    out.mean = legendre[0];
     for (int j = 1; j < kNodes; ++j) {
         const Lanes c = magnitude(legendre[j]);
         out.range += c;
         out.rate += c * j * (j + 1) / h;
         out.second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
     }
-    Lanes slope[kNodes];
-    lane_kernels().combine(Collocation::get().slope_at.data(), lanes_f_.data() + g * kNodes, slope);
-    const Lanes per_square = 1 / group.square, per_omega = 1 / group.omega, per_step = 1 / (h * group.square);
-    for (std::size_t k = 0; k < kNodes; ++k) {
-        const Lanes x = lanes_q_[g * kPoints + k + 1] - per_square * lanes_f_[g * kNodes + k],
-                    dx = per_omega * (lanes_v_[g * kPoints + k + 1] - per_step * slope[k]);
-        out.vibration = larger(out.vibration, x * x + dx * dx);
+    const Lanes* forcing = lanes_f_.data() + g * kNodes;
+    Lanes value[kPoints] = {}, slope[kPoints] = {};
+    for (std::size_t l = 0; l < kNodes; ++l) {
+        value[0] += gauss.derive[0][0][static_cast<int>(l)] * forcing[l];
+        slope[0] += gauss.derive[0][1][static_cast<int>(l)] * forcing[l];
+        value[l + 1] = forcing[l];
     }
-    for (int lane = 0; lane < kNodes; ++lane) out.vibration[lane] = std::sqrt(out.vibration[lane]);
+    lane_kernels().combine(gauss.slope_at.data(), forcing, slope + 1);
+    const Lanes per_square = 1 / group.square, per_step = 1 / (h * group.square);
+    for (std::size_t k = 0; k < kPoints; ++k) {
+        out.x[k] = lanes_q_[g * kPoints + k] - per_square * value[k];
+        out.dx[k] = lanes_v_[g * kPoints + k] - per_step * slope[k];
+    }
     return out;
 }
 
-// The vibration x about f/ω² is driven by −(f″ + 2γf′)/ω² and so changes its amplitude between two nodes by at most
-// (|f″| + 2γ|f′|)/ω³ times half their distance.                                                           (S59)
+// Bounds of x = q − f/ω², ẋ and ẍ. It is driven by g = −(f″ + 2γf′)/ω². From a point on, √(x² + (ẋ/ω)²) grows by at
+// most |g|/ω times the time; it is the same in both directions without damping. In two decays r₁ < r₂ the fast one is
+// u = ẋ + r₁x with u̇ = −r₂u + g.                                                                          (S59)
+ExponentialSegment::Swing ExponentialSegment::swing_of(std::size_t i, const ForcingBounds& forcing) const {
+    const int lane = static_cast<int>(i % kNodes);
+    const Oscillator& o = form_->oscillators[i];
+    const double driven = (forcing.second[lane] + 2 * o.gamma * forcing.rate[lane]) / (o.omega * o.omega);
+    Swing out;
+    if (!decays(o)) {
+        double square = 0;
+        for (std::size_t k = o.gamma > 0 ? 0 : 1; k < kPoints; ++k) {
+            const double x = forcing.x[k][lane], dx = forcing.dx[k][lane] / o.omega;
+            square = std::max(square, x * x + dx * dx);
+        }
+        const double time = (o.gamma > 0 ? 2 * kFarthestFromNode : kFarthestFromNode) * h;
+        out.value = std::sqrt(square) + time * driven / o.omega;
+        out.rate = o.omega * out.value;
+        out.second = (o.omega * o.omega + 2 * o.gamma * o.omega) * out.value + driven;
+        out.fast = out.value;
+        out.fast_rate = out.rate;
+        out.frequency = o.omega + 2 * o.gamma;
+        return out;
+    }
+    const Decays d = decays_of(o);
+    const double time = 2 * kFarthestFromNode * h;
+    double started = 0;  // |u| at a point
+    for (std::size_t k = 0; k < kPoints; ++k) {
+        out.value = std::max(out.value, std::fabs(forcing.x[k][lane]));
+        started = std::max(started, std::fabs(forcing.dx[k][lane] + d.slow * forcing.x[k][lane]));
+    }
+    const double memory = std::min(time, 1 / d.fast), lasting = driven * memory, fast = started + lasting;
+    out.value += started * memory + lasting * time;
+    out.rate = fast + d.slow * out.value;
+    out.second = d.fast * fast + driven + d.slow * out.rate;
+    const bool resolved = d.slow * h < kResolvedRadians;
+    out.fast = resolved ? fast / d.apart() : out.value;
+    out.fast_rate = resolved ? fast * d.fast / d.apart() : out.rate;
+    out.frequency = d.fast;
+    return out;
+}
+
+// q = x + f/ω².
 ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const ForcingBounds& forcing) const {
     const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
     const double force = largest_[i].force, square = o.omega * o.omega, force_rate = forcing.rate[lane];
     ModalBounds::Mode mode;
-    mode.amplitude = largest_[i].amplitude;
-    mode.rate = largest_[i].rate;
+    mode.amplitude = mode.swing = largest_[i].amplitude;
+    mode.rate = mode.swing_rate = largest_[i].rate;
+    mode.swing_frequency = o.omega;
     mode.acceleration = square * mode.amplitude + force + 2 * o.gamma * mode.rate;
     mode.low = -mode.amplitude;
     mode.high = mode.amplitude;
-    if (o.omega > 0 && !decays(o)) {
-        const double decay = o.gamma > 0 ? std::exp(o.gamma * kFarthestFromNode * h) : 1;
-        const double driven =
-            kFarthestFromNode * h * (forcing.second[lane] + 2 * o.gamma * force_rate) / (square * o.omega);
-        const double swing = forcing.vibration[lane] * decay + driven;
-        // q̇ = ḟ/ω² + ẋ and q̈ + 2γq̇ = −ω²x.
-        const double mean = forcing.mean[lane] / square, range = forcing.range[lane] / square + swing;
+    if (o.omega > 0) {
+        const Swing x = swing_of(i, forcing);
+        const double mean = forcing.mean[lane] / square, range = forcing.range[lane] / square + x.value;
         mode.low = std::max(mode.low, mean - range);
         mode.high = std::min(mode.high, mean + range);
-        mode.rate = std::min(mode.rate, o.omega * swing + force_rate / square);
-        mode.acceleration = std::min(mode.acceleration, square * swing + 2 * o.gamma * mode.rate);
+        mode.amplitude = std::min(mode.amplitude, std::max(-mode.low, mode.high));
+        mode.rate = std::min(mode.rate, x.rate + force_rate / square);
+        // q̈ + 2γq̇ = −ω²x, or ẍ + f″/ω².
+        mode.acceleration = std::min(
+            {mode.acceleration, square * x.value + 2 * o.gamma * mode.rate, x.second + forcing.second[lane] / square});
+        mode.swing = std::min(2 * mode.amplitude, x.fast);
+        mode.swing_rate = x.fast_rate;
+        mode.swing_frequency = x.frequency;
     }
-    const auto frequency = [](double largest, double first, double second) {
-        return largest > 0 ? std::max(first / largest, std::sqrt(second / largest)) : 0;
-    };
-    const double jerk = square * mode.rate + force_rate + 2 * o.gamma * mode.acceleration;
-    mode.q_frequency = frequency(mode.amplitude, mode.rate, mode.acceleration);
-    mode.rate_frequency = frequency(mode.rate, mode.acceleration, jerk);
+    mode.set_frequencies(square * mode.rate + force_rate + 2 * o.gamma * mode.acceleration);
     return mode;
 }
 
@@ -219,7 +266,6 @@ double ExponentialSegment::missed_power(std::size_t g, const Lanes* legendre) co
 }
 
 const ModalBounds* ExponentialSegment::modal_bounds() const {
-    if (!form_->by_arrays()) return nullptr;
     if (modal_bounds_known_) return &modal_bounds_;
     modal_bounds_known_ = true;
     bounds();

@@ -27,7 +27,6 @@ struct MotionBounds {
     double angle_low = 0, angle_high = 0;  // of the hub angle [rad]
     double rate_low = 0, rate_high = 0;    // of its rate [rad/s]
     double ripple = 0, ripple_rate = 0;    // of the hub against the frame [rad], [rad/s]
-    double fastest = 0;                    // frequency of the fastest vibration that is no rounding [rad/s]
 };
 
 // The contact at the start of a step, at its nodes and at its end, in this order.
@@ -38,17 +37,21 @@ struct TouchSamples {
     Ending ending = Ending::open;
 };
 
-// Bounds of each mode, and of the hub, within a step that propagates modes; and their values at its nodes.
+// Bounds of each mode, and of the hub, within a step; and their values at its nodes.
 struct ModalBounds {
     struct Mode {
         double low = 0, high = 0;                          // of q [m]
         double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
         double q_frequency = 0, rate_frequency = 0;        // |q̈| ≤ q_frequency² amplitude, so for q̇ [rad/s]
+        // The part that no polynomial through the nodes follows: bounds of it and its rate, and its frequency or decay.
+        double swing = 0, swing_rate = 0, swing_frequency = 0;
+        void set_frequencies(double jerk);  // from the bounds of q, q̇, q̈ and that of q⃛
     };
     std::vector<Mode> modes;
     std::span<const Lanes> q, rate, force;  // at the Gauss nodes: q, q̇ and q̈ + 2γq̇ + ω²q
     Lanes angle{}, theta_dot{};             // there: of the frame [rad], [rad/s]
     double h = 0;                           // length of the collocation step [s]
+    bool resolved = false;                  // every component is a polynomial, and its power that of the ledger
     double power_cam = 0, power_drive = 0;  // of magnitudes [W]
     double balance_error = 0;  // by how much the error of the energy balance within the step exceeds its ends [J]
 };

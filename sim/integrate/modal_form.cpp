@@ -6,6 +6,7 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/beam/constants.hpp"
 #include "sim/beam/modal_model.hpp"
+#include "sim/beam/natural_modes.hpp"
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
@@ -40,22 +41,18 @@ std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& m
     return form;
 }
 
-namespace {
-
-bool has_array_form(System& system) {
+bool modes_are_coordinates(System& system) {
     const auto* model = dynamic_cast<const ModalModel*>(&system.model());
     return model && (!model->coupled() || system.drive().prescribed());
 }
 
-}  // namespace
-
 std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
-    if (has_array_form(system)) return by_arrays_of(system);
+    if (modes_are_coordinates(system)) return by_arrays_of(system);
     return system.drive().prescribed() ? nullptr : of_natural_modes(system);
 }
 
 bool ModalForm::exists(System& system) {
-    if (!has_array_form(system)) return of(system) != nullptr;
+    if (!modes_are_coordinates(system)) return of(system) != nullptr;
     return !system.model().damped() || system.model().diagonal_damping();
 }
 
@@ -119,89 +116,43 @@ void ModalForm::transform(const Eigen::MatrixXd& by, double* state) const {
 // Without vibration Θ = z₀; a mode rotates the frame against the mean rigid rotation, and its modal mass is that of the
 // beam.
 std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
-    const std::unique_ptr<Model> model = system.model().clone();
-    const Eigen::Index n = model->size() - 1;
+    const Model& model = system.model();
+    const Eigen::Index n = model.size() - 1;
     if (n == 0) return nullptr;
-    auto form = begin(system, *model);
-    Eigen::MatrixXd mass(n + 1, n + 1), stiffness(n + 1, n + 1), centrifugal(n + 1, n + 1);
-    model->linearize(mass.data(), stiffness.data(), centrifugal.data());
-    const Eigen::VectorXd rotation = mass.bottomLeftCorner(n, 1) / mass(0, 0);
-    const Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n) - rotation * mass.topRightCorner(1, n);
-    const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
-    const Eigen::MatrixXd shapes = std::sqrt(form->mass) * modes.shapes;
+    const NaturalModes& modes = system.natural_modes();
+    auto form = begin(system, model);
+    form->natural = modes.shapes;
+    form->to_natural = modes.inverse;
     Eigen::VectorXd gamma = Eigen::VectorXd::Zero(n);
     if (form->damped) {
-        const std::vector<double> all = model->damping_matrix();
-        const Eigen::MatrixXd damping =
-            shapes.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * shapes;
+        const std::vector<double> all = model.damping_matrix();
+        const Eigen::MatrixXd shapes = modes.shapes.bottomRightCorner(n, n),
+                              damping =
+                                  shapes.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * shapes;
         gamma = damping.diagonal() / (2 * form->mass);
         const Eigen::MatrixXd coupling = damping - Eigen::MatrixXd(damping.diagonal().asDiagonal());
         if (coupling.cwiseAbs().maxCoeff() > kUncoupledDamping * damping.diagonal().cwiseAbs().maxCoeff())
             return nullptr;
     }
-    form->natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
-    form->natural.bottomRightCorner(n, n) = shapes;
-    form->natural.topRightCorner(1, n) = -rotation.transpose() * shapes;
-    form->to_natural = Eigen::MatrixXd::Identity(n + 1, n + 1);
-    form->to_natural.bottomRightCorner(n, n) = shapes.transpose() * inertia / form->mass;
-    form->to_natural.topRightCorner(1, n) = rotation.transpose();
     form->mode_rows.assign(form->natural.data() + (n + 1), form->natural.data() + (n + 1) * (n + 1));
     const Eigen::MatrixXd rows = form->natural.rightCols(n).transpose();
     form->mode_columns.assign(rows.data(), rows.data() + rows.size());
-    form->J = mass(0, 0);
+    form->J = modes.J;
+    form->S = modes.S;
     form->shortening = true;
     for (Eigen::Index i = 0; i < n; ++i) {
         if (!(modes.omega_squared[i] > 0)) return nullptr;
         form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), gamma[i]});
     }
     form->groups = pack_oscillators(form->oscillators);
-    form->bound_shapes(*model, system.problem().beam.bending_stiffness());
-    form->weigh(*model);
-    const auto count = static_cast<std::size_t>(n);
-    form->U.assign(count, 0);
-    form->inertia_root.assign(count, 0);
+    form->shape = modes.shape;
+    form->beta = modes.beta;
+    form->slope_norm = modes.slope_norm;
+    form->h = modes.h;
+    form->weight.assign(modes.weight.begin(), modes.weight.end());
+    form->U.assign(modes.weight.size(), 0);
+    form->inertia_root.assign(form->U.size(), 0);
     return form;
-}
-
-// Generalized forces of gravity on the straight beam along X.
-void ModalForm::weigh(Model& model) {
-    double force[kMaxSize];
-    const double none[kMaxSize] = {};
-    model.set(none, none);
-    if (!model.assemble(force)) throw InertiaLost();
-    const Eigen::VectorXd pull = natural.transpose() * Eigen::Map<const Eigen::VectorXd>(force, n + 1);
-    const double inverse = gravity != 0 ? -1 / gravity : 0;
-    S = inverse * pull[0];
-    for (Eigen::Index i = 1; i <= n; ++i) weight.push_back(inverse * pull[i] / mass);
-}
-
-// Largest displacement, rotation of the tangent and curvature of the straight beam for each mode, from many places; a
-// margin covers the values between them.
-void ModalForm::bound_shapes(Model& model, double bending_stiffness) {
-    const Eigen::Index count = n + 1, places = kPlacesPerWave * count;
-    const double none[kMaxSize] = {};
-    Eigen::VectorXd x(count), y(count), turned(count), curved(count);
-    Eigen::ArrayXd place = Eigen::ArrayXd::Zero(count), slope = place, curvature = place;
-    for (Eigen::Index k = 0; k <= places; ++k) {
-        const double at = length * static_cast<double>(k) / static_cast<double>(places);
-        model.set(none, none);
-        model.jacobian(at, x.data(), y.data(), turned.data());
-        place = place.max((natural.transpose() * y).array().abs());
-        slope = slope.max((natural.transpose() * turned).array().abs());
-        for (Eigen::Index i = 1; i < count; ++i) {
-            model.set(natural.col(i).data(), none);
-            curved[i] = model.bending_moment(at) / bending_stiffness;
-        }
-        curvature = curvature.max(curved.array().abs());
-    }
-    const Eigen::VectorXd hub = natural.transpose() * Eigen::Map<const Eigen::VectorXd>(model.hub_row(), count);
-    for (Eigen::Index i = 1; i < count; ++i) {
-        shape.push_back(kBetweenPlaces * (place[i] + std::fabs(radius * hub[i])));
-        beta.push_back(std::max(kBetweenPlaces * slope[i] / shape.back(),
-                                std::sqrt(kBetweenPlaces * curvature[i] / shape.back())));
-        slope_norm.push_back(std::sqrt(length) * shape.back() * beta.back());
-        h.push_back(hub[i]);
-    }
 }
 
 }  // namespace beamcam::sim

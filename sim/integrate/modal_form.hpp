@@ -13,6 +13,9 @@
 
 namespace beamcam::sim {
 
+// Otherwise the oscillators are the natural modes.
+bool modes_are_coordinates(System& system);
+
 struct ModalForm {
     // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub of
     // another model.
@@ -51,8 +54,6 @@ struct ModalForm {
     static std::shared_ptr<ModalForm> begin(const System& system, const Model& model);
     static std::shared_ptr<const ModalForm> by_arrays_of(System& system);
     static std::shared_ptr<const ModalForm> of_natural_modes(System& system);
-    void weigh(Model& model);
-    void bound_shapes(Model& model, double bending_stiffness);
     void transform(const Eigen::MatrixXd& by, double* state) const;
 };
 

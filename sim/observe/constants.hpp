@@ -9,10 +9,12 @@ namespace beamcam::sim {
 // Share of the best value below which a rise is not searched for. The error of the energy balance is rounding and
 // truncation: its digits do not matter.
 inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
-// The most intervals that a search halves in one step: these, and these for each radian of the fastest vibration. Many
-// times more than a valid step needs, so that a damaged one ends.
-inline constexpr double kFewestHalvings = 4000, kHalvingsPerRadian = 32, kMostIntervals = 1e8;
-inline constexpr double kMostStepParts = 1e4;  // of a step without bounds of its modes: more would exceed the motion
+// The most intervals that a search halves in one step: these, and these for each radian of the fastest vibration, but
+// no more than the third; and all of a run: so many, and for each of its steps. Many times more than a valid motion
+// needs. A vibration that neither grows nor decays over millions of periods has no end otherwise.
+inline constexpr double kFewestHalvings = 4000, kHalvingsPerRadian = 32, kMostHalvings = 1e6;
+inline constexpr long kHalvingsOfRun = 2'000'000, kHalvingsPerStep = 1000;
+inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 // A costly channel is evaluated where its bound is this many times the highest so far, so that later steps are excluded
 // sooner.
@@ -42,6 +44,7 @@ inline constexpr double kBesideMiddle = 0.31;    // of a piece: no vibration has
 // ---- records ----
 // Poses are taken within the first steps of a contact: after them a collision is over, and a lasting contact is slow.
 inline constexpr int kContactPoseSteps = 4;
+inline constexpr long kRecordsPerPoll = 256;  // of a stored trajectory, between two chances to interrupt it
 inline constexpr std::size_t kWrittenAtOnce = 1 << 16, kReadAtOnce = 1 << 15;  // numbers of a stored trajectory
 
 // ---- chatter ----

@@ -35,8 +35,9 @@ void offer(Extremum& e, double t, double value) {
 
 }  // namespace
 
-ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels)
+ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels, Poll poll)
     : step_(system),
+      poll_(std::move(poll)),
       channels_(std::move(channels)),
       first_(channels_.size()),
       last_(channels_.size()),
@@ -56,12 +57,9 @@ void ExtremaFinder::begin(double start_energy, const double* y, std::vector<Extr
 void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* balance,
                          std::vector<Extremum>& extrema) {
     if (channels_.empty()) return;
+    halvings_left_ += kHalvingsPerStep;
     step_.begin(s);
-    if (!step_.modal()) {
-        last_time_ = -1;
-        for (const SegmentInterval& part : step_.parts(s)) search_now(part, extrema);
-        return;
-    }
+    sampled_ = {};
     if (last_time_ == s.from)
         std::swap(first_, last_);
     else
@@ -74,13 +72,14 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
 }
 
-// Offers the values at the ends of the step, and keeps it if the channel may exceed its best value within.
+// Offers the values at the ends of the step, and keeps it if the channel may exceed its best value within; a step that
+// cannot be kept is searched now.
 void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, std::shared_ptr<const KeptStep>& kept,
                             Extremum& e) {
     const ChannelKind kind = channels_[c].kind;
     offer_ends(s, c, e);
     const auto range = range_within(
-        c, [&](const ModalChannels::Range& r) { return is_beaten(r, kind, 1, e) && is_beaten(r, kind, -1, e); });
+        s, c, [&](const ModalChannels::Range& r) { return is_beaten(r, kind, 1, e) && is_beaten(r, kind, -1, e); });
     if (!range) return;
     for (const double sign : {1.0, -1.0}) {
         if (is_beaten(*range, kind, sign, e)) continue;
@@ -92,7 +91,10 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, std::shared
             if (is_beaten(*range, kind, sign, e)) continue;
         }
         if (!kept) kept = keep(s);
-        candidates.steps.push_back({high, kept});
+        if (kept->kind != SegmentKind::none)
+            candidates.steps.push_back({high, kept});
+        else
+            search(s, channels_[c], sign, step_.sample(s, channels_[c], sampled_), e);
     }
 }
 
@@ -108,21 +110,33 @@ void ExtremaFinder::offer_ends(const SegmentInterval& s, std::size_t c, Extremum
 
 // Bounds of the channel, from the cheapest on; nothing as soon as they are `beaten`.
 template <class Beaten>
-std::optional<ModalChannels::Range> ExtremaFinder::range_within(std::size_t c, Beaten&& beaten) const {
+std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInterval& s, std::size_t c,
+                                                                Beaten&& beaten) {
     const Channel& channel = channels_[c];
     const ModalChannels& modes = step_.modes();
+    if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
+    if (step_.unlike_law(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
     if (mode && beaten(modes.mode_range(channel))) return std::nullopt;
     const ModalChannels::Range range = modes.range(channel, first_[c], last_[c]);
     if (beaten(range)) return std::nullopt;
+    if (step_.polynomial() && !is_separation(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     return mode ? range : modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
 }
 
+// The dense output of a polynomial errs most in the middle of the step; twice that covers the rest.
+ModalChannels::Range ExtremaFinder::residual_range(const SegmentInterval& s, std::size_t c) {
+    const auto [low, high] = std::minmax(first_[c], last_[c]);
+    const double middle = step_.value(s, channels_[c], 0.5 * (s.from + s.to));
+    const double stray = 2 * std::fabs(middle - 0.5 * (low + high));
+    return {low - stray, high + stray};
+}
+
 std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const SegmentInterval& s) {
-    auto step = std::make_shared<KeptStep>(
-        KeptStep{step_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, kept_steps_++, {}, {}});
+    auto step = std::make_shared<KeptStep>(KeptStep{
+        step_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, kept_steps_++, SegmentKind::none, {}, {}});
     step->numbers.reserve(numbers_of_step_);
-    s.segment->numbers(step->numbers);
+    step->kind = s.segment->numbers(step->numbers);
     numbers_of_step_ = std::max(numbers_of_step_, step->numbers.size());
     kept_numbers_ += step->numbers.size();
     return step;
@@ -144,37 +158,29 @@ bool ExtremaFinder::less_promising(const Candidate& a, const Candidate& b) {
 
 // The most promising first, until the rest is beaten.
 void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Candidate>& candidates, Extremum& e) {
-    if (!stored_ && !candidates.empty())
-        stored_ = make_stored_segment(SegmentKind::exponential, step_.system().problem());
     std::ranges::make_heap(candidates, less_promising);
     for (; !candidates.empty(); candidates.pop_back()) {
         std::ranges::pop_heap(candidates, less_promising);
         const Candidate& candidate = candidates.back();
         if (candidate.high <= best_so_far(channels_[c].kind, sign, e).to_beat()) break;
         const KeptStep& step = *candidate.step;
-        const SegmentInterval s{stored_.get(), step.from, step.to, false};
+        std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
+        if (!stored) stored = make_stored_segment(step.kind, step_.system().problem());
+        const SegmentInterval s{stored.get(), step.from, step.to, false};
         if (loaded_ != &step) {
             loaded_ = &step;
-            stored_->load(step.t0, step.t1, step.numbers);
+            stored->load(step.t0, step.t1, step.numbers);
             set_phase(step.phase);
             step_.begin(s);
         }
-        search(s, channels_[c], sign, step_.sample(s, channels_[c], step.sampled), e);
+        try {
+            search(s, channels_[c], sign, step_.sample(s, channels_[c], step.sampled), e);
+        } catch (const StepFailure&) {  // a run that failed, in the step before
+            ++incomplete_;
+        }
+        if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
     }
     candidates.clear();
-}
-
-// Of a part that resolves all vibration: all channels are sampled at once.
-void ExtremaFinder::search_now(const SegmentInterval& s, std::vector<Extremum>& extrema) {
-    std::vector<Samples> samples(channels_.size());
-    for (std::size_t k = 0; k < StepChannels::kSamples; ++k) {
-        step_.values(s, sample_time(s, k), channels_, nullptr, last_);
-        for (std::size_t c = 0; c < channels_.size(); ++c) samples[c][k] = last_[c];
-    }
-    for (std::size_t c = 0; c < channels_.size(); ++c) {
-        if (std::isnan(samples[c][0])) continue;
-        for (const double sign : {1.0, -1.0}) search(s, channels_[c], sign, samples[c], extrema[c]);
-    }
 }
 
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples,
@@ -182,7 +188,7 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, samples, e);
     // Within a step of the collocation the error of the energy balance is stationary at the nodes, where the forcing is
     // exact, and largest at one of them.
-    if (channel.kind == ChannelKind::energy_residual && step_.modal()) {
+    if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
         return;
     }
@@ -198,11 +204,18 @@ void ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel cha
                                BestValue& best) {
     const Variation variation = step_.variation(s, channel, samples);
     const double radians = (s.to - s.from) * step_.system().highest_frequency();
-    best.intervals = static_cast<long>(std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostIntervals));
+    const double needed = std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostHalvings);
+    const long allowed = std::min(halvings_left_, static_cast<long>(needed));
+    best.intervals = allowed;
+    const auto polled = [&](double t) {
+        if (++evaluations_ % kEvaluationsPerPoll == 0 && poll_) poll_();
+        return f(t);
+    };
     for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
     for (std::size_t k = 0; k + 1 < samples.size(); ++k)
-        climb(f, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
+        climb(polled, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
     if (best.intervals < 0) ++incomplete_;
+    halvings_left_ -= allowed - std::max(best.intervals, 0L);
 }
 
 double ExtremaFinder::rim() { return 2 * std::numbers::pi * step_.system().problem().cam->radius; }
@@ -232,15 +245,13 @@ void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, const Samp
 void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration) {
     step_.begin(s);
     Extremum of_force{0, s.from, force.value_or(0), s.from}, of_gap{-penetration, s.from, 0, s.from};
-    for (const SegmentInterval& part : step_.parts(s)) {
-        StepChannels::SampledStates states;
-        const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
-            if (step_.modal() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
-            search(part, {kind}, sign, step_.sample(part, {kind}, states), e);
-        };
-        if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
-        raise(ChannelKind::gap, -1, of_gap);
-    }
+    StepChannels::SampledStates states;
+    const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
+        if (step_.modes().touch() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
+        search(s, {kind}, sign, step_.sample(s, {kind}, states), e);
+    };
+    if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
+    raise(ChannelKind::gap, -1, of_gap);
     force = of_force.max;
     penetration = -of_gap.min;
 }

@@ -2,15 +2,18 @@
 // far the channel strays from the line between them (Variation) show whether an interval can exceed the best value so
 // far; if so, it is halved until a parabola is as good as the channel. MODEL.md §12, (S59).
 //
-// Steps with bounds of each mode that may hold an extremum are kept, and searched when the run is over, the most
-// promising first: by then the bounds of most of them are below the best value.
+// Steps that may hold an extremum are kept, and searched when the run is over, the most promising first: by then the
+// bounds of most of them are below the best value.
 #pragma once
 
 #include <array>
+#include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <vector>
 
+#include "sim/observe/constants.hpp"
 #include "sim/observe/step_channels.hpp"
 
 namespace beamcam::sim {
@@ -19,7 +22,8 @@ struct BestValue;
 
 class ExtremaFinder {
   public:
-    ExtremaFinder(const System& system, std::vector<Channel> channels);
+    using Poll = std::function<void()>;  // called now and then during a long search; may throw
+    ExtremaFinder(const System& system, std::vector<Channel> channels, Poll poll = {});
 
     void set_phase(const Phase& phase);
     // The values at the start of the run, in the first phase.
@@ -28,7 +32,7 @@ class ExtremaFinder {
     void step(const SegmentInterval& s, const System::EnergyBalance* balance, std::vector<Extremum>& extrema);
     void finish(std::vector<Extremum>& extrema) { search_kept(extrema); }
     // Searches that ended before all intervals were decided.
-    long incomplete() const { return incomplete_ + step_.truncated(); }
+    long incomplete() const { return incomplete_; }
     // Raises the two to the largest normal force and penetration within the step.
     void contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration);
     // The step that is searched, for crossings (crossings.hpp).
@@ -40,6 +44,7 @@ class ExtremaFinder {
         Phase phase;
         double from, to, t0, t1;
         long order;
+        SegmentKind kind;
         std::vector<double> numbers;  // of the segment
         mutable StepChannels::SampledStates sampled;
     };
@@ -55,12 +60,12 @@ class ExtremaFinder {
 
     void offer_ends(const SegmentInterval& s, std::size_t channel, Extremum& e);
     template <class Beaten>
-    std::optional<ModalChannels::Range> range_within(std::size_t channel, Beaten&& beaten) const;
+    std::optional<ModalChannels::Range> range_within(const SegmentInterval& s, std::size_t channel, Beaten&& beaten);
+    ModalChannels::Range residual_range(const SegmentInterval& s, std::size_t channel);
     void collect(const SegmentInterval& s, std::size_t channel, std::shared_ptr<const KeptStep>& kept, Extremum& e);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void search_kept(std::vector<Extremum>& extrema);
     void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
-    void search_now(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples, Extremum& e);
     template <class F>
     void climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
@@ -69,15 +74,17 @@ class ExtremaFinder {
     double unwrapped(double arc, double near);
 
     StepChannels step_;
+    Poll poll_;
     std::vector<Channel> channels_;
-    std::vector<double> first_, last_;  // all channels at the ends of the step
-    double last_time_ = -1;             // of `last_`, while the phase lasts
-    long incomplete_ = 0;
+    std::vector<double> first_, last_;     // all channels at the ends of the step
+    double last_time_ = -1;                // of `last_`, while the phase lasts
+    StepChannels::SampledStates sampled_;  // of the step that is recorded
+    long incomplete_ = 0, halvings_left_ = kHalvingsOfRun, evaluations_ = 0;
 
     std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum
     std::size_t kept_numbers_ = 0, numbers_of_step_ = 0;
     long kept_steps_ = 0;
-    std::unique_ptr<StoredSegment> stored_;
+    std::map<SegmentKind, std::unique_ptr<StoredSegment>> stored_;
     const KeptStep* loaded_ = nullptr;
 };
 

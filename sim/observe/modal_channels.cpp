@@ -23,77 +23,51 @@ bool depends_on_gap(ChannelKind kind) {
 
 }  // namespace
 
-ModalChannels::ModalChannels(System& system) : system_(system) {
-    const auto* model = dynamic_cast<const ModalModel*>(&system.model());
-    if (!model) return;
-    const ModalMatrices& m = model->matrices();
-    const double radius = std::fabs(system.problem().hub.radius);
-    length_ = model->length();
-    reach_ = radius + length_;
-    mass_ = model->mass();
-    inertia_ = m.J;
-    lever_ = std::fabs(m.S);
+ModalChannels::ModalChannels(System& system, const ModeBasis& basis) : system_(system), basis_(basis) {
     gravity_ = std::fabs(system.problem().gravity);
-    if (system.has_cam()) {
-        const Cam& cam = *system.problem().cam;
-        cam_radius_ = cam.radius;
-        cam_speed_ = std::fabs(cam.speed);
-        disc_speed_ = cam.eccentricity * cam_speed_;
-        friction_ = std::max(system.friction().kinetic, system.friction().limit);
-    }
-    const int n = model->size() - 1;
-    const double* damping = model->diagonal_damping();
-    double tip[kMaxModes], root[kMaxModes];
-    if (n > 0) {
-        model->shapes().evaluate(length_, tip, nullptr, nullptr);
-        model->shapes().evaluate(0, root, nullptr, nullptr);
-    }
-    for (int i = 0; i < n; ++i) {
-        const std::size_t mode = static_cast<std::size_t>(i);
-        const double shape = system.gap_bound().shape_bound(mode);
-        modes_.push_back({std::fabs(m.slope[i]), m.slope[i], tip[i] - root[i] - length_ * m.slope[i], std::fabs(m.U[i]),
-                          std::fabs(m.W[i]), m.K[i], std::sqrt(m.M(i, i)) + std::sqrt(m.D(i, i)), std::sqrt(m.G(i, i)),
-                          shape, shape * system.gap_bound().wave_number(mode), system.gap_bound().wave_number(mode),
-                          model->frequency(i), damping ? damping[i] / mass_ : 0});
-    }
     strays_.resize(modes_.size());
+    if (!system.has_cam()) return;
+    const Cam& cam = *system.problem().cam;
+    cam_radius_ = cam.radius;
+    cam_speed_ = std::fabs(cam.speed);
+    disc_speed_ = cam.eccentricity * cam_speed_;
+    friction_ = std::max(system.friction().kinetic, system.friction().limit);
 }
 
-bool ModalChannels::set(const Segment& segment, double from, double to) {
-    bounds_ = segment.modal_bounds();
-    motion_ = segment.bounds();
-    touch_ = segment.touch();
+void ModalChannels::set(const Step& step) {
+    bounds_ = step.modes;
+    motion_ = step.motion;
+    touch_ = step.touch;
     separation_.reset();
-    if (!bounds_ || (system_.phase().touching && !touch_)) return false;
-    from_ = from;
-    to_ = to;
-    whole_ = from == segment.t0 && std::fabs(from + bounds_->h - to) <= kWholeStep * bounds_->h &&
-             !system_.drive().prescribed();
-    deflection_ = inclination_ = alpha_ = inertia_root_ = weight_root_ = 0;
-    hub_acceleration_ = motion_->theta_ddot;
-    for (std::size_t i = 0; i < modes_.size(); ++i) {
-        const double amplitude = bounds_->modes[i].amplitude;
-        deflection_ += modes_[i].shape * amplitude;
-        inclination_ += modes_[i].slope * amplitude;
-        alpha_ += modes_[i].h * amplitude;
-        inertia_root_ += modes_[i].inertia * amplitude;
-        weight_root_ += modes_[i].weight * amplitude;
-        hub_acceleration_ += modes_[i].h * bounds_->modes[i].acceleration;
-        const ModalBounds::Mode& b = bounds_->modes[i];
-        strays_[i] = {b.amplitude * strays(b.q_frequency * (to - from)),
-                      b.rate * strays(b.rate_frequency * (to - from)),
-                      strays(kProductFrequency * std::max(b.q_frequency, b.rate_frequency) * (to - from)), swing(i), 1};
-        strays_[i].share = swinging_share(i);
-    }
+    from_ = step.from;
+    to_ = step.to;
+    whole_ = step.whole;
+    sum_modes();
     const DriveLaw& drive = system_.drive();
-    torque_ = drive.has_torque() ? std::max(std::fabs(drive.torque(from)), std::fabs(drive.torque(to))) : 0;
-    if (!system_.has_cam()) return true;
+    torque_ = drive.has_torque() ? std::max(std::fabs(drive.torque(from_)), std::fabs(drive.torque(to_))) : 0;
+    if (!system_.has_cam()) return;
     const double speed = motion_->theta_dot * reach_ + disc_speed_;
     place_contact();
     foot_speed_ = kBentContactShift * (speed + motion_->theta_dot * away_);
     slide_ = foot_speed_ + kBentContactShift * (motion_->slope_speed * away_ + motion_->deflection_speed);
     if (touch_) set_contact();
-    return true;
+}
+
+void ModalChannels::sum_modes() {
+    const double h = to_ - from_;
+    deflection_ = inclination_ = alpha_ = inertia_root_ = weight_root_ = 0;
+    hub_acceleration_ = motion_->theta_ddot;
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        const ModalBounds::Mode& b = bounds_->modes[i];
+        deflection_ += modes_[i].shape * b.amplitude;
+        inclination_ += modes_[i].slope * b.amplitude;
+        alpha_ += modes_[i].h * b.amplitude;
+        inertia_root_ += modes_[i].inertia * b.amplitude;
+        weight_root_ += modes_[i].weight * b.amplitude;
+        hub_acceleration_ += modes_[i].h * b.acceleration;
+        strays_[i] = {b.amplitude * strays(b.q_frequency * h), b.rate * strays(b.rate_frequency * h),
+                      strays(kProductFrequency * std::max(b.q_frequency, b.rate_frequency) * h), swinging_share(i)};
+    }
 }
 
 // Distance of the disc's centre from the beam, and of the contact from the root: for a straight beam, plus bending.
@@ -117,10 +91,10 @@ void ModalChannels::set_contact() {
         rate = std::max(rate, std::fabs(touch_->gap_rate[k]));
     }
     for (std::size_t i = 0; i < modes_.size(); ++i) {
-        const double omega = modes_[i].omega;
-        if (!(omega * (to_ - from_) > kFollowedRadians)) continue;
-        depth += modes_[i].shape * strays_[i].swing;
-        rate += (modes_[i].shape * omega + modes_[i].slope * slide_) * strays_[i].swing;
+        const ModalBounds::Mode& b = bounds_->modes[i];
+        if (!(b.swing_frequency * (to_ - from_) > kFollowedRadians)) continue;
+        depth += modes_[i].shape * b.swing;
+        rate += modes_[i].shape * b.swing_rate + modes_[i].slope * slide_ * b.swing;
     }
     const double more = kSlopeProbe * depth;
     const auto force = [&](double d, double v) { return system_.normal_law().force(d, v, system_.phase().approach); };
@@ -132,36 +106,46 @@ void ModalChannels::set_contact() {
 double ModalChannels::tip(ChannelKind kind, const double* y) const {
     const double* x = kind == ChannelKind::tip_rate ? y + 2 + modes_.size() : y + 1;
     double total = 0;
-    for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].tip * x[i];
+    for (std::size_t i = 0; i < modes_.size(); ++i) total += basis_.tip[i] * x[i];
     return total;
 }
 
 double ModalChannels::hub(ChannelKind kind, const double* y) const {
     const double* x = kind == ChannelKind::theta_dot ? y + 1 + modes_.size() : y;
     double total = x[0];
-    for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].turn * x[1 + i];
+    for (std::size_t i = 0; i < modes_.size(); ++i) total += basis_.hub[1 + i] * x[1 + i];
     return total;
+}
+
+ModalChannels::Range ModalChannels::mode_range(Channel channel) const {
+    if (!basis_.are_coordinates()) return {-kInfinity, kInfinity};
+    const ModalBounds::Mode& mode = bounds_->modes[static_cast<std::size_t>(channel.index) - 1];
+    return {mode.low, mode.high};
 }
 
 bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
     if (!whole_) return false;
-    const auto weigh = [&](const Lanes& start, std::span<const Lanes> x, double Mode::*weight) {
+    const auto weigh = [&](const Lanes& start, std::span<const Lanes> x, auto&& weight) {
         values = start;
-        for (std::size_t i = 0; i < modes_.size(); ++i) values += modes_[i].*weight * x[i];
+        for (std::size_t i = 0; i < modes_.size(); ++i) values += weight(i) * x[i];
         return true;
     };
+    const auto turn = [&](std::size_t i) { return modes_[i].turn; };
+    const auto tip = [&](std::size_t i) { return modes_[i].tip; };
+    const std::size_t j = static_cast<std::size_t>(channel.index) - 1;
     switch (channel.kind) {
         case ChannelKind::q:
-            values = bounds_->q[static_cast<std::size_t>(channel.index) - 1];
+            if (!basis_.are_coordinates()) return weigh({}, bounds_->q, [&](auto i) { return basis_.share(j, i); });
+            values = bounds_->q[j];
             return true;
         case ChannelKind::theta:
-            return weigh(bounds_->angle, bounds_->q, &Mode::turn);
+            return weigh(bounds_->angle, bounds_->q, turn);
         case ChannelKind::theta_dot:
-            return weigh(bounds_->theta_dot, bounds_->rate, &Mode::turn);
+            return weigh(bounds_->theta_dot, bounds_->rate, turn);
         case ChannelKind::tip_deflection:
-            return weigh({}, bounds_->q, &Mode::tip);
+            return weigh({}, bounds_->q, tip);
         case ChannelKind::tip_rate:
-            return weigh({}, bounds_->rate, &Mode::tip);
+            return weigh({}, bounds_->rate, tip);
         default:
             return false;
     }
@@ -195,12 +179,31 @@ BEAMCAM_INLINE ModalChannels::Sensitivity ModalChannels::of_energy(ChannelKind k
                                                                    const ModalBounds::Mode& b, double turning) const {
     const double theta_dot = motion_->theta_dot;
     if (kind == ChannelKind::energy_kinetic)
-        return {.rate = theta_dot * m.U, .mixed = 0.25 * mass_ * b.rate * b.rate + theta_dot * turning};
+        return {.rate = theta_dot * m.U,
+                .mixed = 0.25 * mass_ * b.rate * b.rate + theta_dot * turning + far_kinetic(m, b)};
     if (kind == ChannelKind::energy_potential)
-        return {.q = gravity_ * m.W, .mixed = gravity_ * m.weight * weight_root_ * b.amplitude, .shift = 2 * theta_dot};
+        return {.q = gravity_ * m.W,
+                .mixed = gravity_ * (m.weight * weight_root_ + mass_ * far_tip(m)) * b.amplitude,
+                .shift = 2 * theta_dot};
     if (kind == ChannelKind::energy_elastic) return {.mixed = 0.25 * m.stiffness * b.amplitude * b.amplitude};
-    if (!system_.drive().prescribed()) return {.q = torque_ * m.h};  // work_drive (S55)
+    if (bounds_->resolved) return {};                                // work_drive is a polynomial
+    if (!system_.drive().prescribed()) return {.q = torque_ * m.h};  // (S55)
     return {.q = m.U * motion_->theta_ddot, .rate = 2 * theta_dot * m.U, .mixed = 2 * theta_dot * turning};
+}
+
+// Where tangents turn by δ, sin δ is δ but for ½δ²δ_i of each mode; against the hub they turn by twice the inclination
+// at most. The deflection of the tip changes by that over the length.
+double ModalChannels::far_tip(const Mode& m) const {
+    return basis_.bends_far ? 2 * length_ * inclination_ * inclination_ * m.slope : 0;
+}
+
+// The same of velocities across the beam; and those along it, L|v′v̇′|, squared and times those by the rotation.
+double ModalChannels::far_kinetic(const Mode& m, const ModalBounds::Mode& b) const {
+    if (!basis_.bends_far) return 0;
+    const double speed = motion_->theta_dot * reach_ + motion_->deflection_speed,
+                 along = length_ * inclination_ * motion_->slope_speed;
+    return mass_ * length_ * inclination_ * m.slope * b.rate *
+           (2 * speed * inclination_ + 0.5 * along + motion_->theta_dot * deflection_);
 }
 
 // Calls `visit` with |∂c/∂q_i|, |∂c/∂q̇_i|, |∂c/∂q̈_i| of every mode i: a separate loop for each channel.
@@ -215,8 +218,13 @@ void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
     const double pull = 1.5 * gravity_ / length_;
     using Bounds = ModalBounds::Mode;
     switch (channel.kind) {
-        case ChannelKind::q:
-            return visit(Sensitivity{.q = 1}, static_cast<std::size_t>(channel.index) - 1);
+        case ChannelKind::q: {
+            const std::size_t j = static_cast<std::size_t>(channel.index) - 1;
+            if (basis_.are_coordinates()) return visit(Sensitivity{.q = 1}, j);
+            return each([&](const Mode&, const Bounds&, std::size_t i) {
+                return Sensitivity{.q = std::fabs(basis_.share(j, i))};
+            });
+        }
         case ChannelKind::theta:
             return each([&](const Mode& m, const Bounds&, std::size_t) { return Sensitivity{.q = m.h}; });
         case ChannelKind::theta_dot:  // Θ̇ = p/(J + qᵀBq)
@@ -225,11 +233,11 @@ void ModalChannels::each_mode(Channel channel, Visit&& visit) const {
             });
         case ChannelKind::tip_deflection:
             return each([&](const Mode& m, const Bounds& b, std::size_t) {
-                return Sensitivity{.q = std::fabs(m.tip), .mixed = 3 * third * m.h * b.amplitude};
+                return Sensitivity{.q = std::fabs(m.tip), .mixed = (3 * third * m.h + far_tip(m)) * b.amplitude};
             });
         case ChannelKind::tip_rate:
             return each([&](const Mode& m, const Bounds& b, std::size_t) {
-                return Sensitivity{.rate = std::fabs(m.tip), .mixed = 9 * third * m.h * b.rate};
+                return Sensitivity{.rate = std::fabs(m.tip), .mixed = (9 * third * m.h + far_tip(m)) * b.rate};
             });
         case ChannelKind::separation:
         case ChannelKind::separation_paper:  // (S41)
@@ -273,28 +281,22 @@ double ModalChannels::drift(ChannelKind kind) const {
         case ChannelKind::energy_kinetic:
             return inertia_ * theta_dot * acceleration;
         case ChannelKind::energy_potential:
-            return gravity_ * lever_ * theta_dot;
+            return gravity_ * basis_.S * theta_dot;
         case ChannelKind::work_cam:
             return bounds_->power_cam;
         case ChannelKind::work_drive:
-            return bounds_->power_drive + (system_.drive().prescribed() ? 2 * inertia_ * theta_dot * acceleration : 0);
+            return bounds_->power_drive +
+                   (system_.drive().prescribed() && !bounds_->resolved ? 2 * inertia_ * theta_dot * acceleration : 0);
         default:
             return 0;
     }
 }
 
-// Bound of the oscillation x = −(q̈ + 2γq̇)/ω² about f/ω²; the latter is a polynomial.
-double ModalChannels::swing(std::size_t i) const {
-    const double omega = modes_[i].omega, amplitude = bounds_->modes[i].amplitude;
-    return omega > 0 ? std::min(2 * amplitude, bounds_->modes[i].acceleration / (omega * omega)) : amplitude;
-}
-
 // The vibrating share of products of modes, from that of each mode.
 double ModalChannels::swinging_share(std::size_t i) const {
     const ModalBounds::Mode& b = bounds_->modes[i];
-    const double x = strays_[i].swing, speed = modes_[i].omega * x;
-    const bool swings = kProductSwing * x < b.amplitude && kProductSwing * speed < b.rate;
-    return swings ? kProductSwing * std::max(x / b.amplitude, speed / b.rate) : 1;
+    const bool swings = kProductSwing * b.swing < b.amplitude && kProductSwing * b.swing_rate < b.rate;
+    return swings ? kProductSwing * std::max(b.swing / b.amplitude, b.swing_rate / b.rate) : 1;
 }
 
 // Calls add(amplitude, frequency) with every vibration that a polynomial of degree 7 over the part does not resolve.
@@ -304,8 +306,8 @@ void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
     const double least = kFollowedRadians / (to_ - from_);
     each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
         const ModalBounds::Mode& b = bounds_->modes[i];
-        const double omega = modes_[i].omega, x = strays_[i].swing;
-        if (omega + s.shift > least) add(s.q * x + s.rate * omega * x, omega + s.shift);
+        const double omega = b.swing_frequency;
+        if (omega + s.shift > least) add(s.q * b.swing + s.rate * b.swing_rate, omega + s.shift);
         if (s.shift > least) add(s.q * b.amplitude, s.shift);
         if (omega > least && s.acceleration != 0) add(s.acceleration * b.acceleration, omega);
         if (kProductFrequency * omega > least && s.mixed != 0)
@@ -349,7 +351,7 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         if (tip) stray += s.mixed;  // not in `tip`
     });
     Range range{std::min(first, last) - stray, std::max(first, last) + stray};
-    if (channel.kind == ChannelKind::q) {
+    if (channel.kind == ChannelKind::q && basis_.are_coordinates()) {
         const Range mode = mode_range(channel);
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
@@ -389,7 +391,9 @@ ModalChannels::Range ModalChannels::separation_range() const {
     for (std::size_t i = 0; i < modes_.size(); ++i) {
         const Mode& m = modes_[i];
         nodes += m.turn * (bounds_->force[i] - m.damping * bounds_->rate[i] - m.omega * m.omega * bounds_->q[i]);
-        if (m.omega * (to_ - from_) > kFollowedRadians) variation.add(m.h * bounds_->modes[i].acceleration, m.omega);
+        const ModalBounds::Mode& b = bounds_->modes[i];
+        if (b.swing_frequency * (to_ - from_) > kFollowedRadians)
+            variation.add(m.h * b.acceleration, b.swing_frequency);
     }
     variation.add_polynomial(nodes, bounds_->h);
     const double stray = kBeyondNodes * variation.strays(kWidestNodeGap * bounds_->h) + motion_->theta_ddot;

@@ -1,6 +1,6 @@
 // How each channel depends on the modes within one step: bounds of |∂c/∂q|, |∂c/∂q̇| and |∂c/∂q̈|, which turn the
-// bounds of each mode (ModalBounds) into vibrations of the channel; and how fast the channel drifts. For the modal
-// models. MODEL.md §12, (S59).
+// bounds of each mode (ModalBounds) into vibrations of the channel; and how fast the channel drifts. MODEL.md §12,
+// (S59).
 #pragma once
 
 #include <optional>
@@ -9,16 +9,25 @@
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/integrator.hpp"
 #include "sim/observe/channels.hpp"
+#include "sim/observe/mode_basis.hpp"
 #include "sim/observe/variation.hpp"
 
 namespace beamcam::sim {
 
 class ModalChannels {
   public:
-    explicit ModalChannels(System& system);  // which must outlive it
+    ModalChannels(System& system, const ModeBasis& basis);  // which must outlive it
 
-    // The part [from, to] of a step of that system in its present phase. False when the step bounds no modes.
-    bool set(const Segment& segment, double from, double to);
+    // What bounds the part [from, to] of a step; they live while it is observed.
+    struct Step {
+        double from, to;
+        bool whole;  // all of it: the nodes of `modes` are those of the part
+        const ModalBounds* modes;
+        const MotionBounds* motion;
+        const TouchSamples* touch;  // null in flight
+    };
+    void set(const Step& step);
+    const TouchSamples* touch() const { return touch_; }
 
     struct Range {
         double low, high;
@@ -33,11 +42,8 @@ class ModalChannels {
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.
     std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
-    // Of q alone, by the bounds of its mode: cheap.
-    Range mode_range(Channel channel) const {
-        const ModalBounds::Mode& mode = bounds_->modes[static_cast<std::size_t>(channel.index) - 1];
-        return {mode.low, mode.high};
-    }
+    // Of q alone, by the bounds of its mode if it is one: cheap.
+    Range mode_range(Channel channel) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 
@@ -46,10 +52,7 @@ class ModalChannels {
     struct Sensitivity {
         double q = 0, rate = 0, acceleration = 0, mixed = 0, shift = 0;
     };
-    struct Mode {  // weights that do not change
-        double h, turn, tip, U, W, stiffness, inertia, weight, shape, slope, wave, omega, damping;
-    };
-    double swing(std::size_t i) const;
+    using Mode = ModeBasis::Mode;
     double swinging_share(std::size_t i) const;
     template <class Add>
     void each_unresolved(Channel channel, Add&& add) const;
@@ -58,9 +61,12 @@ class ModalChannels {
     double foot(const Mode& m) const;
     Sensitivity in_contact(ChannelKind kind, const Mode& m) const;
     Sensitivity of_energy(ChannelKind kind, const Mode& m, const ModalBounds::Mode& b, double turning) const;
+    double far_tip(const Mode& m) const;
+    double far_kinetic(const Mode& m, const ModalBounds::Mode& b) const;
     double strays_between_nodes(Channel channel, const Variation& polynomial) const;
     template <class Visit>
     void each_mode(Channel channel, Visit&& visit) const;
+    void sum_modes();
     void place_contact();
     void set_contact();
     Range contact_range(Channel channel) const;
@@ -68,21 +74,22 @@ class ModalChannels {
     double contact_value(ChannelKind kind, int sample) const;
 
     System& system_;
+    const ModeBasis& basis_;
     struct Strays {  // of q, q̇ and products of modes from a line within the step; the last for amplitude 1
         double q, rate, mixed;
-        double swing, share;  // of the vibrating mode, and of products with it
+        double share;  // of products that vibrates
     };
-    std::vector<Mode> modes_;
+    const std::vector<Mode>& modes_ = basis_.modes;
     std::vector<Strays> strays_;
-    double reach_ = 0, length_ = 0, mass_ = 0, inertia_ = 0, lever_ = 0, gravity_ = 0;
-    double friction_ = 0, cam_radius_ = 0, cam_speed_ = 0, disc_speed_ = 0;
+    const double reach_ = basis_.reach, length_ = basis_.length, mass_ = basis_.mass, inertia_ = basis_.J;
+    double gravity_ = 0, friction_ = 0, cam_radius_ = 0, cam_speed_ = 0, disc_speed_ = 0;
 
     // Of the step.
     const ModalBounds* bounds_ = nullptr;
     const MotionBounds* motion_ = nullptr;
     const TouchSamples* touch_ = nullptr;
     double from_ = 0, to_ = 0;
-    bool whole_ = false;                                   // all of the collocation step, whose hub moves freely
+    bool whole_ = false;
     double deflection_ = 0, inclination_ = 0, alpha_ = 0;  // bounds of |v|, |v′|, |α|
     double inertia_root_ = 0, weight_root_ = 0;            // of √|qᵀBq|, √|qᵀGq|
     double hub_acceleration_ = 0;                          // of |θ̈|

@@ -22,13 +22,13 @@ double end_of(const Request& request) {
     return end;
 }
 
-Recorder::Recorder(const System& system, const Request& request)
+Recorder::Recorder(const System& system, const Request& request, const std::function<void()>& poll)
     : request_(request),
       end_(end_of(request)),
       evaluator_(system),
       samples_(request, evaluator_, result_),
       impacts_(evaluator_, result_),
-      extrema_(std::make_unique<ExtremaFinder>(system, request.extrema)),
+      extrema_(std::make_unique<ExtremaFinder>(system, request.extrema, poll)),
       y_(static_cast<std::size_t>(system.size)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});

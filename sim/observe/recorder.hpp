@@ -2,6 +2,7 @@
 // balance. It evaluates accepted segments only, through its own System, so recording never changes a bit of the motion.
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -15,7 +16,8 @@ class ExtremaFinder;
 
 class Recorder {
   public:
-    Recorder(const System& system, const Request& request);
+    // `poll`: called now and then during long work; may throw.
+    Recorder(const System& system, const Request& request, const std::function<void()>& poll = {});
     Recorder(const Recorder&) = delete;  // its parts refer to each other
     ~Recorder();
     Recorder& operator=(const Recorder&) = delete;

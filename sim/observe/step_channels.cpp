@@ -28,9 +28,8 @@ StepChannels::Samples copied(const double* samples) {
     return values;
 }
 
-// The contact at the samples, if the step has it there.
-const TouchSamples* touch_at_samples(const SegmentInterval& s) {
-    const TouchSamples* touch = s.segment->touch();
+// The contact at the samples of the interval, if `touch` has it there.
+const TouchSamples* touch_at_samples(const TouchSamples* touch, const SegmentInterval& s) {
     return touch && touch->t[0] == s.from && touch->t[StepChannels::kSamples - 1] == s.to ? touch : nullptr;
 }
 
@@ -53,8 +52,12 @@ bool is_estimated(ChannelKind kind) {
 StepChannels::StepChannels(const System& system)
     : evaluator_(system),
       probe_(evaluator_.system(), true),
-      modal_channels_(evaluator_.system()),
-      y_(static_cast<std::size_t>(system.size)) {}
+      basis_(evaluator_.system()),
+      modal_channels_(evaluator_.system(), basis_),
+      polynomial_bounds_(basis_),
+      y_(static_cast<std::size_t>(system.size)) {
+    polynomial_states_.fill(y_);
+}
 
 void StepChannels::set_phase(const Phase& phase) {
     evaluator_.set_phase(phase);
@@ -62,28 +65,62 @@ void StepChannels::set_phase(const Phase& phase) {
 }
 
 void StepChannels::begin(const SegmentInterval& s) {
-    if (bounded_from_ != s.from) modal_ = modal_channels_.set(*s.segment, s.from, s.to);
+    const Phase& phase = evaluator_.system().phase();
+    probing_ = !phase.touching || !(phase.held || evaluator_.system().has_bristle());
+    if (bounded_from_ != s.from) bound(s);
     bounded_from_ = s.from;
-    probing_ = s.segment->bounds() != nullptr && (modal_ || s.segment->touch());
-    // Results must not depend on where the contact was searched before.
+    search_again();
+}
+
+// Results must not depend on where the contact was searched before.
+void StepChannels::search_again() {
     evaluator_.system().search_again();
     probe_.forget();
 }
 
-std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s) {
-    if (modal_ || !s.segment->bounds()) return {s};
-    const double needed = std::ceil((s.to - s.from) * s.segment->bounds()->fastest / kFollowedRadians);
-    const auto count = static_cast<long>(std::clamp(needed, 1.0, kMostStepParts));
-    if (needed > kMostStepParts) ++truncated_;
-    std::vector<SegmentInterval> out;
-    double from = s.from;
-    for (long i = 1; i <= count; ++i) {
-        const double share = static_cast<double>(i) / static_cast<double>(count);
-        const double to = i == count ? s.to : s.from + (s.to - s.from) * share;
-        out.push_back({s.segment, from, to, s.last && i == count});
-        from = to;
+void StepChannels::bound(const SegmentInterval& s) {
+    const Segment& segment = *s.segment;
+    System& system = evaluator_.system();
+    const ModalBounds* modes = segment.modal_bounds();
+    polynomial_ = !modes;
+    if (modes) {
+        const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
+        modal_channels_.set(
+            {s.from, s.to, whole && !system.drive().prescribed(), modes, segment.bounds(), segment.touch()});
+        return;
     }
-    return out;
+    for (std::size_t k = 0; k < kSamples; ++k) segment.value(sample_time(s, k), polynomial_states_[k].data());
+    polynomial_bounds_.set(system, s.from, s.to, polynomial_states_.data());
+    const bool touching = system.has_cam() && system.phase().touching;
+    if (touching) sample_touch(s);
+    modal_channels_.set({s.from, s.to, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
+                         touching ? &polynomial_touch_ : nullptr});
+}
+
+void StepChannels::sample_touch(const SegmentInterval& s) {
+    TouchSamples& touch = polynomial_touch_;
+    search_again();
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        y_ = polynomial_states_[k];
+        touch.t[k] = sample_time(s, k);
+        evaluator_.set(touch.t[k], y_.data());
+        if (probing_) probe_contact(touch.t[k]);
+        const ContactState& c = evaluator_.contact();
+        touch.gap[k] = c.gap;
+        touch.gap_rate[k] = c.gap_rate;
+        touch.force[k] = c.force;
+        touch.x[k] = c.x;
+    }
+}
+
+bool StepChannels::unlike_law(ChannelKind kind) const {
+    return !probing_ && (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
+                         kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction);
+}
+
+// The state of a prescribed hub is that of its drive, not the solution.
+bool StepChannels::is_linear(ChannelKind kind) {
+    return is_of_hub(kind) && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
 // Geometry and normal force: the probe costs less than a search of the whole beam.
@@ -104,7 +141,7 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
 
 // Of the state in `y_`; takes `contact` if it is there, else computes and keeps it.
 double StepChannels::value_of_state(Channel channel, double t, std::optional<ContactState>& contact) {
-    if (modal_ && is_of_hub(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
+    if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
     if (probing_ && evaluator_.system().has_cam() && (stored || needs_contact(channel.kind))) {
@@ -122,16 +159,16 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
                           const System::EnergyBalance* balance, std::vector<double>& out) {
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
-    if (modal_ && evaluator_.system().has_cam()) {
+    if (probing_ && evaluator_.system().has_cam()) {
         const bool touching = evaluator_.system().phase().touching;
         if (!touching || evaluator_.system().friction().kinetic == 0) probe_contact(t);
         if (touching) evaluator_.set_gap(evaluator_.contact().gap);
     }
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (modal_ && is_of_hub(channels[c].kind))
+        if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
-        else if (!modal_ || !is_estimated(channels[c].kind))
+        else if (!is_estimated(channels[c].kind))
             out[c] = evaluator_.value(channels[c]);
         else if (!is_separation(channels[c].kind))
             out[c] = modal_channels_.tip(channels[c].kind, y_.data());
@@ -141,7 +178,7 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
 }
 
 StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel channel, SampledStates& sampled) {
-    const TouchSamples* touch = touch_at_samples(s);
+    const TouchSamples* touch = touch_at_samples(modal_channels_.touch(), s);
     if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
     if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
     if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
@@ -149,8 +186,8 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
     if (is_balance && sampled.balance) return *sampled.balance;
     Samples values;
     Lanes nodes;
-    const bool linear = channel.kind == ChannelKind::q || is_of_hub(channel.kind);
-    const bool at_nodes = modal_ && linear && modal_channels_.at_nodes(channel, nodes);
+    const bool at_nodes =
+        (channel.kind == ChannelKind::q || is_linear(channel.kind)) && modal_channels_.at_nodes(channel, nodes);
     for (std::size_t k = 0; k < kSamples; ++k) {
         const double t = sample_time(s, k);
         if (at_nodes && k > 0 && k <= kNodes) {
@@ -159,7 +196,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
             values[k] = value(s, channel, t);
         } else {
             place_sample(s, k, sampled);
-            if (touch && needs_gap(channel.kind)) {
+            if (touch && probing_ && needs_gap(channel.kind)) {
                 evaluator_.set(t, y_.data());
                 evaluator_.set_gap(touch->gap[k]);
                 values[k] = evaluator_.value(channel);
@@ -174,6 +211,10 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
 
 // Puts the state of the sample into `y_`.
 void StepChannels::place_sample(const SegmentInterval& s, std::size_t k, SampledStates& sampled) {
+    if (polynomial_) {
+        y_ = polynomial_states_[k];
+        return;
+    }
     std::vector<double>& state = sampled.states[k];
     if (state.empty()) {
         state.resize(y_.size());
@@ -190,8 +231,15 @@ Variation StepChannels::variation(const SegmentInterval& s, Channel channel, con
     Variation out;
     out.add_polynomial(nodes, h);
     out.add_missed(nodes, values[0], values[kSamples - 1], h);
-    if (modal_) modal_channels_.add_unresolved(channel, out);
+    modal_channels_.add_unresolved(channel, out);
     return out;
+}
+
+ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel, SampledStates& sampled) {
+    const Samples values = sample(s, channel, sampled);
+    const auto [low, high] = std::ranges::minmax(values);
+    const double stray = variation(s, channel, values).strays(kWidestNodeGap * (s.to - s.from));
+    return {low - stray, high + stray};
 }
 
 }  // namespace beamcam::sim

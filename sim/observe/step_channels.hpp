@@ -9,6 +9,7 @@
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/observe/channel_evaluator.hpp"
 #include "sim/observe/modal_channels.hpp"
+#include "sim/observe/polynomial_bounds.hpp"
 #include "sim/observe/segment_interval.hpp"
 
 namespace beamcam::sim {
@@ -30,17 +31,15 @@ class StepChannels {
 
     // Every other call on a step follows this one.
     void begin(const SegmentInterval& s);
-    // Bounds of each mode exist in this step; else only those of all modes together, if any.
-    bool modal() const { return modal_; }
+    // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
+    bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
-    // A step that spans many periods of vibration without bounds of its modes, cut into parts short enough that a
-    // polynomial follows the fastest vibration; every other step is one part.
-    std::vector<SegmentInterval> parts(const SegmentInterval& s);
-    long truncated() const { return truncated_; }  // steps that would need more parts than are allowed
+    // The channel depends on the state of a bristle, or on a contact that the law does not describe.
+    bool unlike_law(ChannelKind kind) const;
 
     double value(const SegmentInterval& s, Channel channel, double t);
-    // All channels at t. Tip deflection, tip rate and separation are costly: in a modal step the first two are
-    // estimated (`is_estimated`), the last is zero. `balance`: the energy balance at t if it is available.
+    // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
+    // (`is_estimated`), the last is zero. `balance`: the energy balance at t if it is available.
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
                 const System::EnergyBalance* balance, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
@@ -49,22 +48,31 @@ class StepChannels {
     Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
+    // Bounds of the channel from its samples.
+    ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel, SampledStates& sampled);
 
     System& system() { return evaluator_.system(); }
 
   private:
     double value_of_state(Channel channel, double t, std::optional<ContactState>& contact);
+    void search_again();
+    void bound(const SegmentInterval& s);
+    void sample_touch(const SegmentInterval& s);
+    bool is_linear(ChannelKind kind);
     void probe_contact(double t);
     void place_sample(const SegmentInterval& s, std::size_t k, SampledStates& sampled);
 
     ChannelEvaluator evaluator_;
     GapProbe probe_;
+    const ModeBasis basis_;
     ModalChannels modal_channels_;
+    PolynomialBounds polynomial_bounds_;
+    std::array<std::vector<double>, kSamples> polynomial_states_;
+    TouchSamples polynomial_touch_;
     std::vector<double> y_;
-    bool modal_ = false;
-    bool probing_ = false;      // the contact of this step is evaluated by `probe_`
+    bool polynomial_ = false;
+    bool probing_ = false;      // the contact of this phase is evaluated by `probe_`
     double bounded_from_ = -1;  // the start of the step of `modal_channels_`
-    long truncated_ = 0;
 };
 
 double sample_time(const SegmentInterval& s, std::size_t k);

@@ -253,7 +253,9 @@ Trajectory::Trajectory(const Problem& problem, std::shared_ptr<const NumberSourc
 void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
     Player player(problem, recorders);
     RecordReader records(*numbers_);
+    long count = 0;
     while (!records.over()) {
+        if (++count % kRecordsPerPoll == 0) recorders.poll();
         auto [kind, numbers] = records.next();
         if (!player.play(kind, numbers)) break;
     }

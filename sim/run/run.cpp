@@ -43,7 +43,9 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       start_(options.start),
       dynamics_(problem),
       probe_(dynamics_),
-      output_(dynamics_, requests, options.keep, options.observer, [this] { return statistics(); }),
+      output_(
+          dynamics_, requests, options.keep, options.observer, [this] { return statistics(); },
+          [this](double t) { report(t); }),
       integrator_(make_integrator(problem.solver, dynamics_, options)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),

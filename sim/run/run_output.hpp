@@ -26,8 +26,11 @@ class MotionObserver {
 class RunOutput {
   public:
     RunOutput(const System& system, std::span<const Request> requests, TrajectoryWriter* keep, MotionObserver* observer,
-              RecorderSet::StatisticsSource statistics)
-        : recorders_(system, requests), keep_(keep), observer_(observer), statistics_(std::move(statistics)) {}
+              RecorderSet::StatisticsSource statistics, RecorderSet::Poll poll)
+        : recorders_(system, requests, std::move(poll)),
+          keep_(keep),
+          observer_(observer),
+          statistics_(std::move(statistics)) {}
 
     double end() const { return observer_ ? std::max(recorders_.end(), observer_->end()) : recorders_.end(); }
     bool done() const { return observer_ ? observer_->done() : recorders_.done(); }

@@ -144,7 +144,9 @@ std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory,
     require_valid(problem);
     return timed([&] {
         return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
-            RecorderSet recorders(System(problem), all);
+            RecorderSet recorders(System(problem), all, [&](double t) {
+                if (progress && !progress(t)) throw Interrupted();
+            });
             trajectory.play(problem, recorders);
             return recorders.results();
         });

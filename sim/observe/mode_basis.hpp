@@ -1,0 +1,43 @@
+// The modes in which a motion is bounded, with what each contributes to hub, tip, energies and points of the beam: the
+// coordinates themselves, or the natural modes of the straight beam where the coordinates are coupled or are no
+// lengths.
+#pragma once
+
+#include <vector>
+
+#include "sim/dynamics/system.hpp"
+
+namespace beamcam::sim {
+
+struct ModeBasis {
+    explicit ModeBasis(System& system);
+
+    // `turn`, `tip`: what q adds to θ and to the tip's deflection. The rest are magnitudes: `h` of turn; U, W of the
+    // terms Θ̇Uq̇ and gWq of the energies; `inertia`, `weight`: roots of the diagonals of their quadratic terms; `shape`,
+    // `slope`: largest displacement and rotation along the beam; `wave`: wave number [1/m]; `damping` = 2γ.
+    struct Mode {
+        double h, turn, tip, U, W, stiffness, inertia, weight, shape, slope, wave, omega, damping;
+    };
+    std::vector<Mode> modes;
+    // Angle and deflection of the tip by coordinates, and the coordinates by modes: row-major, empty where the modes
+    // are the coordinates.
+    std::vector<double> hub, tip, natural, to_natural;
+    bool are_coordinates() const { return natural.empty(); }
+    // By terms of third order in the deflection, which the modal models leave out.
+    bool bends_far = false;
+    double length = 0, reach = 0, mass = 0, J = 0, S = 0;
+
+    std::size_t size() const { return modes.size(); }
+    // What mode i contributes to coordinate q_{j+1}.
+    double share(std::size_t j, std::size_t i) const {
+        return are_coordinates() ? (i == j ? 1.0 : 0.0) : natural[(j + 1) * (size() + 1) + i + 1];
+    }
+    // Coordinates or rates, in place: z₀…z_n.
+    void to_modes(double* x) const;
+
+  private:
+    void of_coordinates(System& system);
+    void of_natural_modes(System& system);
+};
+
+}  // namespace beamcam::sim
