@@ -26,8 +26,10 @@ void blend(cairo_t* cr, const Image& source, int x, int y, std::span<const Box> 
     cairo_surface_destroy(surface);
 }
 
-constexpr double kHalo = 0.30,
-                 kOutline = 0.18;  // widths relative to the size: of a text's own halo, and of the outline of all texts
+// Widths relative to the size of the letters: of a text's own halo, and of the outline of all texts with its glow.
+constexpr double kHalo = 0.30, kOutline = 0.14;
+constexpr std::array kGlow{0.48, 0.30};
+constexpr double kGlowOpacity = 0.4;
 
 }  // namespace
 
@@ -135,10 +137,16 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
             add_to_key('t', {from.x, from.y}, face_of(run, style, fonts_->typefaces()).key(run.run.text));
         }
         extend_path_box(ink);
-        uncased([&] { stroke({*halo, wide}); });
+        uncased([&] {
+            // Wide and faint under narrow and strong: the outline fills the inside of small letters softly.
+            if (outline)
+                for (const double glow : kGlow) stroke_path({halo->faded(kGlowOpacity), glow * style.size}, "");
+            stroke({*halo, wide});
+        });
     }
     draw_label(label, rounded_start(at, label, style), style);
-    mark_painted(ink.inset(halo ? -1 - wide / 2 : -1));
+    const double reach = halo && outline ? kGlow[0] * style.size : wide;
+    mark_painted(ink.inset(halo ? -1 - reach / 2 : -1));
     if (record && !label.runs.empty()) record->push_back(ink);
     return {at.x, ink.y, label.width, ink.h};
 }

@@ -82,6 +82,33 @@ const Palette& palette(Theme theme) {
     return kLight;
 }
 
+namespace {
+// Distance from one colour to another, for shares of a mixture of both.
+double distance(const Color& a, const Color& b) {
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+}
+// The share of `whole` in a colour that is `whole` diluted on the paper.
+double share_of(const Palette& p, const Color& pale, const Color& whole) {
+    const double all = distance(whole, p.paper);
+    return all > 0 ? std::min(1.0, distance(pale, p.paper) / all) : 1;
+}
+}  // namespace
+
+Palette on_paper(Palette p, Color paper) {
+    constexpr double kSmallText = 4.5;  // smallest contrast
+    const Palette old = p;
+    p.paper = paper;
+    const bool dark = contrast(paper, rgb(0)) < contrast(paper, rgb(0xFFFFFF));
+    if (contrast(p.ink, paper) < kSmallText) p.ink = palette(dark ? Theme::dark : Theme::light).ink;
+    if (contrast(p.ink, paper) < kSmallText) p.ink = rgb(dark ? 0xFFFFFF : 0);
+    p.muted = readable(p, mix(paper, p.ink, share_of(old, old.muted, old.ink)), kSmallText);
+    p.faint = mix(paper, p.ink, share_of(old, old.faint, old.ink));
+    p.grid = mix(paper, p.ink, share_of(old, old.grid, old.ink));
+    p.motion_faint = mix(paper, p.motion, share_of(old, old.motion_faint, old.motion));
+    p.contact_faint = mix(paper, p.contact, share_of(old, old.contact_faint, old.contact));
+    return p;
+}
+
 Palette recolored(Palette p, const OwnColors& own) {
     const auto on_paper = [&](Color c, double share) { return mix(p.paper, c, share); };
     if (own.ink) {
@@ -114,12 +141,10 @@ double contrast(const Color& a, const Color& b) {
     return (std::max(x, y) + 0.05) / (std::min(x, y) + 0.05);
 }
 
-Color readable(const Palette& palette, Color color) {
-    constexpr double kLeastContrast = 3;
+Color readable(const Palette& palette, Color color, double least) {
     constexpr int kSteps = 20;
     for (int k = 0; k < kSteps; ++k)
-        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps);
-            contrast(mixed, palette.paper) >= kLeastContrast)
+        if (const Color mixed = mix(color, palette.ink, double(k) / kSteps); contrast(mixed, palette.paper) >= least)
             return mixed;
     return palette.ink;
 }
@@ -145,10 +170,7 @@ Palette Palette::without_paper() const {
     Palette out = *this;
     out.transparent = true;
     const auto ink_of = [&](Color& pale, const Color& of) {
-        const auto far = [&](const Color& c) {
-            return std::abs(c.r - paper.r) + std::abs(c.g - paper.g) + std::abs(c.b - paper.b);
-        };
-        if (far(of) > 0) pale = of.faded(std::min(1.0, far(pale) / far(of)));
+        if (distance(of, paper) > 0) pale = of.faded(share_of(*this, pale, of));
     };
     ink_of(out.faint, ink);
     ink_of(out.grid, ink);

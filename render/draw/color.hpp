@@ -56,13 +56,15 @@ struct OwnColors {
     bool operator==(const OwnColors&) const = default;
 };
 Palette recolored(Palette palette, const OwnColors& own);
+// The palette on paper of another colour: pale colours are diluted on it, and text stays readable.
+Palette on_paper(Palette palette, Color paper);
 
 // Colours of several curves or motions; the first is `motion`, none is `contact`.
 Color series_color(const Palette& palette, std::size_t index);
 double contrast(const Color& a, const Color& b);  // 1…21, WCAG 2.1
-// The colour for text: unchanged if its contrast with the paper is at least 3 : 1 (WCAG 2.1, large text), otherwise
-// mixed with as much ink as necessary.
-Color readable(const Palette& palette, Color color);
+// The colour for text: unchanged if its contrast with the paper is at least `least` (WCAG 2.1: 3 for large text, 4.5
+// for small text), otherwise mixed with as much ink as necessary.
+Color readable(const Palette& palette, Color color, double least = 3);
 Color moment_color(const Palette& palette, double share);  // −1…1; beyond: the end colour
 Color force_color(const Palette& palette, double share);   // 0…1
 // Colour of a trace that fades to the metal's colour; age >= 0 and half-life > 0 in the same unit.

@@ -178,14 +178,20 @@ void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     if (!(length > 0)) return;
     const Vec2 u = way * (1 / length), v = sim::perp(u);
     const double tip = std::min(head.length, length);
-    if (length > tip) {
-        line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
+    const auto add_head = [&] {
+        move_to(to);
+        line_to(to - u * tip + v * (head.half_width * tip));
+        if (head.back < 1) line_to(to - u * (head.back * tip));
+        line_to(to - u * tip - v * (head.half_width * tip));
+        close();
+    };
+    if (casing) {
+        add_head();
+        stroke_path({casing->color, casing->width, {}, Cap::butt}, "");
+        new_path();
     }
-    move_to(to);
-    line_to(to - u * tip + v * (head.half_width * tip));
-    if (head.back < 1) line_to(to - u * (head.back * tip));
-    line_to(to - u * tip - v * (head.half_width * tip));
-    close();
+    if (length > tip) line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
+    add_head();
     fill(pen.color);
 }
 

@@ -38,18 +38,10 @@ class Captions {
     }
 
     void draw() const {
-        lead_to_contact();
-        double free = box.bottom() - kFreeBelow * u;  // lower limit of captions of the whole picture
-        for (const Callout& c : s.at.context.setup->callouts) {
-            if (!c.shown(s.frame)) continue;
-            const Anchor::Kind kind = c.anchor.value_or(Anchor{Anchor::Kind::contact, {}}).kind;
-            if (kind == Anchor::Kind::contact)
-                draw_at_contact(c);
-            else if (kind == Anchor::Kind::all)
-                free = draw_below(c, free);
-            else
-                draw_anchored(c);
-        }
+        for (const Callout& c : s.at.context.setup->callouts)
+            if (is_visible(c)) draw_leader(c);
+        for (const Callout& c : s.at.context.setup->callouts)
+            if (is_visible(c)) draw_plate(c);
     }
 
   private:
@@ -143,8 +135,9 @@ class Captions {
         if (crossed && s.at.labels->speed) draw_cam_speed(s);  // again, so that its halo covers the line
     }
 
-    void draw(const Caption& caption) const {
-        const Box& plate = caption.plate;
+    void draw_plate(const Callout& callout) const {
+        const Box plate = plate_of(callout);
+        const Caption caption = caption_of(callout, {plate.x, plate.y});
         s.canvas.rounded(plate, 8 * u);
         s.canvas.fill_keeping_path(s.at.palette.paper.faded(caption.opacity));
         s.canvas.stroke({s.at.palette.ink.faded(caption.opacity), 1.6 * u});
@@ -156,16 +149,6 @@ class Captions {
             s.canvas.text({plate.x + 16 * u, y + extra + kCaptionLine * u}, caption.lines[i], faded);
             y += caption.heights[i];
         }
-    }
-
-    // Stacks captions upwards from the lower edge. Returns the new lower limit.
-    double draw_below(const Callout& callout, double free) const {
-        Caption caption = caption_of(callout, {});
-        caption.plate.x = box.centre().x - caption.plate.w / 2, caption.plate.y = free - caption.plate.h;
-        keep_inside(caption.plate);
-        if (const Box* label = hidden(caption.plate)) caption.plate.y = label->y - 12 * u - caption.plate.h;
-        draw(caption);
-        return caption.plate.y - kBetweenPlates * u;
     }
 
     Vec2 foot_of(const Anchor& anchor) const {
@@ -184,12 +167,89 @@ class Captions {
         return s.px(anchor.place);
     }
 
+    static Anchor::Kind kind_of(const Callout& c) { return c.anchor ? c.anchor->kind : Anchor::Kind::contact; }
+    static bool is_at_contact(const Callout& c) { return kind_of(c) == Anchor::Kind::contact; }
+
+    // The order in which captions get their places: those of moving parts last, so that the others keep theirs.
+    static bool comes_before(const Callout& one, const Callout& other) {
+        const auto moves = [](const Callout& c) { return kind_of(c) == Anchor::Kind::tip; };
+        if (moves(one) != moves(other)) return moves(other);
+        return one.first < other.first || (one.first == other.first && &one < &other);
+    }
+
+    // Without space for all, a later caption replaces earlier ones.
+    bool is_visible(const Callout& callout) const {
+        if (!callout.shown(s.frame)) return false;
+        return std::ranges::none_of(s.at.context.setup->callouts, [&](const Callout& other) {
+            return other.shown(s.frame) && comes_before(callout, other) && plate_of(callout).overlaps(plate_of(other));
+        });
+    }
+
+    // To the contact only while there is one, from the latest caption; without a cam to the tip.
+    void draw_leader(const Callout& callout) const {
+        const Box plate = plate_of(callout);
+        const double opacity = callout.opacity(s.frame);
+        if (is_at_contact(callout)) {
+            const bool near = s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length;
+            const bool latest = std::ranges::none_of(s.at.context.setup->callouts, [&](const Callout& other) {
+                return is_at_contact(other) && other.shown(s.frame) && comes_before(callout, other);
+            });
+            if (!latest || (s.at.problem().cam && !near) || !s.at.shows(contact_foot())) return;
+            const Vec2 from{plate.x + 10 * u, plate.y + 10 * u}, foot = contact_foot();
+            lead(plate, from, foot, opacity, bend(from, foot));
+        } else if (kind_of(callout) != Anchor::Kind::all) {
+            if (const Vec2 foot = foot_of(*callout.anchor); s.at.shows(foot))
+                lead(plate, plate.centre(), foot, opacity);
+        }
+    }
+
+    Vec2 contact_foot() const {
+        return s.beam.contact ? s.px(s.beam.contact->on_disc) : foot_of({.kind = Anchor::Kind::tip});
+    }
+
+    // Captions that are visible together do not overlap. Each keeps its place while others appear and disappear: it
+    // depends only on those that are visible when it appears.
+    Box plate_of(const Callout& callout) const {
+        if (const auto found = plates.find(&callout); found != plates.end()) return found->second;
+        std::vector<Box> taken;
+        for (const Callout& other : s.at.context.setup->callouts)
+            if (comes_before(other, callout) && other.last >= callout.first && other.first <= callout.last)
+                taken.push_back(plate_of(other));
+        Box first = first_plate(callout);
+        keep_inside(first);
+        std::vector<Box> bodies = taken;  // disc and hub should stay visible, too
+        add_bodies(bodies);
+        std::optional<Box> found = free_plate(first, bodies);
+        if (!found) found = free_plate(first, taken);
+        return plates[&callout] = found.value_or(first);
+    }
+
+    // The region that the disc sweeps, and the hub with its support; nothing while a near camera shows little else.
+    void add_bodies(std::vector<Box>& taken) const {
+        if (s.at.moved) return;
+        const Vec2 o = s.px({0, 0});
+        const double hub = s.at.hub(), half = std::max(hub, support_half_width(hub, s.at.marks));
+        taken.push_back({o.x - half, o.y - hub, 2 * half, hub + support_reach(hub, s.at.marks)});
+        if (const auto& cam = s.at.problem().cam) {
+            const double swept = (cam->radius + cam->eccentricity) * s.at.look.camera.scale;
+            const Vec2 middle = s.px(s.pose.cam_centre);
+            taken.push_back({middle.x - swept, middle.y - swept, 2 * swept, 2 * swept});
+        }
+    }
+
+    Box first_plate(const Callout& callout) const {
+        if (is_at_contact(callout)) return plate_at_contact(callout);
+        if (kind_of(callout) != Anchor::Kind::all) return plate_at_anchor(callout);
+        Box plate = caption_of(callout, {}).plate;  // at the lower edge
+        plate.x = box.centre().x - plate.w / 2, plate.y = box.bottom() - kFreeBelow * u - plate.h;
+        return plate;
+    }
+
     // Above the anchor, away from the cam, or below it if there is no space above. Captions of fixed parts are below
     // them.
-    void draw_anchored(const Callout& callout) const {
+    Box plate_at_anchor(const Callout& callout) const {
         const Vec2 foot = foot_of(*callout.anchor);
-        Caption caption = caption_of(callout, {foot.x + kFromAnchor * u, foot.y});
-        Box& plate = caption.plate;
+        Box plate = caption_of(callout, {foot.x + kFromAnchor * u, foot.y}).plate;
         if (plate.right() > box.right()) plate.x = foot.x - kFromAnchor * u - plate.w;
         plate.y = foot.y - kFromAnchor * u - plate.h;
         if (plate.y < box.y) plate.y = foot.y + kFromAnchor * u;
@@ -199,59 +259,12 @@ class Captions {
             const double swept = (cam->radius + cam->eccentricity) * s.at.look.camera.scale;
             plate.x = foot.x - 0.8 * plate.w, plate.y = foot.y + swept + 30 * u;
         }
-        place(plate);
-        if (s.at.shows(foot)) lead(plate, plate.centre(), foot, caption.opacity);
-        draw(caption);
-    }
-
-    // Captions at the contact are stacked. Each keeps its place while others appear and disappear; it depends only on
-    // those that are visible when it appears. Without space, a later caption replaces earlier ones.
-    void draw_at_contact(const Callout& callout) const {
-        Caption caption = caption_of(callout, {});
-        caption.plate = contact_plate(callout);
-        for (const Callout& other : s.at.context.setup->callouts)
-            if (is_at_contact(other) && other.shown(s.frame) && comes_before(callout, other) &&
-                caption.plate.overlaps(contact_plate(other)))
-                return;
-        draw(caption);
-    }
-
-    // Leader line from the latest caption to the contact while there is one; without a cam to the tip.
-    void lead_to_contact() const {
-        const Callout* latest = nullptr;
-        for (const Callout& c : s.at.context.setup->callouts)
-            if (is_at_contact(c) && c.shown(s.frame) && (!latest || comes_before(*latest, c))) latest = &c;
-        const bool near = s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length;
-        if (!latest || (s.at.problem().cam && !near) || !s.at.shows(contact_foot())) return;
-        const Box plate = contact_plate(*latest);
-        const Vec2 from{plate.x + 10 * u, plate.y + 10 * u}, foot = contact_foot();
-        lead(plate, from, foot, latest->opacity(s.frame), bend(from, foot));
-    }
-
-    Vec2 contact_foot() const {
-        return s.beam.contact ? s.px(s.beam.contact->on_disc) : foot_of({.kind = Anchor::Kind::tip});
-    }
-
-    static bool is_at_contact(const Callout& c) { return !c.anchor || c.anchor->kind == Anchor::Kind::contact; }
-
-    static bool comes_before(const Callout& one, const Callout& other) {
-        return one.first < other.first || (one.first == other.first && &one < &other);
-    }
-
-    Box contact_plate(const Callout& callout) const {
-        if (const auto found = plates.find(&callout); found != plates.end()) return found->second;
-        std::vector<Box> taken;
-        for (const Callout& other : s.at.context.setup->callouts)
-            if (is_at_contact(other) && comes_before(other, callout) && other.last >= callout.first)
-                taken.push_back(contact_plate(other));
-        const Box first = first_plate(callout), found = free_plate(first, taken).value_or(first);
-        plates.emplace(&callout, found);
-        return found;
+        return plate;
     }
 
     // To the right of the cam, below the horizontal, where neither beam nor force arrow come, with space below for
     // captions that appear while it is visible. A near camera sees the bodies everywhere: there it is at the contact.
-    Box first_plate(const Callout& callout) const {
+    Box plate_at_contact(const Callout& callout) const {
         const auto& cam = s.at.moved ? std::nullopt : s.at.problem().cam;
         const double swept = cam ? (cam->radius + cam->eccentricity) * s.at.look.camera.scale : 0;
         const Vec2 from = cam ? s.px(s.pose.cam_centre) : contact_foot();
@@ -279,22 +292,31 @@ class Captions {
         return most;
     }
 
-    std::optional<Box> free_plate(Box plate, const std::vector<Box>& taken) const {
-        if (taken.empty()) return plate;
+    // The nearest place clear of other boxes and of labels, rather below or beside than above.
+    std::optional<Box> free_plate(const Box& first, const std::vector<Box>& taken) const {
         const double gap = kBetweenPlates * u, lowest = box.bottom() - kFreeBelow * u;
-        const auto is_free = [&] {
-            return plate.y >= box.y && plate.bottom() <= lowest && !hidden(plate) &&
+        const auto is_free = [&](const Box& plate) {
+            return plate.x >= box.x && plate.right() <= box.right() && plate.y >= box.y && plate.bottom() <= lowest &&
+                   !hidden(plate) &&
                    std::ranges::none_of(taken, [&](const Box& other) { return plate.overlaps(other); });
         };
-        if (is_free()) return plate;
-        std::vector<double> tops;
+        if (is_free(first)) return first;
+        std::vector<double> lefts{first.x}, tops{first.y};
         for (const std::vector<Box>* each : {&taken, &labels})
-            for (const Box& other : *each) tops.push_back(other.bottom() + gap);
-        for (const std::vector<Box>* each : {&taken, &labels})
-            for (const Box& other : *each) tops.push_back(other.y - gap - plate.h);
-        for (plate.x = std::max(box.x, std::min(taken.front().x, box.right() - plate.w)); const double top : tops)
-            if (plate.y = top; is_free()) return plate;
-        return std::nullopt;
+            for (const Box& other : *each) {
+                tops.insert(tops.end(), {other.bottom() + gap, other.y - gap - first.h});
+                lefts.insert(lefts.end(), {other.right() + gap, other.x - gap - first.w});
+            }
+        std::optional<Box> best;
+        double least = 0;
+        for (const double x : lefts)
+            for (const double y : tops) {
+                const Box plate{x, y, first.w, first.h};
+                const double down = y - first.y, cost = (down > 0 ? 1 : 2) * std::abs(down) + std::abs(x - first.x);
+                if (!is_free(plate) || (best && cost >= least)) continue;
+                best = plate, least = cost;
+            }
+        return best;
     }
 
     const MechanismScene& s;
@@ -302,7 +324,7 @@ class Captions {
     const Box& box;
     TextStyle style;
     std::vector<Box> labels;                       // labels that captions must not hide; the cam's speed first
-    mutable std::map<const Callout*, Box> plates;  // cached boxes of captions at the contact
+    mutable std::map<const Callout*, Box> plates;  // cached
 };
 
 }  // namespace

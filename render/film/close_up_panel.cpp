@@ -232,11 +232,11 @@ class CloseUpPanel final : public FilmPanel {
         const char* widest = "00.0\u00A0mN";
         style.weight = Weight::medium;
         if (canvas.measure(context_.translate("friction "), style).w + canvas.measure(widest, style).w > room) return;
-        draw_reading(canvas, {plot_.right() - 10 * u, line(1)}, context_.translate("force"), quantity(near.force, "N"),
+        draw_reading(canvas, {plot_.right() - 10 * u, line(1)}, context_.translate("force"), reading(near.force, "N"),
                      widest, style);
         if (near.friction != 0)
             draw_reading(canvas, {plot_.right() - 10 * u, line(2)}, context_.translate("friction"),
-                         quantity(std::abs(near.friction), "N"), widest, style);
+                         reading(std::abs(near.friction), "N"), widest, style);
     }
 
     // Draws a word and a number that ends at `right`; the place of the word does not depend on the number.

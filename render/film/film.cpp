@@ -227,7 +227,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
     const bool clear = setup.view.transparent;  // unknown background: opaque pills
     const auto style_of = [&](const Pill& p) {
         return TextStyle{.size = 20 * u,
-                         .color = clear ? context.palette->paper : p.color,
+                         .color = clear ? context.palette->paper : readable(*context.palette, p.color),
                          .weight = Weight::medium,
                          .align = HAlign::centre};
     };

@@ -29,7 +29,9 @@ void ImpactRings::find(const MechanismView& at) {
         const bool brief = times.size() > 1 && after - first < 2;
         rings_.push_back({frame,
                           std::atan2(n.y, n.x) - pose.cam_angle,
-                          {b.contact->on_disc, n, brief ? impact.force_peak.value_or(0) : 0, true}});
+                          {b.contact->on_disc, n, impact.force_peak.value_or(0), true},
+                          brief,
+                          impact.collision});
     }
 }
 
@@ -54,16 +56,18 @@ void ImpactRings::draw(const MechanismScene& s) const {
     }
 }
 
+// Of the collision's contacts so far. A longer contact shows its own force.
 std::optional<ForceArrow> ImpactRings::peak(int frame) const {
     if (!labelled_) return std::nullopt;
     const Ring* latest = nullptr;
-    for (const Ring& r : rings_) {
-        if (frame < r.frame || frame >= r.frame + frames_) continue;
-        // Several short contacts in one frame show the largest force; a longer contact shows its own force.
-        const bool lasts = !(r.peak.force > 0);
-        if (!latest || lasts || r.frame > latest->frame || r.peak.force > latest->peak.force) latest = &r;
-    }
-    return latest && latest->peak.force > 0 ? std::optional(latest->peak) : std::nullopt;
+    for (const Ring& r : rings_)
+        if (frame >= r.frame && frame < r.frame + frames_ && (!latest || r.frame > latest->frame || !r.brief))
+            latest = &r;
+    if (!latest || !latest->brief) return std::nullopt;
+    const ForceArrow* most = &latest->peak;
+    for (const Ring& r : rings_)
+        if (r.frame <= frame && r.collision == latest->collision && r.peak.force > most->force) most = &r.peak;
+    return most->force > 0 ? std::optional(*most) : std::nullopt;
 }
 
 }  // namespace beamcam::render

@@ -12,7 +12,8 @@ class ImpactRings {
   public:
     void find(const MechanismView& at);  // collects the impacts of the motion
     void draw(const MechanismScene& s) const;
-    // Peak force of the latest contact shorter than two frames, as long as its ring is visible.
+    // Peak force of a collision, as long as the ring of its latest contact is visible and that is shorter than two
+    // frames.
     std::optional<ForceArrow> peak(int frame) const;
     bool change(int frame) const;  // a ring changes between the previous frame and this one
 
@@ -20,7 +21,9 @@ class ImpactRings {
     struct Ring {
         int frame = 0;              // the first frame that shows it
         double material_angle = 0;  // on the disc, from its mark [rad]
-        ForceArrow peak = {};       // of a short contact; force 0 for others
+        ForceArrow peak = {};
+        bool brief = false;  // the contact is shorter than two frames
+        int collision = 0;
     };
     std::vector<Ring> rings_;
     double frames_ = 1;      // lifetime of a ring

@@ -37,7 +37,13 @@ void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
     }
 }
 
+constexpr double kScales = 560;       // width of two colour scales [design px]
+constexpr int kSeveral = 3;           // from this number on mechanisms get the whole width below the title
 constexpr double kPanelColumn = 540;  // width of the column of panels beside the mechanism [design px]
+// Several mechanisms leave no space over in a very wide picture: charts get a fifth of it.
+double panel_column(double w, double u, int members) {
+    return std::max(kPanelColumn * u, members < kSeveral ? 0 : 0.2 * w);
+}
 bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
 // The most by which the column may grow if the mechanism does not need the space [px].
 double widening(double w, double u) {
@@ -83,7 +89,7 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
     }
     const bool apart = has_scales && !f.wide;  // beside the clock there is not enough space
     if (apart) {
-        out.scales = Box{w - margin - 600 * u, f.bottom - 56 * u, 600 * u, 56 * u};
+        out.scales = Box{w - margin - kScales * u, f.bottom - 56 * u, kScales * u, 56 * u};
         f.bottom -= 64 * u;
     }
     if (has_clock) {
@@ -91,7 +97,7 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
         f.bottom -= 56 * u;
     }
     if (has_scales && !apart) {
-        out.scales = Box{w - margin - 600 * u, out.clock->y, 600 * u, 56 * u};
+        out.scales = Box{w - margin - kScales * u, out.clock->y, kScales * u, 56 * u};
         out.clock->w = out.scales->x - 30 * u - out.clock->x;
     }
     if (has_title || has_parameters) f.top += 10 * u;
@@ -163,15 +169,21 @@ double scale_in(const CellGrid& c, const ViewExtent& extent, double u) {
     return extent.camera({0, 0, c.w, c.h}, u).scale;
 }
 
-// The grid of at most `count` cells that gives mechanisms the largest scale; reduces `count` to what fits.
+// The grid of at most `count` cells that gives mechanisms the largest scale, or nearly so with fewer empty cells;
+// reduces `count` to what fits.
 CellGrid best_cells(const Box& box, int& count, const ViewExtent& extent, double u) {
+    constexpr double kNearly = 0.9;
     const Vec2 least = type_of(PanelKind::mechanism).smallest * u;
     for (; count > 1; --count) {
+        const auto empty = [&](const CellGrid& grid) { return grid.columns * grid.rows - count; };
         std::optional<CellGrid> best;
         for (int columns = count; columns >= 1; --columns) {
             const CellGrid one = cells(box, count, columns, u);
             if (one.w < least.x || one.h < least.y) continue;
-            if (!best || scale_in(one, extent, u) > scale_in(*best, extent, u)) best = one;
+            const double scale = scale_in(one, extent, u), before = best ? scale_in(*best, extent, u) : 0;
+            const bool fuller = best && empty(one) < empty(*best) && scale > kNearly * before;
+            const bool emptier = best && empty(one) > empty(*best) && scale < before / kNearly;
+            if (fuller || (scale > before && !emptier)) best = one;
         }
         if (best) return *best;
     }
@@ -202,9 +214,7 @@ Vec2 spare(const Box& box, int members, const ViewExtent& extent, double u) {
     return {std::max(0.0, (c.w - used.x) * c.columns), std::max(0.0, (c.h - used.y) * c.rows)};
 }
 
-// From this number on mechanisms get the whole width below the title, and at least this share of the scale that they
-// would have without charts.
-constexpr int kSeveral = 3;
+// From kSeveral on mechanisms get at least this share of the scale that they would have without charts.
 constexpr double kKept = 0.6;
 
 // The part of the unused space that panels get; the rest is for labels and arrows around the mechanism.
@@ -236,11 +246,13 @@ std::optional<Layout> arranged(Arrangement how, int width, int height, const std
         case Arrangement::column: {
             if (!has_column(w, h, u)) return {};
             Box left = room;
-            left.w -= kPanelColumn * u + 40 * u;
-            const double column = kPanelColumn * u + for_panels(spare(left, members, extent, u).x, widening(w, u));
+            left.w -= panel_column(w, u, members) + 40 * u;
+            const double column =
+                panel_column(w, u, members) + for_panels(spare(left, members, extent, u).x, widening(w, u));
             // In wide pictures, which lack height, the column starts beside the title.
             const double top = f.wide && beside ? f.margin * 0.8 : f.top;
-            stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, f.wide ? 440 : 660);
+            const double highest = (f.wide ? 440 : 660) / std::min(1.0, shown.size);
+            stack(out, side, {f.right - column, top, column, f.bottom - top - 6 * u}, highest);
             room.w -= column + 40 * u;
             if (f.wide && beside && out.title) out.title->w = room.right() - out.title->x;
             break;

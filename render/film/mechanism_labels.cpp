@@ -13,7 +13,8 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kLabelFade = 0.2;           // duration of fading a label without a free place [s]
-constexpr double kFarthestLetter = 90;       // largest distance of θ from its arc [design px of the letter]
+constexpr double kFarthestLetter = 65;       // largest distance of θ from its arc [design px of the letter]
+constexpr double kLowestLetter = 1.2;        // largest angle of θ beyond the horizontal [rad]
 constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
 
 Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
@@ -21,13 +22,13 @@ Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - si
 }  // namespace
 
 double least_letter(const MechanismView& at) {
-    constexpr double kOfTicks = 0.66;  // a single letter is recognized more easily than a number
+    constexpr double kOfTicks = 0.75;  // a single letter is recognized more easily than a number
     return std::max(kReadable, kOfTicks * at.context.tick);
 }
 
 double label_size(const MechanismView& at) { return std::max(21 * at.unit, at.context.tick); }
 
-double angle_letter(const MechanismView& at) { return std::max(at.marks, least_letter(at) / 21); }
+double angle_letter(const MechanismView& at) { return std::max({at.marks, at.context.tick / 21, kReadable / 21}); }
 
 std::string speed_label(const MechanismView& at) {
     return "$ω$\u2009=\u2009" +
@@ -123,22 +124,34 @@ class LabelPlacer {
         return std::min(std::clamp(preferred, 92 * at.marks, 150 * at.marks), needs.arc_room);
     }
 
-    // The letter goes to the middle of the sector below the lowest position of the beam.
-    std::optional<LabelPlace> angle(OccupancyGrid room, double radius) const {
-        const double letter = angle_letter(at);
-        if (radius <= at.hub() + 34 * letter) return std::nullopt;
-        const Vec2 o = at.px({0, 0});
-        const bool below = -needs.angles.low > needs.angles.high;
-        std::vector<Vec2> arc;
-        for (int i = 0; i <= 64; ++i)
-            arc.push_back(o + down((below ? needs.angles.low : needs.angles.high) * i / 64) * radius);
-        room.cover(arc, 1);
-        const Vec2 middle = o + down((below ? -0.5 : 0.5) * least_angle()) * (radius - 17 * letter);
-        LabelPlace out = place(room, about(middle, {13 * letter, 17 * letter}), o);
-        const Vec2 way = at.px(out.middle) - o;
-        if (std::abs(norm(way) - radius) > kFarthestLetter * letter) return std::nullopt;
-        out.base = at.look.camera.to_world(o + way * (radius / norm(way)));
+    // The arc in all positions of the beam; empty without an arc.
+    std::vector<Vec2> arc(double radius) const {
+        std::vector<Vec2> out;
+        const double from = std::min(needs.angles.low, 0.0), to = std::max(needs.angles.high, 0.0);
+        for (int i = 0; i <= 64 && radius >= at.hub() + 22 * at.marks; ++i)
+            out.push_back(at.px({0, 0}) + down(from + (to - from) * i / 64) * radius);
         return out;
+    }
+
+    // The letter goes to the middle of the sector between the horizontal and the nearest position of the beam or, if
+    // that is too small, to the other side of the horizontal, beside the arc. None if it has room in neither.
+    std::optional<LabelPlace> angle(const OccupancyGrid& room, double radius) const {
+        const double letter = angle_letter(at), side = -needs.angles.low > needs.angles.high ? -1 : 1;
+        if (arc(radius).empty()) return std::nullopt;
+        const Vec2 o = at.px({0, 0}), size{13 * letter, 17 * letter};
+        const Vec2 inside = o + down(side * 0.5 * least_angle()) * (radius - 17 * letter),
+                   beyond = o + Vec2{radius, side * 16 * letter};
+        for (const Vec2 middle : {inside, beyond}) {
+            if (middle == inside && radius <= at.hub() + 34 * letter) continue;
+            LabelPlace out = place(room, about(middle, size), o, 3 * u);
+            const Vec2 way = at.px(out.middle) - o;
+            const double turned = side * std::atan2(-way.y, way.x);
+            const double far = middle == inside ? std::abs(norm(way) - radius) : norm(way - Vec2{radius, 0});
+            if (far > kFarthestLetter * letter || turned < -kLowestLetter || turned > least_angle()) continue;
+            out.base = at.look.camera.to_world(o + way * (radius / norm(way)));
+            return out;
+        }
+        return std::nullopt;
     }
 
     // The label is beside its arrow; the arrow goes to the first side with space for both.
@@ -198,8 +211,8 @@ class LabelPlacer {
     // Labels move towards their arrows in the solid view, where the mechanism is smaller than in the flat view.
     double shrunk(double width) const { return at.context.setup->view.style == Style::solid ? 0.07 * width : 0; }
 
-    LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base) const {
-        const Box found = room.nearest_free(preferred.inset(-u - shrunk(preferred.w)));
+    LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base, double clear = 0) const {
+        const Box found = room.nearest_free(preferred.inset(-u - clear - shrunk(preferred.w)));
         const Camera& camera = at.look.camera;
         LabelPlace out{camera.to_world(found.centre()), {preferred.w, preferred.h}, camera.to_world(base), {}};
         if (room.covered(found) > 0) fade_where_met(out);
@@ -246,6 +259,8 @@ MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, S
     const auto take = [&](const LabelPlace& label) {
         for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(at.label_box(label, nullptr), 1);
     };
+    if (at.context.setup->view.style != Style::solid)
+        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.arc(out.arc_radius), 1);
     if (at.problem().cam) {
         out.speed =
             placer.speed(swept.room, canvas.measure(speed_label(at), {.size = label_size(at)}).w, out.speed_way);

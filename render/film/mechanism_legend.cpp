@@ -11,14 +11,17 @@ std::vector<MechanismLegend::Entry> MechanismLegend::entries() const {
     std::vector<Entry> out;
     for (int m = 0; m < at_.context.members() && at_.context.members() > 1; ++m)
         if (at_.ghosts || m == at_.member)
-            out.push_back({at_.context.member_color(m), at_.context.labels[static_cast<std::size_t>(m)]});
+            out.push_back({at_.context.member_color(m), at_.context.labels[static_cast<std::size_t>(m)], 6,
+                           FilmContext::dash_of(static_cast<std::size_t>(m))});
     for (std::size_t k = 0; k < at_.context.data_labels.size() && at_.member == 0; ++k)
         if (at_.context.setup->data[k].find({sim::ChannelKind::theta, 0}))
-            out.push_back({at_.context.data_color(k), at_.context.data_labels[k], true});
+            out.push_back({at_.context.data_color(k), at_.context.data_labels[k], 3, {9, 5}});
     return out;
 }
 
-bool MechanismLegend::has_label() const { return !entries().empty() && at_.box.w >= 160 * at_.unit; }
+// Length of the line before a name; short in a narrow panel [px].
+double MechanismLegend::sample() const { return (at_.box.w < 160 * at_.unit ? 12 : 30) * at_.unit; }
+bool MechanismLegend::has_label() const { return !entries().empty() && has_names(at_.box, at_.unit); }
 bool MechanismLegend::has_bar() const {
     return at_.box.w >= 300 * at_.unit && at_.box.h >= 220 * at_.unit && at_.labelled() &&
            at_.context.setup->view.style != Style::solid;
@@ -38,8 +41,8 @@ void MechanismLegend::place(OccupancyGrid room) {
         for (const auto* labels : {&at_.context.labels, &at_.context.data_labels})
             for (const std::string& each : *labels) widest = std::max(widest, canvas.measure(each, label_style()).w);
         const auto lines = static_cast<double>(entries().size());
-        label_ =
-            choose({std::min(46 * at_.unit + widest, at_.box.w - 2 * gap), 34 * at_.unit * lines}, Corner::top_left);
+        label_ = choose({std::min(16 * at_.unit + sample() + widest, at_.box.w - 2 * gap), 34 * at_.unit * lines},
+                        Corner::top_left);
     }
     if (!has_bar()) return;
     const double wide = std::max(scale_length(at_) * at_.look.camera.scale,
@@ -92,15 +95,13 @@ void MechanismLegend::label(Canvas& canvas) const {
     if (!label_) return;
     double y = label_->y + 24 * at_.unit;
     TextStyle style = label_style();
-    style.max_width = label_->w - 44 * at_.unit;
+    style.max_width = label_->w - sample() - 14 * at_.unit;
     for (const Entry& entry : entries()) {
         const double x = label_->x + 2 * at_.unit;
         canvas.move_to({x, y - 8 * at_.unit});
-        canvas.line_to({x + 30 * at_.unit, y - 8 * at_.unit});
-        std::vector<double> dash;
-        if (entry.dashed) dash = {9 * at_.unit, 5 * at_.unit};
-        canvas.stroke({entry.color, (entry.dashed ? 3 : 6) * at_.unit, dash, Cap::butt});
-        canvas.text({x + 42 * at_.unit, y}, entry.text, style);
+        canvas.line_to({x + sample(), y - 8 * at_.unit});
+        canvas.stroke({entry.color, entry.width * at_.unit, dashes(entry.dash, at_.unit), Cap::butt});
+        canvas.text({x + sample() + 12 * at_.unit, y}, entry.text, style);
         y += 34 * at_.unit;
     }
 }

@@ -26,9 +26,11 @@ class MechanismLegend {
     struct Entry {
         Color color;
         std::string text;
-        bool dashed = false;
+        double width = 6;  // of its line [design px]
+        std::vector<double> dash = {};
     };
     std::vector<Entry> entries() const;
+    double sample() const;
     bool has_label() const;
     bool has_bar() const;
     void scale_bar(Canvas& canvas, const MechanismView& at) const;

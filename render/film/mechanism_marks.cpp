@@ -164,28 +164,36 @@ static Color ink_on_disc(const MechanismScene& s) {
     return dark ? rgb(0x14171D) : s.at.palette.steel_edge;
 }
 
-// B and C are beyond the ends of the line between them, so that they never overlap it, and inside the disc.
+// B and C are beyond the ends of the line between them or, on a small disc, on its two sides, and inside the disc.
 void draw_disc_letters(const MechanismScene& s) {
     if (!s.shape.disc) return;
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
-    const double usual = 22 * s.at.marks;
-    if (usual < kReadable || d.radius < 60 * s.at.marks || !s.at.context.setup->view.show.labels) return;
     // On a small disc they keep a readable size.
-    const double size = std::max(usual, std::min(least_letter(s.at), 0.45 * d.radius)), letter = size / 22;
+    const double size = std::max(22 * s.at.marks, std::min(least_letter(s.at), 0.5 * d.radius)), letter = size / 22;
+    if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.context.setup->view.show.labels) return;
     const double apart = norm(d.centre - d.axis);
-    const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1};
+    const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1}, across{along.y, -along.x};
     TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
     // A halo covers the outlines of other discs; it must not cover the pin.
     if (s.at.ghosts) style.halo = s.at.palette.steel;
-    s.canvas.text(s.on(d.centre + along * (4 * s.at.marks + (s.at.ghosts ? 21 : 16) * letter)) + Vec2{0, 7 * letter},
-                  "$B$", style);
+    const auto put = [&](const char* name, Vec2 at) {
+        const Vec2 middle = s.on(at);
+        if (s.at.moved && !s.at.box.inset(12 * letter).contains({middle.x, middle.y, 0, 0}))
+            return;  // cut off by the edge of the panel
+        s.canvas.text(middle + Vec2{0, 7 * letter}, name, style);
+    };
+    const double beyond = 4 * s.at.marks + (s.at.ghosts ? 21 : 16) * letter;
+    if (beyond + 13 * letter > norm(d.mark - d.centre) - d.mark_radius) {  // B would touch the mark
+        put("$B$", d.centre - across * (13 * letter));
+        put("$C$", d.axis + across * (d.bore + 12 * letter));
+        return;
+    }
+    put("$B$", d.centre + along * beyond);
     // The shaft in the solid view needs more space. If C would come near the rim, where contacts and their rings are,
     // it goes to the side.
     const double off = d.bore + (s.view ? 24 : 16) * letter;
-    const Vec2 way =
-        apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + Vec2{along.y, -along.x} * 0.8;
-    s.canvas.text(s.on(d.axis + way * off) + Vec2{0, 7 * letter}, "$C$", style);
+    put("$C$", d.axis + (apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + across * 0.8) * off);
 }
 
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {

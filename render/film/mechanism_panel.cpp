@@ -50,6 +50,7 @@ MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot
     labels_ = place_labels(at_, needs, swept, in_contact);
     legend_.place(std::move(swept.room));
     find_shots();
+    if (context.setup->view.style == Style::solid) fit_solid_view();
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
@@ -173,15 +174,46 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
-// The distance gives a mild perspective; the scale is a little smaller than in the flat view, so that nearer parts stay
-// inside.
+static double solid_distance(const Box& box) { return 2.4 * std::max(box.w, box.h); }  // a mild perspective
+
+// Seen from far aside, bodies in perspective may need more room than from the front: the picture is reduced and moved.
+void MechanismPanel::fit_solid_view() {
+    const View& view = at_.context.setup->view;
+    const Vec2 middle = at_.box.centre(), hinge = at_.px({0, 0});
+    const double half = at_.wide / 2, hub = at_.hub(), foot = support_reach(hub, at_.unit);
+    Bounds seen;  // from the centre of the panel, at zoom 1 [px]
+    const auto add_all = [&](double yaw, double pitch) {
+        const auto from = Perspective::looking({}, solid_distance(at_.box), 1, yaw, pitch);
+        const auto add = [&](Vec2 p, double z) { seen.add(from.to_pixels({p.x - middle.x, middle.y - p.y, z})); };
+        for (const std::vector<Vec2>& strip : at_.context.extent.strips)
+            for (const Vec2 p : strip) add(at_.px(p), half), add(at_.px(p), -half);
+        for (int i = 0; at_.problem().cam && i < 32; ++i) {
+            const sim::Cam& cam = *at_.problem().cam;
+            const Vec2 rim = cam.centre + sim::unit(2 * pi * i / 32) * (cam.radius + cam.eccentricity);
+            add(at_.px(rim), 0.62 * at_.wide), add(at_.px(rim), -0.62 * at_.wide);
+        }
+        for (const double x : {-1.5 * hub, 1.5 * hub})
+            for (const double z : {-3 * half, 1.5 * half}) add(hinge + Vec2{x, foot}, z), add(hinge + Vec2{x, -hub}, z);
+    };
+    for (const double way : {-1.0, 0.0, 1.0}) add_all(view.shot.yaw + way * view.swing, view.shot.pitch);
+    for (const CameraMove& move : at_.context.setup->moves) add_all(move.shot.yaw, move.shot.pitch);
+    const Box all = seen.box();
+    const double w = at_.box.w / 2, h = at_.box.h / 2, zoom = solid_zoom_;
+    if (zoom * std::max(-all.x, all.right()) <= w && zoom * std::max(-all.y, all.bottom()) <= h) return;
+    constexpr double kMargin = 0.96;
+    solid_zoom_ = std::min({zoom, kMargin * at_.box.w / all.w, kMargin * at_.box.h / all.h});
+    solid_shift_ = all.centre() * -solid_zoom_;
+}
+
+// A near camera is not shifted.
 Perspective MechanismPanel::view_of(const MechanismView& at, int frame) const {
     const View& view = at.context.setup->view;
     const double turn = 2 * pi * frame / std::max(1, at.context.frames());
     double yaw = view.shot.yaw, pitch = view.shot.pitch;
     if (!shots_.empty())
         yaw = shots_[static_cast<std::size_t>(frame)].yaw, pitch = shots_[static_cast<std::size_t>(frame)].pitch;
-    return Perspective::looking(at.box.centre(), 2.4 * std::max(at.box.w, at.box.h) * at.zoom(), 0.9,
+    const Vec2 shift = solid_shift_ * std::clamp(2 - at.zoom(), 0.0, 1.0);
+    return Perspective::looking(at.box.centre() + shift, solid_distance(at.box) * at.zoom(), solid_zoom_,
                                 yaw + view.swing * std::sin(turn), pitch);
 }
 

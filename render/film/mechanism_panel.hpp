@@ -37,6 +37,7 @@ class MechanismPanel final : public FilmPanel {
     struct ThreadState;  // a FilmPanel::State
     Perspective view_of(const MechanismView& at, int frame) const;
     void find_shots();
+    void fit_solid_view();
     void draw_still(Canvas& canvas, const MechanismView& at) const;
     void draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const;
     void draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const;
@@ -52,7 +53,9 @@ class MechanismPanel final : public FilmPanel {
 
     MechanismView at_;
     MechanismLegend legend_;
-    Box lit_box_;  // contains the lit mechanism at all frames, shadows included; whole pixels
+    Vec2 solid_shift_;         // of the projection in the solid view, so that everything is in the panel [px]
+    double solid_zoom_ = 0.9;  // of the solid view; nearer parts are larger than in the flat view
+    Box lit_box_;              // contains the lit mechanism at all frames, shadows included; whole pixels
     MechanismLabels labels_;
     TipPath tip_path_;
     ImpactRings rings_;

@@ -89,7 +89,7 @@ const PanelType& type_of(PanelKind kind) { return *std::ranges::find(panel_types
 FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s)) {
     check();
     colors = render::palette(setup->view.theme);
-    if (setup->view.paper) colors.paper = rgb(*setup->view.paper);
+    if (setup->view.paper) colors = on_paper(colors, rgb(*setup->view.paper));
     colors = recolored(colors, setup->view.colors);
     if (setup->view.transparent) colors = colors.without_paper();
     palette = &colors;
@@ -116,12 +116,12 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     if (setup->logo) place_logo();
     std::vector<double> times;
     for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
-    time = time_format(times);
     span = {times.front(), times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
         span.low = std::min(span.low, *std::ranges::min_element(*t));
         span.high = std::max(span.high, *std::ranges::max_element(*t));
     }
+    time = time_format(times, span.high);
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a single instant
 }
 
@@ -155,6 +155,13 @@ double FilmContext::measured_angle(std::size_t k, double t) const {
     const FilmData& data = setup->data[k];
     const std::vector<double>* theta = data.find({sim::ChannelKind::theta, 0});
     return theta ? value_at(data.t, *theta, t) : kNan;
+}
+
+bool FilmContext::names_in_panels() const {
+    std::ptrdiff_t named = 0;
+    for (const PanelSlot& slot : places.panels)
+        if (slot.spec.kind == PanelKind::mechanism && has_names(slot.box, unit)) ++named;
+    return named >= (setup->comparison == Comparison::ghosts ? 1 : members());
 }
 
 const sim::Problem* FilmContext::section_reference(int member) const {

@@ -12,8 +12,8 @@
 #include "render/draw/canvas.hpp"
 #include "render/film/film.hpp"
 #include "render/mechanism/trace.hpp"
-#include "render/plot/tick_marks.hpp"
 #include "render/plot/labels.hpp"
+#include "render/plot/tick_marks.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -60,11 +60,17 @@ struct FilmContext {
     std::string shown_unit(sim::Channel channel) const;
     // Colour of a motion: the first one has the palette's colour of motion.
     Color member_color(int member) const { return series_color(*palette, static_cast<std::size_t>(member)); }
+    // Dashes distinguish curves for viewers with a colour deficiency [design px].
+    static std::vector<double> dash_of(std::size_t curve) {
+        return curve % 3 == 1   ? std::vector<double>{9, 4}
+               : curve % 3 == 2 ? std::vector<double>{3, 3}
+                                : std::vector<double>{};
+    }
+    bool names_in_panels() const;  // the names of compared motions are beside their mechanisms
     // Sets the outlines of texts and lines in films without paper.
     void outline(Canvas& canvas) const { outline_on(canvas, *palette, unit); }
-    Color data_color(std::size_t k) const {
-        return series_color(*palette, 7 - k % 3);
-    }  // far from the colours of motions
+    // Far from the colours of motions, and bright on dark paper.
+    Color data_color(std::size_t k) const { return series_color(*palette, (palette->paper.g < 0.5 ? 5 : 7) - k % 3); }
     // Hub angle in data set k at time t, by linear interpolation; NaN where it has none [rad].
     double measured_angle(std::size_t k, double t) const;
 

@@ -151,7 +151,7 @@ void add_places(const FilmContext& context, ChartContent& c) {
         }
     for (int m = 0; m < context.members(); ++m) add_impulses(context, m, c, places);
     const double length = context.setup->problem.beam.length;
-    const double around = std::max(0.05 * (places.high - places.low), 1e-3 * length);
+    const double around = std::max(0.05 * (places.high - places.low), 2e-4 * length);
     c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
 }
 
@@ -263,15 +263,12 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             const bool alone = single && context.members() == 1;
             curve.color = alone && contact ? p.contact : curve_color(context, spec.channels[i], i, m);
             curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(curve.color, 0.25);
-            if (context.members() > 1)
+            if (context.members() > 1 && !context.names_in_panels())
                 curve.label = context.labels[static_cast<std::size_t>(m)] + ":";  // "ω = 0: 12"
-            else if (!single)
+            else if (context.members() == 1 && !single)
                 curve.label = symbol_of(spec.channels[i]);
-            // Dashes distinguish curves for viewers with a colour deficiency.
-            const std::size_t dashes = context.members() > 1 ? static_cast<std::size_t>(m) : i;
-            if (dashes % 3 == 1) curve.dash = {9, 4};
-            if (dashes % 3 == 2) curve.dash = {3, 3};
-            if (is_force(first)) curve.dash.clear();
+            if (!is_force(first))
+                curve.dash = FilmContext::dash_of(context.members() > 1 ? static_cast<std::size_t>(m) : i);
             curve.pale_within = context.motion(m).unreliable;
             curve.pale = p.tint(curve.color, kPaleShare);
             c.curves.push_back(std::move(curve));

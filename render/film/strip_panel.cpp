@@ -50,10 +50,10 @@ class CollisionPanel final : public FilmPanel {
         for (const sim::Impact& i : context.motion(0).impacts) {
             if (i.t_start > context.span.high) break;
             const double end = std::min(i.t_end.value_or(context.span.high), context.span.high);
-            if (spans_.empty() || i.collision != last_)
-                spans_.push_back({i.t_start, end});
-            else
-                spans_.back().high = std::max(spans_.back().high, end);
+            if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end});
+            Collision& now = spans_.back();
+            now.span.high = std::max(now.span.high, end);
+            now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
             last_ = i.collision;
         }
         content_ = strip_content(context, spec_);
@@ -102,29 +102,33 @@ class CollisionPanel final : public FilmPanel {
     }
 
   private:
+    // Of a contact that lasts, only the beginning counts as a collision [s].
+    static constexpr double kLasting = 0.25, kShown = 0.1;
+    struct Collision {
+        Range span;
+        double shown = 0;  // end of its time axis
+    };
+
     // The collision that began last.
     std::size_t shown(double t) const {
         std::size_t which = 0;
-        while (which + 1 < spans_.size() && spans_[which + 1].low - margin(which + 1) <= t) ++which;
+        while (which + 1 < spans_.size() && spans_[which + 1].span.low <= t) ++which;
         return which;
     }
-    double start(std::size_t which) const { return spans_.empty() ? 0 : spans_[which].low; }
-    double margin(std::size_t which) const { return 0.15 * std::max(spans_[which].high - spans_[which].low, 1e-4); }
+    double start(std::size_t which) const { return spans_.empty() ? 0 : spans_[which].span.low; }
 
     Chart chart_of(std::size_t which) const {
         ChartContent c = content_;
         if (spans_.empty()) {
             c.time = {0, 0.01};
         } else {
-            // Of a lasting contact only the first tenth of a second counts as a collision.
-            constexpr double kLongest = 0.1;  // [s]
-            const Range& span = spans_[which];
-            const double length = std::min(span.high - span.low, kLongest), m = std::min(margin(which), 0.01);
+            const Range& span = spans_[which].span;
+            const double length = spans_[which].shown - span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
             c.time = {-m, length + m};
             // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
             const double first = context_.at(0, 0), shown_until = span.low + length + m;
             if (context_.frames() == 1 && first > shown_until && first <= span.high)
-                c.time = {first - kLongest - span.low, first - span.low};
+                c.time = {first - kShown - span.low, first - span.low};
             else if (context_.span.low > shown_until && span.high > context_.span.low)
                 c.time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
             c.words = context_.translate(fmt::format("Collision {}, ", which + 1));
@@ -148,7 +152,7 @@ class CollisionPanel final : public FilmPanel {
     const FilmContext& context_;
     PanelSpec spec_;
     Box box_, plot_;
-    std::vector<Range> spans_;
+    std::vector<Collision> spans_;
     int last_ = -1;
     ChartContent content_;
     std::vector<ChartCurve> curves_;

@@ -36,7 +36,9 @@ class TracesPanel final : public FilmPanel {
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const Palette& p = *context_.palette;
-        draw_heading(canvas, context_, box_,
+        // The heading is above those of charts in the same column.
+        const Box axes = plot_area(box_, u, context_.tick);
+        draw_heading(canvas, context_, {axes.x, box_.y, axes.w, axes.h},
                      context_.translate("Contact trace on disc and beam") + motion_suffix(context_, member_));
         canvas.circle(centre_, radius_);
         canvas.fill_keeping_path(p.tint(p.steel, 0.5));

@@ -18,6 +18,8 @@ bool shows_force(const sim::Pose& pose, const DrawnBeam& beam) {
 
 bool is_small(const Box& box, double u) { return box.w < 420 * u || box.h < 300 * u; }
 
+bool has_names(const Box& box, double u) { return box.w >= 110 * u; }
+
 double force_arrow_length(double share, bool small, double u) { return (small ? 60 : 150) * u * share; }
 
 double force_label_distance(double length, double depth, double u) { return std::max(length, depth + 26 * u); }

@@ -40,6 +40,8 @@ struct ViewExtent {
 bool shows_force(const sim::Pose& pose, const DrawnBeam& beam);
 // The box of a mechanism is too small for labels.
 bool is_small(const Box& box, double unit);
+// … or large enough for the names of motions.
+bool has_names(const Box& box, double unit);
 // Length of the arrow of a force with this fraction of the film's largest [px]. `marks`: mark_unit.
 double force_arrow_length(double share, bool small, double marks);
 // Distance of the label from the contact, clear of a beam of this depth [px].

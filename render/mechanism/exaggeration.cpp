@@ -188,11 +188,6 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
     return beam;
 }
 
-double film_factor(const Problem& problem, std::span<const Pose> poses, std::optional<double> requested) {
-    return film_factor(
-        problem, poses.size(), [&](std::size_t k) { return poses[k]; }, requested);
-}
-
 double film_factor(const Problem& problem, std::size_t frames, const std::function<Pose(std::size_t)>& pose_of,
                    std::optional<double> requested) {
     constexpr double kShare = 0.10, kTilt = 0.25;  // of the length; [rad]

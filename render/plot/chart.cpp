@@ -158,8 +158,8 @@ void Chart::draw_dots_and_marks(Canvas& canvas, const Segment& segment) const {
     for (const ChartMark& mark : c_.marks) {
         if (!within(mark.t)) continue;
         const Vec2 at = Vec2{x(segment.view, mark.t), plot_.bottom()} + segment.shift;
-        // All lanes share the height of three ticks.
-        const double tall = mark.lanes == 1 ? 10 * style_.unit : std::min(8.0, 30.0 / mark.lanes) * style_.unit;
+        // All lanes share the height of two ticks, so that they stay below the curves.
+        const double tall = mark.lanes == 1 ? 10 * style_.unit : std::min(8.0, 20.0 / mark.lanes) * style_.unit;
         const double foot = at.y - 1 - tall * mark.lane;
         canvas.line({at.x, foot}, {at.x, foot - (mark.lanes == 1 ? tall : 0.85 * tall)},
                     {mark.color, 1.8 * style_.unit, {}, Cap::butt});
@@ -249,7 +249,8 @@ std::string Chart::reading_text(double value) const {
 
 double Chart::widest_reading(Canvas& canvas) const {
     const TextStyle style = reading_style({});
-    if (!c_.reading_unit.empty()) return canvas.measure("00.0\u00A0m" + c_.reading_unit, style).w;
+    if (!c_.reading_unit.empty())
+        return canvas.measure(std::string("00.0\u00A0") + prefix_for(axis_.high()).symbol + c_.reading_unit, style).w;
     return std::max(canvas.measure(fixed(axis_.ends().high, digits_), style).w,
                     canvas.measure(fixed(axis_.ends().low, digits_), style).w);
 }
@@ -277,14 +278,15 @@ void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) cons
         const double v = readings[i];
         const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
         const TextStyle style = reading_style(readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
-        if (!std::isnan(v)) canvas.text({right, baseline}, reading_text(v), style);
-        right -= widest;
-        if (std::isnan(v) && !label.empty()) {  // a name without a value would look like an error
-            TextStyle none = style;
-            none.align = HAlign::left;
-            canvas.text({right, baseline}, "–", none);
-        }
-        if (!label.empty()) {
+        if (label.empty()) {
+            if (!std::isnan(v)) canvas.text({right, baseline}, reading_text(v), style);
+            right -= widest;
+        } else {
+            right -= widest;
+            TextStyle beside = style;
+            beside.align = HAlign::left;
+            // A name without a value would look like an error.
+            canvas.text({right, baseline}, std::isnan(v) ? "–" : reading_text(v), beside);
             canvas.text({right, baseline}, label + "\u2002", style);
             right -= canvas.measure(label + "\u2002", style).w;
         }

@@ -143,9 +143,9 @@ std::string widest_speed_text(const std::vector<double>& speeds) {
     return widest;
 }
 
-TimeFormat time_format(const std::vector<double>& times) {
+TimeFormat time_format(const std::vector<double>& times, double latest) {
     TimeFormat out;
-    const double span = std::max(std::abs(times.front()), std::abs(times.back()));
+    const double span = std::max({std::abs(times.front()), std::abs(times.back()), std::abs(latest)});
     if (span > 0 && span < 0.1) {
         const Prefix p = prefix_for(span);
         static constexpr struct { const char *prefix, *symbol; } kUnits[] = {{"m", "ms"}, {"µ", "µs"}, {"n", "ns"}};

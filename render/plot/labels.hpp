@@ -31,7 +31,8 @@ struct TimeFormat {
     const char* symbol = "s";
     int decimals = 3;
 };
-TimeFormat time_format(const std::vector<double>& frame_times);
+// The unit suits the latest instant of the charts, too.
+TimeFormat time_format(const std::vector<double>& frame_times, double latest = 0);
 // Padded to the digits of the last instant, so that the text does not move.
 std::string clock_text(const TimeFormat& format, double t, double last);
 

@@ -42,8 +42,8 @@ struct ChartStyle {
 };
 // A grid line at every number of the left axis.
 void draw_levels(Canvas& canvas, const ChartStyle& style, const AxisMap& axis, const Box& plot);
-// The numbers below the plot, and the name of their axis at the right end if they leave it room. `across`: grid lines,
-// else short ticks. `moves`: the numbers move with time, so they are not rounded to pixels.
+// The numbers below the plot, and the name of their axis at the right end or before the last number. `across`: grid
+// lines, else short ticks. `moves`: the numbers move with time, so they are not rounded to pixels.
 void draw_numbers_below(Canvas& canvas, const ChartStyle& style, const Box& plot, std::vector<Tick> ticks,
                         const std::string& name, bool across, bool moves = false);
 

@@ -71,8 +71,8 @@ std::vector<render::Callout> callouts_of(const std::vector<ShownEvent>& shown, c
     for (std::size_t i = 0; i < shown.size(); ++i) {
         const auto& [event, t] = shown[i];
         if (event->text.empty()) continue;
-        double from = map.film_time(t);  // texts at the same instant follow each other
-        for (std::size_t j = 0; j < i; ++j)
+        double from = map.film_time(t);
+        for (std::size_t j = 0; j < i && event->freeze > 0; ++j)  // freezes at the same instant follow each other
             if (shown[j].t == t) from += shown[j].event->freeze;
         const double length = std::max(event->show.value_or(kDefaultDuration), event->freeze);
         const int first = static_cast<int>(std::ceil(from * fps - 1e-6)),

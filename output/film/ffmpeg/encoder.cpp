@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "output/film/encoder_recipe.hpp"
 #include "output/film/ffmpeg/library.hpp"
 
 extern "C" {
@@ -27,26 +28,28 @@ struct OwnedFrame : FramePlanes {
     }
 };
 
-// The pixel formats that libx265 supports depend on its build.
-bool supports(const AVCodec& codec, AVPixelFormat pixels) {
+// Empty: unknown.
+std::vector<std::string> pixel_formats_of(const AVCodec& codec) {
 #if LIBAVCODEC_VERSION_INT >= AV_VERSION_INT(61, 13, 100)
     const void* found = nullptr;
-    if (avcodec_get_supported_config(nullptr, &codec, AV_CODEC_CONFIG_PIX_FORMAT, 0, &found, nullptr) < 0) return true;
+    if (avcodec_get_supported_config(nullptr, &codec, AV_CODEC_CONFIG_PIX_FORMAT, 0, &found, nullptr) < 0) return {};
     const auto* format = static_cast<const AVPixelFormat*>(found);
 #else
     const AVPixelFormat* format = codec.pix_fmts;
 #endif
-    if (format == nullptr) return true;  // unknown
-    while (*format != AV_PIX_FMT_NONE && *format != pixels) ++format;
-    return *format == pixels;
+    std::vector<std::string> out;
+    for (; format != nullptr && *format != AV_PIX_FMT_NONE; ++format) out.emplace_back(av_get_pix_fmt_name(*format));
+    return out;
 }
 
 const AVCodec& first_encoder(const EncoderSettings& s) {
+    std::vector<AvailableEncoder> available;
     for (const std::string& name : s.encoders)
-        if (const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str());
-            codec != nullptr && supports(*codec, av_get_pix_fmt(s.pixel_format.c_str())))
-            return *codec;
-    throw MissingCodec(s.missing);
+        if (const AVCodec* codec = avcodec_find_encoder_by_name(name.c_str()))
+            available.push_back({name, pixel_formats_of(*codec)});
+    const AvailableEncoder* chosen = chosen_encoder(s.encoders, s.pixel_format, available);
+    if (chosen == nullptr) throw MissingCodec(s.missing);
+    return *avcodec_find_encoder_by_name(chosen->name.c_str());
 }
 
 bool is_yuv(AVPixelFormat format) {

@@ -2,6 +2,7 @@
 #include <set>
 
 #include "output/files/atomic_file.hpp"
+#include "output/film/encoder_recipe.hpp"
 #include "output/film/palette.hpp"
 #include "output/film/video.hpp"
 #include "output/film/yuv.hpp"
@@ -125,6 +126,28 @@ TEST(Formats, TransparentHevcIsMadeOrRefusedWithAnotherFile) {
     } catch (const MissingCodec& error) {
         EXPECT_NE(std::string(error.what()).find(".mov (prores)"), std::string::npos);
     }
+}
+
+// Independent of this machine's libx265: the lists are those of x265 3.5 and of x265 4 with alpha.
+TEST(Formats, HevcWithAlphaNeedsAnEncoderOfThesePixels) {
+    const FormatCase kind{".mov", Codec::hevc, true, "hevc", 3};
+    const EncoderRecipe recipe = encoder_recipe(options_of(kind, 96, 64), ".mov");
+    const auto chosen = [&](const std::vector<AvailableEncoder>& available) -> std::string {
+        const AvailableEncoder* found = chosen_encoder(recipe.encoders, recipe.pixel_format, available);
+        return found ? found->name : "none";
+    };
+    const std::vector<std::string> without{"yuv420p", "yuv422p", "yuv444p", "gbrp", "yuv420p10le", "gray"};
+    std::vector<std::string> with = without;
+    with.push_back("yuva420p");
+    EXPECT_EQ(chosen({}), "none");
+    EXPECT_EQ(chosen({{"libx265", without}}), "none");
+    EXPECT_EQ(chosen({{"hevc_vaapi", with}, {"libx265", without}}), "none");
+    EXPECT_EQ(chosen({{"libx265", with}}), "libx265");
+    EXPECT_EQ(chosen({{"libx265", {}}}), "libx265");  // unknown formats: the encoder decides
+    for (const char* word : {"x265 4", ".mov (prores)", ".webm (vp9)", ".mkv (ffv1)"})
+        EXPECT_NE(recipe.missing.find(word), std::string::npos) << word;
+    const EncoderRecipe opaque = encoder_recipe(options_of({".mov", Codec::hevc, false, "hevc", 3}, 96, 64), ".mov");
+    EXPECT_NE(chosen_encoder(opaque.encoders, opaque.pixel_format, {{"libx265", without}}), nullptr);
 }
 
 TEST(FormatProblems, AnImpossibleCombinationNamesAnother) {

@@ -116,6 +116,34 @@ TEST(SolidFilm, TheMountDoesNotSlideByItself) {
     EXPECT_TRUE(film.repeats(20));
 }
 
+// From any side all bodies are inside the panel.
+TEST(SolidFilm, ShowsEverythingFromAllSides) {
+    SKIP_WITHOUT_GL();
+    for (const double yaw : {-1.1, 0.42, 1.1})
+        for (const double pitch : {-0.8, 0.2, 0.9}) {
+            FilmSetup setup = film_of(Style::solid);
+            setup.width = 640, setup.height = 360;
+            setup.layout = LayoutNode{};
+            setup.view.show = {false, false, false, false, false, false};
+            setup.view.transparent = true;
+            setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
+            Film film(setup);
+            const Box box = film.geometry(0).layout.panels.front().box.inset(1);
+            for (const int frame : {0, 20}) {
+                const Image image = drawn(film, frame);
+                long inside = 0, edge = 0;
+                for (int y = 0; y < image.height; ++y)
+                    for (int x = 0; x < image.width; ++x) {
+                        if (image.pixels[static_cast<std::size_t>(y * image.width + x)] >> 24 != 255) continue;
+                        ++inside;
+                        if (!box.contains({double(x), double(y), 1, 1})) ++edge;
+                    }
+                EXPECT_GT(inside, 1000) << yaw << ", " << pitch;
+                EXPECT_EQ(edge, 0) << yaw << ", " << pitch << ", frame " << frame;
+            }
+        }
+}
+
 TEST(Camera, AFilmWhoseCameraMovesDoesNotStandStill) {
     FilmSetup setup = film_of(Style::flat);
     for (sim::Pose& pose : setup.poses) pose = setup.poses.front();

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 #include <string>
 
 #include "render/draw/canvas.hpp"
@@ -121,6 +122,13 @@ TEST(Labels, ClockShowsADifferenceBetweenNeighbouringFrames) {
 }
 
 // Freezes at round times cause steps of rounding size, and one irregular step each.
+// A film of one frame states its instant in the unit of its charts.
+TEST(Labels, TheUnitOfTimeSuitsTheCharts) {
+    EXPECT_STREQ(time_format({0}, 0.02).symbol, "ms");
+    EXPECT_STREQ(time_format({0}, 2).symbol, "s");
+    EXPECT_STREQ(time_format({0.01}, 0.05).symbol, "ms");
+}
+
 TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
     std::vector<double> times;
     for (int k = 0; k < 30; ++k) {
@@ -267,6 +275,24 @@ TEST(Layout, SeveralMechanismsStandAsTheirMotionAsks) {
 }
 
 // The box of the parameters does not depend on the motion.
+// Four mechanisms in a square leave no cell empty; in a very wide picture charts are not squeezed.
+TEST(Layout, SeveralMechanismsUseTheArea) {
+    std::vector<PanelSpec> side = standard_panels({}, false);
+    const auto columns_of = [](const Layout& l) {
+        std::set<double> out;
+        for (const PanelSlot& slot : l.panels)
+            if (slot.spec.kind == PanelKind::mechanism) out.insert(slot.box.x);
+        return out.size();
+    };
+    ViewExtent extent;
+    extent.beams.add({-0.1, -0.2}), extent.beams.add({1, 0.8});
+    const sim::Problem problem;
+    extent.problems.push_back(&problem);
+    EXPECT_EQ(columns_of(layout(1080, 1080, side, 4, extent)), 2U);
+    const Layout wide = layout(3840, 1080, side, 4, extent);
+    EXPECT_GE(wide.first(PanelKind::strip)->box.w, 0.19 * 3840);
+}
+
 TEST(Layout, RoomOfTheParametersDependsOnTheSizeAlone) {
     const Extents extents;
     for (const auto [w, h] : many_sizes())

@@ -174,6 +174,24 @@ TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
     EXPECT_EQ(drawn(brief, gone + 1), drawn(longer, gone + 1));
 }
 
+// The label agrees with the chart: after several short contacts of one collision it states the largest.
+TEST(Peaks, AreThoseOfTheWholeCollision) {
+    FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
+    setup.layout = LayoutNode{};
+    sim::Impact strong, weak;
+    strong.t_start = 0.3, strong.t_end = 0.301, strong.force_peak = 100;
+    weak.t_start = 0.34, weak.t_end = 0.341, weak.force_peak = 20;
+    setup.impacts = {strong, weak};
+    Film together(setup);
+    setup.impacts[1].force_peak = 99;  // still smaller
+    Film equal(setup);
+    setup.impacts[1] = weak, setup.impacts[1].collision = 1;
+    Film apart(setup);
+    const int both = 23;
+    EXPECT_EQ(together.geometry(both).texts, equal.geometry(both).texts);
+    EXPECT_NE(together.geometry(both).texts, apart.geometry(both).texts);
+}
+
 // A longer contact that begins in the same frame shows its own force, which may be smaller.
 TEST(Peaks, GiveWayToAContactThatLasts) {
     FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
@@ -282,6 +300,30 @@ TEST(Captions, TheLatestHasRoomInAnyCase) {
     EXPECT_EQ(texts.back().w, added_texts(last, plain, 40).front().w);
 }
 
+// Whatever they are anchored to, captions that are visible together are all readable, and leave the disc visible.
+TEST(Captions, ThatStandTogetherStandApart) {
+    FilmSetup setup = test::flat_film({.duration = 0.8}, 1280, 720);
+    setup.layout = LayoutNode{};
+    Film plain(setup);
+    using enum Anchor::Kind;
+    for (const Anchor::Kind kind : {cam, hub, contact, all, all, tip})
+        setup.callouts.push_back({0, 47, "caption number " + std::to_string(setup.callouts.size()), Anchor{kind, {}}});
+    Film film(setup);
+    for (const int frame : {5, 20, 40}) {
+        const std::vector<Box> texts = added_texts(film, plain, frame);
+        ASSERT_EQ(texts.size(), 6U);
+        const Camera camera = film.geometry(frame).camera;
+        const sim::Pose pose = setup.pose(static_cast<std::size_t>(frame));
+        const double radius = setup.problem.cam->radius * camera.scale;
+        const Vec2 middle = camera.to_pixels(pose.disc_centre);
+        for (std::size_t i = 0; i < texts.size(); ++i) {
+            EXPECT_FALSE(texts[i].overlaps({middle.x - radius, middle.y - radius, 2 * radius, 2 * radius})) << i;
+            for (std::size_t j = 0; j < i; ++j)
+                EXPECT_FALSE(texts[i].inset(-4).overlaps(texts[j].inset(-4))) << i << ", " << j;
+        }
+    }
+}
+
 // In a narrow panel the caption is below the label of the cam's speed, which its leader line has to avoid.
 TEST(Captions, LinesToTheContactPassTheLabels) {
     FilmSetup setup = compared(Comparison::panels);
@@ -320,6 +362,22 @@ TEST(Plates, OwnColoursReplaceTheThemesAndLeaveTheOthers) {
     Film film(setup);
     EXPECT_EQ(pixels_of(drawn(as_it_is, 47), 0x8844AA), 0);
     EXPECT_GT(pixels_of(drawn(film, 47), 0x8844AA), 50);
+}
+
+// Text is readable on any paper, and pale colours are visible.
+TEST(Plates, ThePaperOfAnyColourKeepsTextReadable) {
+    for (const Theme theme : {Theme::light, Theme::dark, Theme::print})
+        for (const std::uint32_t paper : {0x7A7A7AU, 0x003355U, 0xF4F1EAU, 0x000000U, 0xFFFFFFU, 0xFFCC00U}) {
+            const Palette p = on_paper(palette(theme), rgb(paper));
+            EXPECT_EQ(p.paper, rgb(paper));
+            EXPECT_GE(contrast(p.ink, p.paper), 4.5) << paper;
+            EXPECT_GE(contrast(p.muted, p.paper), 4.5) << paper;
+            EXPECT_GT(contrast(p.grid, p.paper), 1.05) << paper;
+        }
+    const Palette& light = palette(Theme::light);
+    const Palette same = on_paper(light, light.paper);
+    EXPECT_EQ(same.ink, light.ink);
+    EXPECT_NEAR(same.grid.r, light.grid.r, 0.02);
 }
 
 TEST(Plates, ALogoStandsBesideTheClockClearOfWords) {
@@ -753,6 +811,44 @@ TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
             return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
         })) << frames;
     }
+}
+
+// A collision of many impacts is seen to its end.
+TEST(CollisionStrip, ShowsTheWholeCollision) {
+    FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
+    setup.impacts.clear();
+    for (const double t : {0.3, 0.45, 0.6}) {
+        sim::Impact impact;
+        impact.t_start = t, impact.t_end = t + 0.02;
+        setup.impacts.push_back(impact);
+    }
+    PanelSpec by_collision = strip(ChannelKind::contact_force);
+    by_collision.by_collision = true;
+    setup.layout = leaf(by_collision);
+    Film film(std::move(setup));
+    for (const int frame : {19, 28, 37}) {  // within each impact
+        const FrameGeometry g = film.geometry(frame);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        EXPECT_TRUE(std::ranges::any_of(g.texts, [&](const Box& text) {
+            return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
+        })) << frame;
+    }
+}
+
+// The names of motions are beside the readings only if no mechanism carries them.
+TEST(Comparisons, NameEachMotionOnce) {
+    const auto texts_of_heading = [](std::optional<LayoutNode> layout) {
+        FilmSetup setup = compared(Comparison::panels);
+        setup.layout = std::move(layout);
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(20);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        return std::ranges::count_if(g.texts, [&](const Box& text) {
+            return text.x > box.x && text.y > box.y && text.bottom() < box.y + 34 * g.layout.unit;
+        });
+    };
+    EXPECT_EQ(texts_of_heading({}), 3);                                   // name of the axis, two readings
+    EXPECT_EQ(texts_of_heading(leaf(strip(ChannelKind::theta))), 3 + 2);  // … and their names
 }
 
 // Arrows are proportional to the force, in the mechanism and in the close-up.

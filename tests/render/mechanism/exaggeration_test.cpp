@@ -186,16 +186,21 @@ TEST(Exaggeration, MotionIsContinuousThroughTouchAndRelease) {
     }
 }
 
+static double factor_of(const FilmSetup& film, std::optional<double> requested) {
+    return film_factor(
+        film.problem, film.poses.size(), [&](std::size_t k) { return film.poses[k]; }, requested);
+}
+
 TEST(Exaggeration, FactorOfARigidBeamIsOne) {
     test::Synthetic how;
     how.amplitude = 0;
     const FilmSetup film = test::synthetic_film(how);
-    EXPECT_EQ(film_factor(film.problem, film.poses, {}), 1);
+    EXPECT_EQ(factor_of(film, {}), 1);
 }
 
 TEST(Exaggeration, AutomaticFactorIsRoundAndShowsATenthOfTheLengthAtMost) {
     const FilmSetup film = test::synthetic_film();
-    const double n = film_factor(film.problem, film.poses, {});
+    const double n = factor_of(film, {});
     EXPECT_GT(n, 1);
     EXPECT_DOUBLE_EQ(round_down_125(n), n);
     for (const sim::Pose& pose : film.poses) {
@@ -207,7 +212,7 @@ TEST(Exaggeration, AutomaticFactorIsRoundAndShowsATenthOfTheLengthAtMost) {
 
 TEST(Exaggeration, AFactorThatWouldEnterTheCamYields) {
     const FilmSetup film = test::synthetic_film();
-    const double n = film_factor(film.problem, film.poses, 5000.0);
+    const double n = factor_of(film, 5000.0);
     EXPECT_LT(n, 5000);
     for (const sim::Pose& pose : film.poses)
         EXPECT_TRUE(drawn_beam(film.problem, pose, n, film.problem.beam.depth).clear);
@@ -236,7 +241,7 @@ TEST(Exaggeration, ATouchingBeamIsDrawnTouchingWhereItDoes) {
     how.amplitude = 6e-3;
     const FilmSetup film = test::synthetic_film(how);
     for (const std::optional<double> wanted : {std::optional<double>(), std::optional(20.0), std::optional(200.0)}) {
-        const double n = film_factor(film.problem, film.poses, wanted);
+        const double n = factor_of(film, wanted);
         int touching = 0;
         for (const sim::Pose& pose : film.poses) {
             const DrawnBeam beam = drawn_beam(film.problem, pose, n, film.problem.beam.depth);

@@ -4,6 +4,9 @@
 
 #include <cmath>
 
+#include "render/draw/canvas.hpp"
+#include "render/plot/tick_marks.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -73,6 +76,30 @@ TEST(Quantity, ValuesBesideEachOtherShareAPrefix) {
     EXPECT_EQ(quantity(500, prefix_for(2000), "N"), "0.5\u00A0kN");
     EXPECT_EQ(quantity(250, prefix_for(1000), "N"), "0.25\u00A0kN");
     EXPECT_EQ(quantity(125, prefix_for(500), "N"), "125\u00A0N");
+}
+
+// The name of an axis does not hide its last number: it is before it or, if there is no room, in place of the number
+// before.
+TEST(Ticks, TheNameOfTheAxisLeavesTheLastNumber) {
+    const Palette& p = palette(Theme::light);
+    const Fonts fonts(false);
+    for (const auto& [width, written] : {std::pair{600.0, 6U}, {200.0, 5U}}) {
+        Image image(800, 100);
+        Canvas canvas(image, fonts);
+        std::vector<Box> texts;
+        canvas.record = &texts;
+        const Box plot{50, 10, width, 50};
+        std::vector<Tick> ticks;
+        for (int i = 0; i <= 4; ++i) ticks.push_back({i / 4.0, fixed(i * 0.25, 2)});
+        draw_numbers_below(canvas, {p, 1, 17}, plot, ticks, "$t$ / s", false);
+        ASSERT_EQ(texts.size(), written);
+        for (std::size_t i = 0; i < texts.size(); ++i)
+            for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(texts[i].overlaps(texts[j])) << i << ", " << j;
+        const Box &name = texts.back(), &last = texts[texts.size() - 2], &before = texts[texts.size() - 3];
+        EXPECT_NEAR(last.centre().x, plot.right(), 2);
+        EXPECT_GT(name.x, before.right());
+        EXPECT_LT(name.right(), last.x);
+    }
 }
 
 }  // namespace

@@ -47,8 +47,9 @@ void touches_within_half_a_pixel(const std::string& overrides, double wanted_fac
     all.poses = {request};
     const sim::Result motion = sim::simulate(problem, all);
     const std::vector<sim::Pose>& poses = motion.poses[0];
-    const double factor =
-        render::film_factor(problem, poses, wanted_factor > 0 ? std::optional(wanted_factor) : std::nullopt);
+    const double factor = render::film_factor(
+        problem, poses.size(), [&](std::size_t k) { return poses[k]; },
+        wanted_factor > 0 ? std::optional(wanted_factor) : std::nullopt);
     constexpr double kPixel = 1.0 / 950;  // [m], of a film 1920 pixels wide
     int touching = 0;
     for (const sim::Pose& pose : poses) {
