@@ -229,7 +229,7 @@ class Captions {
         if (s.at.moved) return;
         const Vec2 o = s.px({0, 0});
         const double hub = s.at.hub(), half = std::max(hub, support_half_width(hub, s.at.marks));
-        taken.push_back({o.x - half, o.y - hub, 2 * half, hub + support_reach(hub, s.at.marks)});
+        taken.push_back({o.x - half, o.y - hub, 2 * half, hub + support_reach(hub, s.at.marks) - 14 * s.at.marks});
         if (const auto& cam = s.at.problem().cam) {
             const double swept = (cam->radius + cam->eccentricity) * s.at.look.camera.scale;
             const Vec2 middle = s.px(s.pose.cam_centre);
@@ -312,7 +312,8 @@ class Captions {
         for (const double x : lefts)
             for (const double y : tops) {
                 const Box plate{x, y, first.w, first.h};
-                const double down = y - first.y, cost = (down > 0 ? 1 : 2) * std::abs(down) + std::abs(x - first.x);
+                const double down = y - first.y,
+                             cost = (down > 0 ? 1 : 2) * std::abs(down) + 0.7 * std::abs(x - first.x);
                 if (!is_free(plate) || (best && cost >= least)) continue;
                 best = plate, least = cost;
             }

@@ -51,8 +51,10 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
     const Box box = s.at.label_box(label, s.view, base);
     if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
-    // In the solid view a halo over soft shadows would glow; a near camera needs it, where labels are over bodies.
-    if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
+    // In the solid view a halo over soft shadows would glow; a near camera, and one far aside, need it, where labels
+    // are over bodies.
+    constexpr double kAside = 0.75;  // cosine of the angle to the plane's normal
+    if (!s.view || s.at.moved || s.view->axes[2].z < kAside) style.halo = s.at.palette.paper.faded(opacity);
     const double left = style.align == HAlign::centre ? box.centre().x : box.x;
     s.canvas.text({left, box.centre().y + 0.32 * style.size}, text, style);
     if (s.labels) s.labels->push_back(box);

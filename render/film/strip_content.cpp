@@ -120,6 +120,7 @@ Range range_of(const FilmContext& context, const std::vector<ChartCurve>& curves
 // Colours distinguish several channels, or several motions.
 Color curve_color(const FilmContext& context, Channel channel, std::size_t i, int member) {
     if (context.members() > 1) return context.member_color(member);
+    if (channel.kind == ChannelKind::contact_force) return context.palette->contact;  // as its arrow
     return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
 }
 

@@ -50,7 +50,8 @@ class CollisionPanel final : public FilmPanel {
         for (const sim::Impact& i : context.motion(0).impacts) {
             if (i.t_start > context.span.high) break;
             const double end = std::min(i.t_end.value_or(context.span.high), context.span.high);
-            if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end});
+            if (context.frames() > 1 && end < context.at(0, 0)) continue;  // before the film
+            if (spans_.empty() || i.collision != last_) spans_.push_back({{i.t_start, end}, end, i.collision + 1});
             Collision& now = spans_.back();
             now.span.high = std::max(now.span.high, end);
             now.shown = end - i.t_start > kLasting ? i.t_start + kShown : now.span.high;
@@ -103,10 +104,11 @@ class CollisionPanel final : public FilmPanel {
 
   private:
     // Of a contact that lasts, only the beginning counts as a collision [s].
-    static constexpr double kLasting = 0.25, kShown = 0.1;
+    static constexpr double kLasting = 1, kShown = 0.1;
     struct Collision {
         Range span;
         double shown = 0;  // end of its time axis
+        int number = 1;
     };
 
     // The collision that began last.
@@ -131,7 +133,7 @@ class CollisionPanel final : public FilmPanel {
                 c.time = {first - kShown - span.low, first - span.low};
             else if (context_.span.low > shown_until && span.high > context_.span.low)
                 c.time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
-            c.words = context_.translate(fmt::format("Collision {}, ", which + 1));
+            c.words = context_.translate(fmt::format("Collision {}, ", spans_[which].number));
         }
         const Prefix prefix = prefix_for(c.time.high);
         c.time_unit = c.time.high < 1 ? prefix.factor : 1;

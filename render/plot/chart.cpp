@@ -286,7 +286,9 @@ void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) cons
             TextStyle beside = style;
             beside.align = HAlign::left;
             // A name without a value would look like an error.
-            canvas.text({right, baseline}, std::isnan(v) ? "–" : reading_text(v), beside);
+            const std::string number = std::isnan(v) ? "–" : reading_text(v);
+            right -= std::max(0.0, canvas.measure(number, beside).w - widest);
+            canvas.text({right, baseline}, number, beside);
             canvas.text({right, baseline}, label + "\u2002", style);
             right -= canvas.measure(label + "\u2002", style).w;
         }

@@ -123,11 +123,17 @@ bool steady_speed(const std::vector<double>& speeds) {
 std::string speed_text(double speed, bool steady) {
     if (speed == 0) return "frozen";
     if (std::abs(speed - 1) < (steady ? 0.005 : 0.05)) return {};
-    if (speed > 1) return fmt::format("{:.2g}× speed", speed);
+    const auto rounded = [](double value, int digits) {  // without an exponent
+        const double unit = ten_to(static_cast<int>(std::floor(std::log10(value))) + 1 - digits);
+        return std::round(value / unit) * unit;
+    };
+    if (speed > 1) return fmt::format("{:.7g}× speed", rounded(speed, 2));
     double slower = 1 / speed;
     const double whole = std::round(slower);
     if (same_speed(1 / whole, speed))
         slower = whole;
+    else if (steady && speed < 0.01)
+        slower = rounded(slower, 3);
     else if (steady)
         return fmt::format("{:.3g}× speed", speed);
     else

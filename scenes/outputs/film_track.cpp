@@ -80,13 +80,22 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
     return out;
 }
 
+// The text of a cue: without empty lines, which would end it, and without markup.
+static std::string cue_text(std::string text, bool vtt) {
+    for (std::size_t at = 0; (at = text.find("\n\n", at)) != std::string::npos;) text.erase(at, 1);
+    for (std::size_t at = 0; vtt && (at = text.find_first_of("&<>", at)) != std::string::npos; ++at)
+        text.replace(at, 1, text[at] == '&' ? "&amp;" : text[at] == '<' ? "&lt;" : "&gt;");
+    // SubRip has no escapes: an invisible character makes a tag plain text.
+    for (std::size_t at = 0; !vtt && (at = text.find('<', at)) != std::string::npos; ++at)
+        text.insert(at + 1, "\u2060");
+    return text;
+}
+
 std::string subtitle_file(const std::vector<Cue>& cues, Subtitles format) {
     const bool vtt = format == Subtitles::vtt;
     std::string out = vtt ? "WEBVTT\n\n" : "";
     for (std::size_t i = 0; i < cues.size(); ++i) {
-        std::string text = cues[i].text;
-        for (std::size_t at = 0; vtt && (at = text.find_first_of("&<>", at)) != std::string::npos; ++at)
-            text.replace(at, 1, text[at] == '&' ? "&amp;" : text[at] == '<' ? "&lt;" : "&gt;");
+        const std::string text = cue_text(cues[i].text, vtt);
         if (!vtt) out += fmt::format("{}\n", i + 1);
         const char point = vtt ? '.' : ',';
         out += fmt::format("{} --> {}\n{}\n\n", stamp(cues[i].from, point), stamp(cues[i].to, point), text);

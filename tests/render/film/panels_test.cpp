@@ -1157,6 +1157,9 @@ TEST(Labels, SpeedsAreToldAsFractions) {
     EXPECT_EQ(speed_text(0.97, true), "0.97× speed");
     EXPECT_EQ(speed_text(0, true), "frozen");
     EXPECT_EQ(speed_text(4, true), "4× speed");
+    EXPECT_EQ(speed_text(600, true), "600× speed");  // no exponents
+    EXPECT_EQ(speed_text(6.73e-5, true), "1/14900 speed");
+    EXPECT_EQ(speed_text(1.53, true), "1.5× speed");
 }
 
 TEST(Labels, BothCoefficientsOfStickSlipAreTold) {

@@ -498,6 +498,15 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
                 ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次碰撞"));
 }
 
+// Empty lines would end a cue, and SubRip has no escapes for markup.
+TEST(FilmTrack, CuesKeepTheirText) {
+    const std::vector<Cue> cues{{0, 1, "one\n\n\ntwo <i>"}};
+    EXPECT_THAT(subtitle_file(cues, Subtitles::vtt), HasSubstr("\none\ntwo &lt;i&gt;\n\n"));
+    const std::string srt = subtitle_file(cues, Subtitles::srt);
+    EXPECT_THAT(srt, HasSubstr("\none\ntwo <"));
+    EXPECT_THAT(srt, Not(HasSubstr("<i>")));
+}
+
 TEST(Films, HaveSubtitlesBesideThemAndChaptersWithin) {
     const Folder folder;
     folder.write("s.json",
