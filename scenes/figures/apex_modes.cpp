@@ -49,7 +49,7 @@ std::string missing_points(const std::array<std::vector<int>, 2>& missing, Lang 
 FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& studies) {
     std::vector<ApexRun> runs = apex_runs(scene.problem);
     for (ApexRun& run : runs) {
-        run.study = studies.of(run.problem, scene.end_time, "apex-modes");
+        run.study = studies.of(run.problem, scene.end_time);
         studies.apexes(run.study);
         studies.may_fail(run.study);
         studies.stop_after(run.study, {.collisions = kSearchedCollisions});
@@ -97,9 +97,9 @@ std::optional<std::string> needs_free_cam(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kApexModes{"apex-modes",
-                        {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
-                        needs_free_cam,
-                        prepare_apex};
+extern const Recipe kApexModes{"apex-modes",
+                               {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
+                               needs_free_cam,
+                               prepare_apex};
 
 }  // namespace beamcam::scenes

@@ -177,7 +177,7 @@ GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, cons
     cells_.assign(whole_.panels.back().cells[0].colors.size(), 0);
     for (std::size_t k = 0; k < cells.size(); ++k)
         if (cells[k]) cells_[*cells[k]] = place[k];
-    whole_.name = kBifurcation.name;
+    whole_.name = "bifurcation";
 }
 
 Figure GrowingDiagram::until(std::size_t last, double at) const {

@@ -149,8 +149,8 @@ Panel close_up_panel(CloseUp shown, int which, const sim::Result& result, Lang l
 FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     const double end = scene.end_time;
-    const std::size_t study = studies.of(scene.problem, end, "collision");
-    const auto fewer = study_with_one_mode_fewer(scene.problem, end, "collision", studies);
+    const std::size_t study = studies.of(scene.problem, end);
+    const auto fewer = study_with_one_mode_fewer(scene.problem, end, studies);
     if (fewer) studies.stop_after(*fewer, {.collisions = static_cast<std::size_t>(how.collision) + 1});
     const std::size_t table = studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
                                             {sim::Channel{ChannelKind::gap}});
@@ -176,6 +176,10 @@ std::optional<std::string> needs_force(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kCollision{"collision", {"One collision in close-up", "一次碰撞的细部"}, needs_force, prepare_collision};
+extern const Recipe kCollision{.name = "collision",
+                               .title = {"One collision in close-up", "一次碰撞的细部"},
+                               .refusal = needs_force,
+                               .maker = prepare_collision,
+                               .keys = {"collision"}};
 
 }  // namespace beamcam::scenes

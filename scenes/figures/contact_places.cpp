@@ -137,7 +137,7 @@ Figure forceful_places(const sim::Problem& problem, const sim::Result& result, c
 FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     const double end = scene.end_time;
-    const std::size_t study = studies.of(scene.problem, end, "contact-places");
+    const std::size_t study = studies.of(scene.problem, end);
     if (scene.problem.contact.model != sim::ContactModel::compliant)
         return [=, problem = scene.problem](const Results& results) {
             return impulsive_places(problem, *results[study], end, lang);
@@ -153,7 +153,7 @@ FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies&
 
 }  // namespace
 
-const Recipe kContactPlaces{
+extern const Recipe kContactPlaces{
     "contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
 
 }  // namespace beamcam::scenes

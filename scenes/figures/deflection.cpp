@@ -151,9 +151,9 @@ std::optional<std::string> needs_static_bending(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kDeflection{"deflection",
-                         {"Static deflection for several contact points", "不同接触点的静挠度"},
-                         needs_static_bending,
-                         prepare_deflection};
+extern const Recipe kDeflection{"deflection",
+                                {"Static deflection for several contact points", "不同接触点的静挠度"},
+                                needs_static_bending,
+                                prepare_deflection};
 
 }  // namespace beamcam::scenes

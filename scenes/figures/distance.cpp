@@ -229,12 +229,12 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     const Lang lang = how.lang;
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
-    const std::size_t fall = studies.of(falling, scene.end_time, "distance");
+    const std::size_t fall = studies.of(falling, scene.end_time);
     const Stations searched = stations(scene.problem);
     std::vector<std::size_t> where;
     for (const double x : searched.x) where.push_back(studies.point(fall, x, all));
-    const std::size_t touching = studies.of(scene.problem, scene.end_time, "distance");
-    const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, "distance", studies);
+    const std::size_t touching = studies.of(scene.problem, scene.end_time);
+    const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
     if (fewer) studies.stop_after(*fewer, {.touches = 1});
     return [=, problem = scene.problem](const Results& results) -> Figure {
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
@@ -260,9 +260,9 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kDistance{"distance",
-                       {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"},
-                       needs_tangent,
-                       prepare_distance};
+extern const Recipe kDistance{"distance",
+                              {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"},
+                              needs_tangent,
+                              prepare_distance};
 
 }  // namespace beamcam::scenes

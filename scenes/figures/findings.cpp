@@ -16,7 +16,6 @@ namespace {
 
 using sim::Printing;
 
-constexpr const char* kFindings = "findings";
 constexpr double kRepeated = 4;      // [s] of repeated impacts, as in the figures
 constexpr double kSettled = 12;      // [s]: the transient is over at each of the three speeds
 constexpr double kFirst = 0.3;       // [s]: the first collision on a cam at rest is over
@@ -125,11 +124,12 @@ sim::Problem with_cam_speed(double speed) {
 }
 
 FindingStudies ask_for_findings(Studies& studies) {
+    studies.name_figure("findings");
     FindingStudies all{};
     const auto falls = [&](double length, double end, sim::ModelKind model) {
         sim::Problem p = falling(length);
         p.beam.model = model;
-        const std::size_t study = studies.of(p, end, kFindings);
+        const std::size_t study = studies.of(p, end);
         studies.apexes(study), studies.zero_crossings(study);
         return study;
     };
@@ -137,16 +137,16 @@ FindingStudies ask_for_findings(Studies& studies) {
     all.flexible = falls(1, 0.4, usual), all.printed = falls(1, 0.4, sim::ModelKind::paper);
     all.long_beam = falls(8, 1.2, usual), all.long_printed = falls(8, 1.2, sim::ModelKind::paper);
     sim::Problem resting = with_cam_speed(0);
-    all.first = studies.of(resting, kFirst, kFindings);
+    all.first = studies.of(resting, kFirst);
     resting.initial.shape = sim::InitialShape::resting;
-    all.rest = studies.of(resting, kFirst, kFindings);
+    all.rest = studies.of(resting, kFirst);
     all.table = studies.table(all.rest, {0, kFirst, 3001},
                               {ChannelKind::contact_force, ChannelKind::separation, ChannelKind::separation_paper});
     for (std::size_t k = 0; k < 3; ++k)
         for (std::size_t tight = 0; tight < 2; ++tight) {
             sim::Problem p = with_cam_speed(kPaperSpeeds[k]);
             if (tight) p.solver.rtol /= 100, p.solver.atol /= 100;
-            const std::size_t study = all.repeated[k][tight] = studies.of(p, kSettled, kFindings);
+            const std::size_t study = all.repeated[k][tight] = studies.of(p, kSettled);
             all.angles[k][tight] = studies.table(study, {0, kSettled, 12001}, {ChannelKind::t, ChannelKind::theta});
             if (!tight) studies.apexes(study), studies.zero_crossings(study);
         }

@@ -70,14 +70,14 @@ Falls falls_of(const Scene& scene, Studies& studies) {
     out.shown.push_back({{"rigid", "刚性"}, 1, stiff});
     if (out.paper) out.shown.push_back({{"rigid, factor 2", "刚性，2 倍"}, 2, doubled});
     for (Fall& fall : out.shown) {
-        fall.study = studies.of(fall.problem, end, "free-fall");
+        fall.study = studies.of(fall.problem, end);
         studies.zero_crossings(fall.study);
         fall.table = studies.table(fall.study, {0, end, kFallPoints}, {ChannelKind::t, ChannelKind::theta});
         if (out.closely && fall.look < 2)
             fall.close = studies.table(fall.study, {*out.closely - kAround, *out.closely + kAround, 241},
                                        {ChannelKind::t, ChannelKind::theta});
     }
-    out.fewer = study_with_one_mode_fewer(own, end, "free-fall", studies);
+    out.fewer = study_with_one_mode_fewer(own, end, studies);
     if (out.fewer) studies.zero_crossings(*out.fewer);
     return out;
 }
@@ -179,6 +179,6 @@ FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& s
 
 }  // namespace
 
-const Recipe kFreeFall{"free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
+extern const Recipe kFreeFall{"free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
 
 }  // namespace beamcam::scenes

@@ -73,7 +73,7 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& proble
 
 FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
-    const std::size_t study = studies.of(scene.problem, to, "impact-maps");
+    const std::size_t study = studies.of(scene.problem, to);
     return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
         std::vector<Panel> panels;
         std::vector<std::string> words;
@@ -115,7 +115,7 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
 
 FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
-    const std::size_t study = studies.of(scene.problem, to, "impact-histograms");
+    const std::size_t study = studies.of(scene.problem, to);
     return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
         std::vector<double> speeds, phases;
         for (const sim::Impact& hit : strikes(problem, results[study]->impacts, from, to))
@@ -146,11 +146,15 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
 
 }  // namespace
 
-const Recipe kImpactMaps{"impact-maps", {"Maps of the impacts", "冲击映射"}, needs_cam, prepare_maps, true};
-const Recipe kImpactHistograms{"impact-histograms",
-                               {"Histograms of impact speed and phase", "冲击速度与相位的直方图"},
-                               needs_cam,
-                               prepare_histograms,
-                               true};
+extern const Recipe kImpactMaps{.name = "impact-maps",
+                                .title = {"Maps of the impacts", "冲击映射"},
+                                .refusal = needs_cam,
+                                .maker = prepare_maps,
+                                .keys = {"from", "to"}};
+extern const Recipe kImpactHistograms{.name = "impact-histograms",
+                                      .title = {"Histograms of impact speed and phase", "冲击速度与相位的直方图"},
+                                      .refusal = needs_cam,
+                                      .maker = prepare_histograms,
+                                      .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

@@ -95,6 +95,10 @@ std::optional<std::string> needs_bending(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kKymograph{
-    "kymograph", {"Deflection along the beam in time", "梁挠度的时空图"}, needs_bending, prepare_kymograph, true};
+extern const Recipe kKymograph{.name = "kymograph",
+                               .title = {"Deflection along the beam in time", "梁挠度的时空图"},
+                               .refusal = needs_bending,
+                               .maker = prepare_kymograph,
+                               .keys = {"from", "to"}};
+
 }  // namespace beamcam::scenes

@@ -177,7 +177,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
     const Lang lang = how.lang;
     std::vector<Rung> all = rungs(scene, lang);
     for (Rung& rung : all) {
-        rung.study = studies.of(rung.problem, scene.end_time, "models");
+        rung.study = studies.of(rung.problem, scene.end_time);
         studies.may_fail(rung.study);
         studies.apexes(rung.study);
         rung.table =
@@ -209,6 +209,6 @@ std::optional<std::string> needs_flexible_fall(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible_fall, prepare_models};
+extern const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible_fall, prepare_models};
 
 }  // namespace beamcam::scenes

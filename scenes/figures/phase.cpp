@@ -58,7 +58,7 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
     const Lang lang = how.lang;
     const double end = scene.end_time;
     const double first = first_period(scene.problem);
-    const std::size_t study = studies.of(scene.problem, end, "phase");
+    const std::size_t study = studies.of(scene.problem, end);
     const std::size_t table = studies.table(study, {0, end, rows_until(end, first)},
                                             {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
     const std::size_t curve =
@@ -94,6 +94,6 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
 
 }  // namespace
 
-const Recipe kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
+extern const Recipe kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
 
 }  // namespace beamcam::scenes

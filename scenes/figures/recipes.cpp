@@ -1,11 +1,20 @@
 #include "scenes/figures/recipes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
 
+#include "scenes/figures/sweeps.hpp"
+
 namespace beamcam::scenes {
+
+// Each is in its file of this folder.
+extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
+    kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
+    kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
+
 namespace {
 
 // Made on first use: the recipes are initialized before.
@@ -20,8 +29,9 @@ const std::vector<Recipe>& table() {
 }  // namespace
 
 FigureMaker Recipe::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
-    return [make = maker(scene, how, studies), called = std::string(name),
-            usual = title.in(how.lang)](const Results& results) {
+    studies.name_figure(name);
+    FigureMaker make = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies);
+    return [make = std::move(make), called = std::string(name), usual = title.in(how.lang)](const Results& results) {
         render::figure::Figure figure = make(results);
         figure.name = called;
         if (figure.title.empty()) figure.title = usual;
@@ -35,6 +45,29 @@ std::vector<std::string> recipe_names() {
     std::vector<std::string> names;
     for (const Recipe& recipe : recipes()) names.emplace_back(recipe.name);
     return names;
+}
+
+std::vector<std::string_view> keys_of_figures() {
+    std::vector<std::string_view> all;
+    for (const Recipe& recipe : recipes())
+        for (const std::string_view key : recipe.keys)
+            if (std::ranges::find(all, key) == all.end()) all.push_back(key);
+    return all;
+}
+
+std::vector<std::string> figures_with(std::string_view key) {
+    std::vector<std::string> names;
+    for (const Recipe& recipe : recipes())
+        if (recipe.takes(key)) names.emplace_back(recipe.name);
+    return names;
+}
+
+std::string list_of_figures_with(std::string_view key) {
+    std::vector<std::string> quoted;
+    for (const std::string& name : figures_with(key)) quoted.push_back(fmt::format("\"{}\"", name));
+    const std::string last = quoted.back();
+    quoted.pop_back();
+    return quoted.empty() ? last : fmt::format("{} and {}", fmt::join(quoted, ", "), last);
 }
 
 const Recipe* recipe_named(std::string_view name) {
@@ -115,18 +148,17 @@ int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e
 
 ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies) {
     ShownPoses out{how.series.from, how.series.to.value_or(scene.end_time)};
-    out.study = studies.of(scene.problem, out.to, how.figure);
+    out.study = studies.of(scene.problem, out.to);
     std::vector<sim::PoseRequest>& poses = studies.request(out.study).poses;
     out.poses = poses.size();
     poses.push_back({.times = instants({out.from, out.to, count}), .stations = stations});
     return out;
 }
 
-std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, const char* figure,
-                                                     Studies& studies) {
+std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, Studies& studies) {
     const std::optional<sim::Problem> fewer = with_one_mode_fewer(problem);
     if (!fewer) return std::nullopt;
-    const std::size_t study = studies.of(*fewer, end, figure);
+    const std::size_t study = studies.of(*fewer, end);
     studies.may_fail(study);
     return study;
 }

@@ -11,6 +11,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "render/base/error.hpp"
 #include "render/plot/figure.hpp"
@@ -29,17 +30,22 @@ using sim::ChannelKind;
 
 using FigureMaker = std::function<Figure(const Results&)>;
 
+class SweptPoints;
+
 struct Recipe {
     const char* name;
     Translated title;
     // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` checks more.
     std::optional<std::string> (*refusal)(const Scene& scene);
-    FigureMaker (*maker)(const Scene& scene, const FigureOutput& how, Studies& studies);
-    bool takes_interval = false;  // the keys "from" and "to"
-    bool takes_channel = false;   // one of "channels", and the keys of its windows
-    bool of_sweep = false;        // it shows the points of the scene's sweep
-    bool takes_value = false;     // the key "value"
+    // Of motions: requests them, and returns the function that draws their results. Null for a figure of a sweep.
+    FigureMaker (*maker)(const Scene& scene, const FigureOutput& how, Studies& studies) = nullptr;
+    // Of the scene's sweep: draws its points.
+    Figure (*draw)(const SweptPoints& points, const FigureOutput& how) = nullptr;
+    // Those keys of its output that only some figures have: "from", "to".
+    std::vector<std::string_view> keys = {};
 
+    bool of_sweep() const { return draw != nullptr; }
+    bool takes(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
     // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the recipe's name, and
     // its title unless it has another. `how`: the language and the figure's own keys.
     FigureMaker prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const;
@@ -49,13 +55,13 @@ std::span<const Recipe> recipes();
 std::vector<std::string> recipe_names();
 const Recipe* recipe_named(std::string_view name);  // nullptr: none
 
+// The keys that only some figures have, and the names of the figures that have one of them.
+std::vector<std::string_view> keys_of_figures();
+std::vector<std::string> figures_with(std::string_view key);
+std::string list_of_figures_with(std::string_view key);  // "\"map\" and \"basins\""
+
 // The recipe's own refusal, or that of a motion without which it has no figure: the problem is impossible.
 std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene);
-
-// The recipes of each file of this folder.
-extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
-    kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
-    kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
 
 // ---- what they share ------------------------------------------------------------------------------
 
@@ -103,8 +109,7 @@ struct ShownPoses {
 ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies);
 
 // The study of the motion with one mode fewer, which bounds the digits of numbers; none for a rigid beam.
-std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, const char* figure,
-                                                     Studies& studies);
+std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, Studies& studies);
 
 sim::Problem without_cam(sim::Problem problem);
 sim::Problem rigid(sim::Problem problem);

@@ -349,6 +349,7 @@ FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studi
 
 }  // namespace
 
-const Recipe kSchematic{"schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare_schematic};
+extern const Recipe kSchematic{
+    "schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare_schematic};
 
 }  // namespace beamcam::scenes

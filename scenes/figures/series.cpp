@@ -19,7 +19,6 @@ namespace {
 
 // How a figure by name presents its series.
 struct SeriesPreset {
-    const char* name = "series";
     Translated caption = {};      // its first sentence; empty: by the channels
     double aspect = 0;            // 0: by the panels
     double weight = 0.9;          // of the lines
@@ -91,7 +90,7 @@ FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const Ser
                            Studies& studies) {
     SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang)};
     plan.horizon = preset.horizon;
-    complete(plan, scene, preset.name, studies);
+    complete(plan, scene, studies);
     return [plan, preset](const Results& results) { return series_figure(plan, preset, results); };
 }
 
@@ -106,7 +105,7 @@ FigureMaker prepare_keys(const Scene& scene, const FigureOutput& how, Studies& s
 }
 
 FigureMaker prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    return prepare_series(scene, kHubAngle, {.name = "angle", .aspect = 0.55}, how.lang, studies);
+    return prepare_series(scene, kHubAngle, {.aspect = 0.55}, how.lang, studies);
 }
 
 FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -118,8 +117,7 @@ FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies&
     }
     return prepare_series(
         scene, keys,
-        {.name = "speeds",
-         .caption = {"Hub angle $θ$ for three speeds of the cam, clockwise", "三种凸轮转速（顺时针）下的转角 $θ$"},
+        {.caption = {"Hub angle $θ$ for three speeds of the cam, clockwise", "三种凸轮转速（顺时针）下的转角 $θ$"},
          .aspect = 1.25},
         how.lang, studies);
 }
@@ -131,10 +129,8 @@ FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& st
                           "自由端相对根部切线的横向挠度"},
         without{"Transverse deflection of the free end from the tangent at the root, without a cam",
                 "自由端相对根部切线的横向挠度（无凸轮）"};
-    return prepare_series(
-        scene, keys,
-        {.name = "tip-vibration", .caption = scene.problem.cam ? with : without, .aspect = 0.55, .weight = 0.75},
-        how.lang, studies);
+    return prepare_series(scene, keys, {.caption = scene.problem.cam ? with : without, .aspect = 0.55, .weight = 0.75},
+                          how.lang, studies);
 }
 
 // Only the energies that the scene can have.
@@ -170,8 +166,7 @@ FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies&
                     .sums = energies_of(scene.problem, how.lang),
                     .label = "$E$"},
                    {.channels = {{ChannelKind::energy_residual, 0}}, .logarithmic = true, .label = "|$ΔE$|"}}};
-    return prepare_series(scene, keys,
-                          {.name = "energy", .aspect = 1.05, .weight = 0.75, .horizon = false, .names_energies = true},
+    return prepare_series(scene, keys, {.aspect = 1.05, .weight = 0.75, .horizon = false, .names_energies = true},
                           how.lang, studies);
 }
 
@@ -182,12 +177,17 @@ std::optional<std::string> needs_vibration(const Scene& scene) {
 
 }  // namespace
 
-const Recipe kSeries{"series", {"Any channels, of one motion or of several", "任意通道"}, no_refusal, prepare_keys};
-const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
-const Recipe kSpeeds{
+extern const Recipe kSeries{.name = "series",
+                            .title = {"Any channels, of one motion or of several", "任意通道"},
+                            .refusal = no_refusal,
+                            .maker = prepare_keys,
+                            .keys = {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "notes",
+                                     "compare", "comparison", "residuals"}};
+extern const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
+extern const Recipe kSpeeds{
     "speeds", {"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"}, needs_cam, prepare_speeds};
-const Recipe kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
-const Recipe kTipVibration{
+extern const Recipe kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
+extern const Recipe kTipVibration{
     "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

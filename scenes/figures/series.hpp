@@ -90,8 +90,8 @@ struct SeriesPlan {
     std::vector<Lost> lost(const sim::Result& result) const;
 };
 
-// Adds motions and panels to a plan. `name`: of the figure, for messages.
-void complete(SeriesPlan& plan, const Scene& scene, const char* name, Studies& studies);
+// Adds motions and panels to a plan.
+void complete(SeriesPlan& plan, const Scene& scene, Studies& studies);
 
 // ---- the figure ---------------------------------------------------------------------------------------
 

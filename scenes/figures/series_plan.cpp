@@ -101,11 +101,11 @@ std::vector<Lost> SeriesPlan::lost(const sim::Result& result) const {
     return abscissa.is_frequency() || !horizon ? std::vector<Lost>{} : unreliable(result, end);
 }
 
-void complete(SeriesPlan& plan, const Scene& scene, const char* name, Studies& studies) {
+void complete(SeriesPlan& plan, const Scene& scene, Studies& studies) {
     const SeriesKeys& keys = plan.keys;
     plan.motions = motions_of(scene, keys);
     for (SeriesMotion& motion : plan.motions) {
-        motion.study = studies.of(motion.problem, plan.end, name);
+        motion.study = studies.of(motion.problem, plan.end);
         if (plan.horizon) studies.horizon(motion.study);
         if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
             studies.apexes(motion.study);

@@ -128,7 +128,7 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
     if (!(window <= (to - from) / 2))
         throw render::PictureError(fmt::format(
             "figure spectrogram: windows of {:g} s do not move along {:g} s; at most half of it", window, to - from));
-    const std::size_t study = studies.of(scene.problem, to, "spectrogram");
+    const std::size_t study = studies.of(scene.problem, to);
     std::vector<sim::TableRequest>& tables = studies.request(study).tables;
     const std::size_t table = tables.size();
     tables.push_back({spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
@@ -151,9 +151,10 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
 
 }  // namespace
 
-const Recipe kSpectrogram{"spectrogram",           {"Amplitudes by frequency and time", "时频谱"}, no_refusal,
-                          prepare_spectrogram,
-                          /*takes_interval=*/true,
-                          /*takes_channel=*/true};
+extern const Recipe kSpectrogram{.name = "spectrogram",
+                                 .title = {"Amplitudes by frequency and time", "时频谱"},
+                                 .refusal = no_refusal,
+                                 .maker = prepare_spectrogram,
+                                 .keys = {"channels", "from", "to", "window", "highest"}};
 
 }  // namespace beamcam::scenes

@@ -140,6 +140,10 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
 
 }  // namespace
 
-const Recipe kStrobe{
-    "strobe", {"The mechanism at several instants", "机构的多时刻叠加"}, no_refusal, prepare_strobe, true};
+extern const Recipe kStrobe{.name = "strobe",
+                            .title = {"The mechanism at several instants", "机构的多时刻叠加"},
+                            .refusal = no_refusal,
+                            .maker = prepare_strobe,
+                            .keys = {"from", "to", "at"}};
+
 }  // namespace beamcam::scenes

@@ -21,7 +21,7 @@ std::string Studies::key(const sim::Problem& problem) {
     return to_json(scene);
 }
 
-std::size_t Studies::of(const sim::Problem& problem, double end_time, const std::string& because) {
+std::size_t Studies::of(const sim::Problem& problem, double end_time) {
     const std::string physics = key(problem);
     const auto found = std::find(keys_.begin(), keys_.end(), physics);
     const auto index = static_cast<std::size_t>(found - keys_.begin());
@@ -35,7 +35,7 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time, const std:
     study.request.enough.reset();
     if (study.because.empty() || end_time > study.request.end_time) {
         study.request.end_time = std::max(end_time, study.request.end_time);
-        study.because = because;
+        study.because = figure_;
     }
     return index;
 }

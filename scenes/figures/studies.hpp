@@ -35,9 +35,11 @@ std::vector<double> instants(const Instants& grid);
 
 class Studies {
   public:
-    // The study of this physics, at least until `end_time` [s]. Apexes and zero crossings of θ only where one of the
-    // next two is called.
-    std::size_t of(const sim::Problem& problem, double end_time, const std::string& because);
+    // The figure that the next studies are for.
+    void name_figure(std::string name) { figure_ = std::move(name); }
+    // The study of this physics, at least until `end_time` [s]. Apexes and zero crossings of θ only where `apexes` and
+    // `zero_crossings` are called.
+    std::size_t of(const sim::Problem& problem, double end_time);
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
     // A separate table for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where the curve bends,
@@ -59,6 +61,7 @@ class Studies {
     static std::string key(const sim::Problem& problem);
 
   private:
+    std::string figure_;
     std::vector<Study> all_;
     std::vector<std::string> keys_;  // of all
     std::vector<int> users_;         // of each

@@ -138,21 +138,6 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
 
 // ---- the figures by name --------------------------------------------------------------------------
 
-using Draw = figure::Figure (*)(const SweptPoints& points, const FigureOutput& how);
-
-template <const Recipe& recipe, Draw draw>
-FigureMaker prepare(const Scene&, const FigureOutput& how, Studies&) {
-    return [how](const Results& results) {
-        if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
-        const SweptPoints points(*results.swept, how.lang);
-        figure::Figure out = draw(points, how);
-        out.title = phrase(how.lang, "{} over {}", "{}：{}", recipe.title.in(how.lang), points.axis(0).name);
-        out.caption = sweep_caption(points) + (out.caption.empty() ? "" : " ") + out.caption;
-        out.accuracy = tolerance_text(points);
-        return out;
-    };
-}
-
 std::optional<std::string> needs_sweep(const Scene& scene) {
     if (scene.sweep) return std::nullopt;
     return "the scene has no \"sweep\"; give it one, or use beamcam sweep --over KEY=VALUES --diagram FILE";
@@ -191,28 +176,43 @@ figure::Figure draw_impact_map(const SweptPoints& points, const FigureOutput&) {
     return sample_plane(points, "cam_phase", "cam_phase", true);
 }
 
-Recipe recipe_of_sweep(const char* name, Translated title, std::optional<std::string> (*refusal)(const Scene&),
-                       decltype(Recipe::maker) maker, bool takes_value) {
-    return {
-        .name = name, .title = title, .refusal = refusal, .maker = maker, .of_sweep = true, .takes_value = takes_value};
-}
-
 }  // namespace
 
-const Recipe kBifurcation = recipe_of_sweep("bifurcation", {"Bifurcation diagram", "分岔图"}, needs_one_key,
-                                            prepare<kBifurcation, draw_bifurcation>, true);
-const Recipe kBasins =
-    recipe_of_sweep("basins", {"Basins of attraction", "吸引域"}, needs_two_starts, prepare<kBasins, draw_map>, true);
-const Recipe kMap =
-    recipe_of_sweep("map", {"Map of two keys", "双参数图"}, needs_two_keys, prepare<kMap, draw_map>, true);
-const Recipe kPoincare = recipe_of_sweep("poincare", {"Poincaré section", "Poincaré 截面"}, needs_sweep,
-                                         prepare<kPoincare, draw_poincare>, false);
-const Recipe kImpactMap = recipe_of_sweep("impact-map", {"Map of impacts", "碰撞映射"}, needs_impacts,
-                                          prepare<kImpactMap, draw_impact_map>, false);
+extern const Recipe kBifurcation{.name = "bifurcation",
+                                 .title = {"Bifurcation diagram", "分岔图"},
+                                 .refusal = needs_one_key,
+                                 .draw = draw_bifurcation,
+                                 .keys = {"value"}};
+extern const Recipe kBasins{.name = "basins",
+                            .title = {"Basins of attraction", "吸引域"},
+                            .refusal = needs_two_starts,
+                            .draw = draw_map,
+                            .keys = {"value"}};
+extern const Recipe kMap{.name = "map",
+                         .title = {"Map of two keys", "双参数图"},
+                         .refusal = needs_two_keys,
+                         .draw = draw_map,
+                         .keys = {"value"}};
+extern const Recipe kPoincare{
+    .name = "poincare", .title = {"Poincaré section", "Poincaré 截面"}, .refusal = needs_sweep, .draw = draw_poincare};
+extern const Recipe kImpactMap{
+    .name = "impact-map", .title = {"Map of impacts", "碰撞映射"}, .refusal = needs_impacts, .draw = draw_impact_map};
+
+FigureMaker swept_figure(const Recipe& recipe, const FigureOutput& how) {
+    return [&recipe, how](const Results& results) {
+        if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
+        const SweptPoints points(*results.swept, how.lang);
+        figure::Figure out = recipe.draw(points, how);
+        out.title = phrase(how.lang, "{} over {}", "{}：{}", recipe.title.in(how.lang), points.axis(0).name);
+        out.caption = sweep_caption(points) + (out.caption.empty() ? "" : " ") + out.caption;
+        out.accuracy = tolerance_text(points);
+        return out;
+    };
+}
 
 std::string usual_diagram(const Scene& scene) {
     for (const Recipe& recipe : recipes())
-        if (recipe.of_sweep && !recipe.refusal(scene)) return recipe.name;
+        if (recipe.of_sweep() && !recipe.refusal(scene)) return recipe.name;
     return kPoincare.name;
 }
 
@@ -244,7 +244,7 @@ std::string point_text(const Swept& swept, std::uint64_t point, std::optional<in
 std::vector<std::string> diagram_names() {
     std::vector<std::string> names;
     for (const Recipe& recipe : recipes())
-        if (recipe.of_sweep) names.emplace_back(recipe.name);
+        if (recipe.of_sweep()) names.emplace_back(recipe.name);
     return names;
 }
 

@@ -39,30 +39,22 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
         r.reject("from", " = {} s is not before the end, {} s; reduce it, or increase \"to\"", series.from, end);
 }
 
-// A figure other than "series": keys that it does not have, its interval and its window.
-void check_other_figure(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
-    const SeriesKeys& series = figure.series;
-    const bool interval = recipe && recipe->takes_interval, windows = recipe && recipe->takes_channel;
-    if (interval) check_interval(r, figure);
-    for (const std::string_view key : {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "compare",
-                                       "comparison", "residuals", "notes"})
-        if (r.has(key) && !(interval && (key == "from" || key == "to")) && !(windows && key == "channels"))
-            r.reject(key, " belongs to the figure \"series\"; remove it");
-    if (windows && series.panels.front().channels.size() > 1)
-        r.reject("channels", ": a {} shows one channel; name only one", figure.figure);
-    const double length = series.to.value_or(r.context().scene.end_time) - series.from;
-    if (windows && series.window && !series.needs_events() && !(2 * *series.window <= length))
-        r.reject("window", " = {:g} s is more than half of the interval of {:g} s; reduce it", *series.window, length);
+// Keys that only other figures have.
+void check_own_keys(ObjectReader& r, const Recipe& recipe) {
+    for (const std::string_view key : keys_of_figures())
+        if (r.has(key) && !recipe.takes(key))
+            r.reject(key, " belongs to the figure{} {}; remove it", figures_with(key).size() > 1 ? "s" : "",
+                     list_of_figures_with(key));
 }
 
-// Keys that only some figures have.
-void check_own_keys(ObjectReader& r, const FigureOutput& figure, const Recipe* recipe) {
-    if (r.has("value") && recipe && !recipe->takes_value)
-        r.reject("value", " belongs to the figures \"bifurcation\", \"map\" and \"basins\"");
-    const std::pair<const char*, const char*> owners[] = {
-        {"collision", "collision"}, {"window", "spectrogram"}, {"highest", "spectrogram"}, {"at", "strobe"}};
-    for (const auto& [key, owner] : owners)
-        if (r.has(key) && figure.figure != owner) r.reject(key, " belongs to the figure \"{}\"", owner);
+// A figure that moves windows along one channel.
+void check_windows(ObjectReader& r, const FigureOutput& figure) {
+    const SeriesKeys& series = figure.series;
+    if (series.panels.front().channels.size() > 1)
+        r.reject("channels", ": a {} shows one channel; name only one", figure.figure);
+    const double length = series.to.value_or(r.context().scene.end_time) - series.from;
+    if (series.window && !series.needs_events() && !(2 * *series.window <= length))
+        r.reject("window", " = {:g} s is more than half of the interval of {:g} s; reduce it", *series.window, length);
 }
 
 void check_abscissa(ObjectReader& r, const SeriesKeys& series) {
@@ -119,7 +111,6 @@ void check_series(ObjectReader& r, FigureOutput& figure) {
     // Lines of a spectrum differ by orders of magnitude. Explicit panels choose their own scale.
     if (series.against == "frequency" && r.has("channels"))
         for (SeriesPanel& panel : series.panels) panel.logarithmic = true;
-    check_interval(r, figure);
     check_abscissa(r, series);
     check_residuals(r, series);
     check_comparison(r, series);
@@ -153,14 +144,16 @@ void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
 void check_figure(ObjectReader& r, FigureOutput& figure) {
     if (figure.file.empty()) figure.file = figure.figure + ".pdf";
     const Recipe* recipe = recipe_named(figure.figure);
-    if (figure.figure != "series") check_other_figure(r, figure, recipe);
-    check_own_keys(r, figure, recipe);
+    if (!recipe) return;
+    check_own_keys(r, *recipe);
     if (figure.figure == "series") check_series(r, figure);
+    if (recipe->takes("from")) check_interval(r, figure);
+    if (recipe->takes("window")) check_windows(r, figure);
     if (!r.has("figure") || r.diagnostics().any()) return;  // the next rules need a valid scene
     const Scene& scene = r.context().scene;
     if (const auto refusal = refusal_of(*recipe, scene))
         return r.reject("figure", " = \"{}\": {}", figure.figure, *refusal);
-    if (const std::string problem = recipe->of_sweep ? problem_with_value(recipe->name, figure.value, scene) : "";
+    if (const std::string problem = recipe->of_sweep() ? problem_with_value(recipe->name, figure.value, scene) : "";
         !problem.empty())
         r.reject("value", ": {}", problem);
 }

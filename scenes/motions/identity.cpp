@@ -82,7 +82,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     const auto* figure = std::get_if<FigureOutput>(&one);
     const Recipe* recipe = figure ? recipe_named(figure->figure) : nullptr;
     const bool sweep_film = std::holds_alternative<SweepFilmOutput>(one);
-    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(one) || (recipe && recipe->of_sweep);
+    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(one) || (recipe && recipe->of_sweep());
     if (of_sweep)
         resolve_tables(*inputs.sweep);
     else

@@ -2,6 +2,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <map>
+
 #include "render/plot/style.hpp"
 #include "scenes/figures/recipes.hpp"
 #include "scenes/format/checks.hpp"
@@ -46,38 +48,35 @@ static void visit(SceneVisitor& v, SeriesNote& note) {
     v.check([&note](ObjectReader& r) { check_markup(r, "text", note.text); });
 }
 
-// Some figures have the keys "from" and "to", one has those of windows, only "series" has the others.
-static const std::string& series_constraint() {
+// JSON Schema of the keys that only some figures have.
+static const std::string& constraint_of_figures() {
     static const std::string kText = [] {
-        std::vector<std::string> names, windows;
-        for (const Recipe& recipe : recipes()) {
-            if (recipe.takes_interval) names.push_back(fmt::format("\"{}\"", recipe.name));
-            if (recipe.takes_channel) windows.push_back(fmt::format("\"{}\"", recipe.name));
+        std::map<std::vector<std::string>, Node> others;  // by the figures that have the keys
+        for (const std::string_view key : keys_of_figures()) {
+            Node& absent = others.try_emplace(figures_with(key), object_node()).first->second;
+            add(absent, std::string(key), boolean_node(false));
         }
-        return fmt::format(R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}, "required": ["figure"]}},
-        "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}],
-                  "properties": {{"window": false, "highest": false}}}},
-        "dependentSchemas": {{"at": {{"properties": {{"figure": {{"const": "strobe"}}}}}}}},
-        "else": {{"properties": {{"panels": false, "x": false, "x_low": false, "x_high": false,
-                                  "impacts": false, "compare": false, "comparison": false,
-                                  "residuals": false, "notes": false}},
-                  "if": {{"properties": {{"figure": {{"enum": [{}]}}}}, "required": ["figure"]}},
-                  "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}},
-                  "else": {{"properties": {{"channels": false, "window": false, "highest": false}},
-                            "if": {{"properties": {{"figure": {{"enum": [{}]}}}}, "required": ["figure"]}},
-                            "else": {{"properties": {{"from": false, "to": false}}}}}}}}}})",
-                           fmt::join(windows, ", "), fmt::join(names, ", "));
+        std::string rules = fmt::format(
+            R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}}},
+                "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}}}},
+               {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}},
+                "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}}}})",
+            one_line(texts_node(figures_with("window"))));
+        for (const auto& [figures, absent] : others)
+            rules += fmt::format(
+                R"(, {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}}, "else": {{"properties": {}}}}})",
+                one_line(texts_node(figures)), one_line(absent));
+        return fmt::format(R"({{"allOf": [{}]}})", rules);
     }();
     return kText;
 }
 
 // The keys of the figure "series"; the other figures have some of them.
 static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string& figure) {
-    const bool is_series = figure == "series";
     const Recipe* recipe = recipe_named(figure);
-    const bool interval = is_series || (recipe && recipe->takes_interval);
-    const bool windows = recipe && recipe->takes_channel;
-    const auto key = [is_series](const char* name) { return sim::written_if(is_series, name); };
+    const bool windows = recipe && recipe->takes("window");
+    const auto key = [recipe](const char* name) { return sim::written_if(recipe && recipe->takes(name), name); };
+    const auto bound = [&](const char* name) { return series.at ? sim::written_if(false, name) : key(name); };
     if (windows && series.panels.empty()) series.panels.emplace_back();
     v.value("channels",
             windows ? channels_format(series.panels.front().channels) : grouped_channels_format(series.panels),
@@ -95,25 +94,25 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
              "Of \"series\": lower end of the abscissa, in SI units.");
     v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny,
              "Of \"series\": upper end of the abscissa, in SI units.");
-    v.value(sim::written_if(interval && !series.at, "from"), bound_format(series.from, series.from_event),
-            "Of \"series\", \"kymograph\", \"spectrogram\", \"strobe\", \"impact-maps\" and \"impact-histograms\": "
-            "first instant. Events are those of the first motion of the figure.");
-    v.value(sim::written_if(interval && !series.at, "to"), bound_format(series.to, series.to_event),
-            "Last instant; by default the end of the scene.");
-    v.value(sim::written_if(figure == "strobe", "at"), instant_format(series.at),
+    v.value(bound("from"), bound_format(series.from, series.from_event),
+            fmt::format("Of {}: first instant. Events are those of the first motion of the figure.",
+                        list_of_figures_with("from"))
+                .c_str());
+    v.value(bound("to"), bound_format(series.to, series.to_event), "Last instant; by default the end of the scene.");
+    v.value(key("at"), instant_format(series.at),
             "Of \"strobe\", in place of \"from\" and \"to\": the only instant of the figure, a line drawing for print "
             "with the bodies to scale and the contact force.");
     v.exclusive("at", "from");
     v.exclusive("at", "to");
     v.boolean(key("impacts"), series.impacts, "Of \"series\": vertical lines at the beginnings of impacts.");
-    v.number(sim::written_if(windows, "window"), series.window, dim::kTime, sim::kPositive,
+    v.number(key("window"), series.window, dim::kTime, sim::kPositive,
              "Of \"spectrogram\": length of the windows, rounded to a power of two of samples.");
-    v.number(sim::written_if(windows, "highest"), series.highest, dim::kFrequency, sim::kPositive,
+    v.number(key("highest"), series.highest, dim::kFrequency, sim::kPositive,
              "Of \"spectrogram\": highest frequency of the figure.");
     List notes = SceneVisitor::items_of(series.notes);
     notes.max_size = 12, notes.of = "notes", notes.example = "[{\"at\": \"impact:1\", \"text\": \"first touch\"}]";
     v.list(key("notes"), notes, "Of \"series\": vertical lines with a text.");
-    v.constrain_schema(series_constraint().c_str());
+    v.constrain_schema(constraint_of_figures().c_str());
     v.list(key("compare"), compared_motions(series.compare),
            "Of \"series\": the motions of the figure, as in pictures.");
     v.choice(key("comparison"), series.apart, {{false, "overlay"}, {true, "panels"}},
@@ -147,10 +146,10 @@ void FigureOutput::visit(SceneVisitor& v) {
             "File for the caption: plain text and LaTeX, in .tex only LaTeX; by default none.");
     v.value("data", file_format(data_file, {".csv"}), "File for the numbers of the figure; by default none.");
     visit_series(v, series, figure);
-    v.integer(sim::written_if(figure == "collision", "collision"), collision, 1, 100'000,
-              "Of \"collision\": number of the collision, counted from 1.");
     const Recipe* recipe = recipe_named(figure);
-    v.text(sim::written_if(recipe && recipe->takes_value, "value"), value,
+    v.integer(sim::written_if(recipe && recipe->takes("collision"), "collision"), collision, 1, 100'000,
+              "Of \"collision\": number of the collision, counted from 1.");
+    v.text(sim::written_if(recipe && recipe->takes("value"), "value"), value,
            "Of \"bifurcation\": the column of the samples, by default \"v_n_before\" or \"theta\". Of \"map\" and "
            "\"basins\": \"class\", \"exponent\", \"impacts_per_period\", or a column, whose mean is shown.");
     v.check([this](ObjectReader& r) { check_figure(r, *this); });
@@ -168,7 +167,7 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
         how = without_events(std::move(how));
     }
     prepare_figure(planned, planner.scene(), how);
-    if (recipe_named(figure)->of_sweep) {
+    if (recipe_named(figure)->of_sweep()) {
         if (planner.selection().shards > 1)
             return planner.skip(file, "a part of a sweep has no diagram; join the parts with `beamcam collect` first");
         planner.require_sweep(file);

@@ -231,10 +231,10 @@ TEST(Figures, OnlyABeamThatFallsOntoTheCamHasARebound) {
 TEST(Studies, StopAfterEventsUnlessAnotherFigureNeedsThem) {
     Studies studies;
     const sim::Problem problem;
-    const std::size_t alone = studies.of(problem, 1, "a");
+    const std::size_t alone = studies.of(problem, 1);
     studies.stop_after(alone, {.collisions = 1});
     EXPECT_TRUE(studies.request(alone).enough);
-    EXPECT_EQ(studies.of(problem, 1, "b"), alone);
+    EXPECT_EQ(studies.of(problem, 1), alone);
     EXPECT_FALSE(studies.request(alone).enough);
     studies.stop_after(alone, {.collisions = 1});
     EXPECT_FALSE(studies.request(alone).enough);
@@ -449,7 +449,7 @@ TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
     // A recipe that removes the cam without asking.
     const Recipe careless{
         "careless", {"", ""}, no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureMaker {
-            studies.of(without_cam(s.problem), s.end_time, "careless");
+            studies.of(without_cam(s.problem), s.end_time);
             return {};
         }};
     const auto why = refusal_of(careless, scene_from(R"({"initial": {"shape": "resting"}})"));
