@@ -18,38 +18,13 @@
 
 namespace beamcam::scenes {
 
-void add_run(Grammar& grammar);
-void add_render(Grammar& grammar);
-void add_simulate(Grammar& grammar);
-void add_sweep(Grammar& grammar);
-void add_collect(Grammar& grammar);
-void add_modes(Grammar& grammar);
-void add_check(Grammar& grammar);
-void add_plan(Grammar& grammar);
-void add_cache(Grammar& grammar);
-void add_concat(Grammar& grammar);
-void add_sheet(Grammar& grammar);
-void add_init(Grammar& grammar);
-void add_stress(Grammar& grammar);
-void add_examples(Grammar& grammar);
-void add_schema(Grammar& grammar);
-void add_keys(Grammar& grammar);
-void add_hash(Grammar& grammar);
-void add_diff(Grammar& grammar);
-void add_test(Grammar& grammar);
-void add_accept(Grammar& grammar);
-void add_info(Grammar& grammar);
-void add_doctor(Grammar& grammar);
-void add_accuracy(Grammar& grammar);
-void add_lyapunov(Grammar& grammar);
-void add_orbits(Grammar& grammar);
-void add_figure(Grammar& grammar);
-void add_paper(Grammar& grammar);
-void add_completion(Grammar& grammar);
-void add_manual(Grammar& grammar);
-
 // In the order of --help.
-inline constexpr void (*kCommands[])(Grammar&) = {
+using AddCommand = void(Grammar& grammar);
+AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_check,
+    add_plan, add_cache, add_concat, add_sheet, add_init, add_examples, add_schema, add_keys, add_hash, add_diff,
+    add_test, add_accept, add_info, add_doctor, add_accuracy, add_figure, add_paper, add_stress, add_completion,
+    add_manual;
+inline constexpr AddCommand* kCommands[] = {
     add_run,    add_render, add_simulate, add_sweep,      add_collect, add_lyapunov, add_orbits,   add_modes,
     add_check,  add_plan,   add_cache,    add_concat,     add_sheet,   add_init,     add_examples, add_schema,
     add_keys,   add_hash,   add_diff,     add_test,       add_accept,  add_info,     add_doctor,   add_accuracy,
@@ -78,7 +53,7 @@ void add_column(Command& app, std::string& column);                             
 void add_lang(Command& app, std::string& lang);                                   // --lang
 void add_work(Command& app, Common& common);  // -v -j --progress --force --no-cache -n --json
 void add_shard(Command& app, std::optional<std::string>& shard);
-Selection shard_argument(const std::string& text);  // "2/3"; throws UsageError
+Selection shard_argument(const std::string& text);  // "2/3", "auto"; throws UsageError
 
 // ---- steps that several commands share ----------------------------------------------------------
 

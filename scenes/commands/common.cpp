@@ -3,17 +3,16 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 
 #include "output/files/errors.hpp"
-#include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
-#include "scenes/scene/files.hpp"
+#include "scenes/sweep/parts.hpp"
 
 namespace beamcam::scenes {
 
@@ -79,19 +78,12 @@ Scene load_scene(const std::string& path, const Common& common) {
 void add_shard(Command& app, std::optional<std::string>& shard) {
     app.option("--shard", &shard, "I/N",
                "Make part I of N of every film and sequence, with the pixels of the whole: 2/3 writes NAME.2of3.mp4. "
-               "Part 1 makes the other outputs");
+               "Part 1 makes the other outputs. auto: the part of this array task of Slurm, Grid Engine or PBS");
 }
 
 Selection shard_argument(const std::string& text) {
-    Selection selection;
-    const std::size_t slash = std::min(text.find('/'), text.size());
-    const std::string_view all = text;
-    selection.shard = output::number_in<int>(all.substr(0, slash)).value_or(0);
-    selection.shards = output::number_in<int>(all.substr(std::min(slash + 1, text.size()))).value_or(0);
-    constexpr int kMost = 10000;
-    if (selection.shards < 1 || selection.shards > kMost || selection.shard < 1 || selection.shard > selection.shards)
-        throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3", text));
-    return selection;
+    const SweepPart part = part_argument(text, std::getenv);
+    return {{}, static_cast<int>(part.part) + 1, static_cast<int>(part.parts)};
 }
 
 Scene with_default_output(Scene scene) {

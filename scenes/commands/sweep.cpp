@@ -12,7 +12,6 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/sweep/make_points.hpp"
 #include "scenes/sweep/parts.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
 #include "sim/problem/number_keys.hpp"
@@ -221,11 +220,7 @@ void act(const SweepArguments& args) {
     Scene scene = with_sweep_options(load_scene(args.scene, args.common), args);
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
-    if (args.shard) {
-        const SweepPart part = part_argument(*args.shard, std::getenv);
-        options.selection.shard = static_cast<int>(part.part) + 1;
-        options.selection.shards = static_cast<int>(part.parts);
-    }
+    if (args.shard) options.selection = shard_argument(*args.shard);
     if (!args.emit && !args.common.dry_run) {
         run(scene, options);
         return;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "output/files/interrupt.hpp"
 #include "output/film/picture_source.hpp"
 #include "render/base/error.hpp"
 #include "scenes/outputs/run_context.hpp"
@@ -63,6 +64,71 @@ EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const Re
     if (entry.has_motion()) test_.result.motion = Verdict::identical;
 }
 
+// ---- an entry with a motion ------------------------------------------------------------------------
+
+void EntryTest::prepare() {
+    const Scene& scene = test_.entry.scene;
+    plan_ = plan(scene);
+    resolve_event_times(plan_, scene, [](const sim::Problem& problem, const sim::Request& events) {
+        return sim::simulate(problem, events, [](double) { return !output::interrupted(); });
+    });
+    // A picture that compares other motions than the scene's own needs no simulation of the scene. A figure of statics
+    // needs no motion at all.
+    if (!plan_.simulation) {
+        double& until = plan_.simulation.emplace().request.end_time;
+        for (const Pictures& p : plan_.pictures) until = std::max(until, p.end_time);
+        for (const Variant& v : plan_.variants) until = std::max(until, v.simulation.request.end_time);
+        if (plan_.pictures.empty() && plan_.variants.empty() && !plan_.figures.empty()) test_.result.motion.reset();
+    }
+    until_ = plan_.simulation->request.end_time;
+    if (needs_horizon()) plan_.simulation->request.horizon = true;  // some figures request it anyway
+    request_record();
+    if (needs_motion()) request_compared_records();
+    requests_ = requests_of(plan_);
+}
+
+// The table of the entry itself is recorded if it is one, else a small one.
+void EntryTest::request_record() {
+    std::vector<sim::TableRequest>& tables = plan_.simulation->request.tables;
+    const auto own = std::ranges::find_if(plan_.data, [](const DataFile& d) { return d.table.has_value(); });
+    recorded_ = own != plan_.data.end() ? *own->table : tables.size();
+    if (own == plan_.data.end() && needs_motion())
+        tables.push_back(motion_behind_picture(test_.entry.scene.problem, until_));
+    if (records_all_channels(test_.entry))
+        std::erase_if(tables[recorded_].channels,
+                      [](const sim::Channel& channel) { return channel.kind == sim::ChannelKind::energy_residual; });
+}
+
+void EntryTest::request_compared_records() {
+    for (Pictures& p : plan_.pictures)
+        for (std::size_t i = 0; i < p.compared.size(); ++i) {
+            ComparedMotion& other = p.compared[i];
+            other.request.tables.push_back(motion_.compared_table(i, other.problem, p.end_time));
+            if (needs_horizon()) other.request.horizon = true;
+        }
+}
+
+void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
+    const sim::Result& run = results.front();
+    require_reproducible(run, until_);
+    if (needs_motion()) motion_.judge(run.tables[recorded_], run.impacts, until_, run.reproducible_until);
+    DrawCallbacks callbacks{
+        std::move(results),
+        [&](const Pictures&, long frame, const render::Image& image) { pictures_.judge(frame, image); },
+        [&](const render::Image& image) { pictures_.judge(0, image); },
+        {}};
+    if (needs_motion())
+        callbacks.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
+            const Pictures& shown = plan_.pictures[picture];
+            require_reproducible(result, shown.end_time);
+            motion_.judge_compared(index, shown.compared[index].label, result.tables.back(), result.impacts,
+                                   result.reproducible_until);
+        };
+    options.no_cache = true;  // the test runs the present program
+    scenes::draw(plan_, test_.entry.scene, callbacks, options);
+    conclude();
+}
+
 void EntryTest::require_reproducible(const sim::Result& motion, double until) {
     const std::vector<sim::Interval>& lost = motion.not_reproducible;
     if (!test_.result.picture || !test_.entry.expected.empty() || lost.empty() || lost.front().from >= until) return;
@@ -73,6 +139,8 @@ void EntryTest::require_reproducible(const sim::Result& motion, double until) {
     if (is_updated()) throw render::PictureError(test_.result.not_reproducible);
 }
 
+// ---- verdicts --------------------------------------------------------------------------------------
+
 void EntryTest::judge_file() {
     output::PictureSource source(test_.entry.file);
     output::Raster picture;
@@ -81,9 +149,10 @@ void EntryTest::judge_file() {
         stop_if_interrupted();
         pictures_.judge(frame, picture);
     }
+    conclude();
 }
 
-void EntryTest::finish() {
+void EntryTest::conclude() {
     if (test_.result.picture) pictures_.conclude();
 }
 

@@ -1,14 +1,16 @@
-// One entry of a file of baselines during a test. Several threads judge its pictures and its motion; afterwards the
-// entry decides how the baselines change.
+// One entry of a file of baselines during a test: its plan, the verdicts on its pictures and its motion, and afterwards
+// how the baselines change.
 #pragma once
 
 #include <functional>
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "output/data/manifest.hpp"
 #include "scenes/motions/fingerprint.hpp"
+#include "scenes/plan/plan.hpp"
 #include "scenes/regression/baseline_edit.hpp"
 #include "scenes/regression/entry_motion.hpp"
 #include "scenes/regression/entry_pictures.hpp"
@@ -25,23 +27,18 @@ class EntryTest {
               EntryResult& result);
 
     const Baseline& entry() const { return test_.entry; }
-    bool needs_motion() const { return test_.result.motion.has_value(); }
-    void ignore_motion() { test_.result.motion.reset(); }
     bool is_updated() const { return test_.references.is_replaced(); }
-    // Acceptance depends on the horizon to which the motion is reproducible.
-    bool needs_horizon() const { return is_updated() || test_.report.folder; }
     EntryResult& result() { return test_.result; }
-    EntryPictures& pictures() { return pictures_; }  // from any thread
-    EntryMotion& motion() { return motion_; }
+
+    // An entry with a motion: plans it. The plan is its own, so that the pictures do not depend on other entries; it
+    // may share the integration with them.
+    void prepare();
+    const std::vector<sim::Request>& requests() const { return requests_; }  // of the plan
+    void judge(std::vector<sim::Result> results, RunOptions options);        // of these requests
+    // An entry without a motion: pictures of another program, or a sweep.
     void judge_file();
-    void finish();
+    void judge_sweep(int threads, Progress& progress) { motion_.judge_sweep(threads, progress); }
 
-    // The picture shows the motion until `until`. If the motion is not reproducible so long, another processor draws
-    // other pixels: throws PictureError on an update, else notes it in the result.
-    void require_reproducible(const sim::Result& motion, double until);
-
-    // The entry cannot be judged; the program ends with `exit_code`.
-    void fail(const std::string& reason, Verdict verdict = Verdict::different, int exit_code = kDiffers);
     // Runs `work`; its errors fail this entry alone. False: it failed.
     bool attempt(const std::function<void()>& work);
 
@@ -54,6 +51,17 @@ class EntryTest {
     std::map<std::string, std::string> new_pictures() const { return pictures_.new_pictures(is_updated()); }
 
   private:
+    bool needs_motion() const { return test_.result.motion.has_value(); }
+    // Acceptance depends on the horizon to which the motion is reproducible.
+    bool needs_horizon() const { return is_updated() || test_.report.folder; }
+    void request_record();
+    void request_compared_records();
+    // The picture shows the motion until `until`. If the motion is not reproducible so long, another processor draws
+    // other pixels: throws PictureError on an update, else notes it in the result.
+    void require_reproducible(const sim::Result& motion, double until);
+    void conclude();
+    // The entry cannot be judged; the program ends with `exit_code`.
+    void fail(const std::string& reason, Verdict verdict = Verdict::different, int exit_code = kDiffers);
     std::string renderer_message() const;
     bool has_new_motion_only() const;
 
@@ -63,6 +71,10 @@ class EntryTest {
     EntryContext test_;
     EntryPictures pictures_;
     EntryMotion motion_;
+    Plan plan_;
+    std::vector<sim::Request> requests_;
+    std::size_t recorded_ = 0;  // index of the recorded table in the plan's request
+    double until_ = 0;          // the last instant that the entry shows [s]
     bool has_new_renderer_ = false;
 };
 

@@ -2,14 +2,16 @@
 
 #include <fmt/format.h>
 
+#include <atomic>
+#include <iterator>
 #include <memory>
-#include <mutex>
 
 #include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/regression/entry_group.hpp"
+#include "scenes/regression/entry_test.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {
@@ -46,6 +48,8 @@ class Regression {
         run_others();
         change_baselines();
         report_files_.save();
+        result_.simulations = simulations_;
+        for (const EntryResult& entry : result_.entries) result_.pictures += entry.frames.size();
         result_.seconds = seconds_since(started);
         return std::move(result_);
     }
@@ -84,31 +88,50 @@ class Regression {
         result.exit_code = exit_code;
     }
 
+    using Group = std::vector<EntryTest*>;  // entries with the same mechanics, which share one integration
+
     // Groups run in parallel; each draws with an equal share of the threads.
     void run_groups() {
-        std::vector<EntryGroup> all = groups();
+        const std::vector<Group> all = groups();
         const auto count = static_cast<long>(all.size());
         const int threads = thread_count(options_.run.threads);
-        RegressionOptions each = options_;
-        each.run.threads = std::max(1, threads / static_cast<int>(std::max(1L, count)));
+        RunOptions each = options_.run;
+        each.threads = std::max(1, threads / static_cast<int>(std::max(1L, count)));
         Gate gate;
         fan_out(
-            count, threads,
-            [&] {
-                return [&](long k) {
-                    RegressionResult counts;
-                    all[static_cast<std::size_t>(k)].run(each, counts);
-                    const std::lock_guard lock(mutex_);
-                    result_.simulations += counts.simulations;
-                    result_.pictures += counts.pictures;
-                };
-            },
-            gate);
+            count, threads, [&] { return [&](long k) { run_group(all[static_cast<std::size_t>(k)], each); }; }, gate);
     }
 
-    std::vector<EntryGroup> groups() {
+    void run_group(Group group, const RunOptions& options) {
+        std::erase_if(group, [](EntryTest* test) { return !test->attempt([&] { test->prepare(); }); });
+        if (group.empty()) return;
+        std::vector<sim::Request> requests;
+        for (const EntryTest* test : group)
+            requests.insert(requests.end(), test->requests().begin(), test->requests().end());
+        std::vector<sim::Result> results;
+        try {
+            results = sim::simulate(group.front()->entry().scene.problem, requests,
+                                    [](double) { return !output::interrupted(); });
+        } catch (const sim::SolverError& error) {
+            if (group.size() == 1) group.front()->attempt([&] { throw error; });
+            for (EntryTest* test : group)  // the integration may succeed for an entry that ends earlier
+                if (group.size() > 1) run_group({test}, options);
+            return;
+        }
+        ++simulations_;
+        auto next = std::make_move_iterator(results.begin());
+        for (EntryTest* test : group) {
+            const auto last = next + std::ssize(test->requests());
+            const auto started = Clock::now();
+            test->attempt([&] { test->judge({next, last}, options); });
+            test->result().seconds = seconds_since(started);
+            next = last;
+        }
+    }
+
+    std::vector<Group> groups() {
         std::map<std::string, std::size_t> index;
-        std::vector<EntryGroup> all;
+        std::vector<Group> all;
         for (const auto& test : tests_) {
             if (!shares_motion(test->entry())) continue;
             Scene physics = test->entry().scene;  // without the keys on which the motion does not depend
@@ -118,7 +141,7 @@ class Regression {
             physics.end_time = 1;
             const auto [found, added] = index.emplace(to_json(physics), all.size());
             if (added) all.emplace_back();
-            all[found->second].add(*test);
+            all[found->second].push_back(test.get());
         }
         return all;
     }
@@ -131,12 +154,9 @@ class Regression {
             if (shares_motion(test->entry())) continue;
             const auto started = Clock::now();
             test->attempt([&] {
-                if (test->entry().is_sweep) return test->motion().judge_sweep(options_.run.threads, progress);
-                test->judge_file();
-                test->finish();
+                test->entry().is_sweep ? test->judge_sweep(options_.run.threads, progress) : test->judge_file();
             });
             test->result().seconds = seconds_since(started);
-            result_.pictures += test->result().frames.size();
         }
     }
 
@@ -165,7 +185,7 @@ class Regression {
     std::string path_;
     const RegressionOptions& options_;
     Baselines baselines_;
-    std::mutex mutex_;  // guards the counts in result_
+    std::atomic<std::size_t> simulations_ = 0;
     ReferenceUpdate update_;
     output::Manifest report_files_;
     std::map<Renderer, Fingerprint> fingerprints_;

@@ -26,7 +26,7 @@ TEST(CommandLine, VersionHelpAndSchemaAreData) {
          {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "keys", "figure", "paper"}) {
         const Finished help = shell(folder, std::string("$BEAMCAM ") + command + " --help");
         EXPECT_EQ(help.code, 0);
-        EXPECT_THAT(help.out, HasSubstr("beamcam "));  // of the usage; what stands around it is CLI11's
+        EXPECT_THAT(help.out, HasSubstr("beamcam "));  // of the usage; the rest is by CLI11
         EXPECT_THAT(help.err, IsEmpty());
     }
     EXPECT_EQ(shell(folder, "$BEAMCAM schema").out,
@@ -141,7 +141,7 @@ TEST(CommandLine, AnUnreadableSceneIsSix) {
     EXPECT_EQ(shell(folder, "$BEAMCAM check .").code, 6);
 }
 
-TEST(CommandLine, CheckTellsOfEveryScene) {
+TEST(CommandLine, CheckReportsEveryScene) {
     const Folder folder;
     folder.write("good.json", "{}");
     folder.write("bad.json", "{,}");
@@ -174,7 +174,7 @@ TEST(CommandLine, InitWritesASceneThatIsFineAndNeverReplacesOne) {
     EXPECT_THAT(shell(folder, "$BEAMCAM init -").out, HasSubstr("\"beam\""));
 }
 
-TEST(CommandLine, SimulatePrintsTheSummaryOrTheTableAskedFor) {
+TEST(CommandLine, SimulatePrintsTheSummaryOrTheRequestedTable) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}})");
     const Finished summary = shell(folder, "$BEAMCAM simulate s.json");
@@ -200,9 +200,9 @@ TEST(CommandLine, FilesThatBeamcamDidNotMakeAreKept) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.05}, "outputs": [{"type": "trajectory", "file": "t.csv"}]})");
     folder.write("t.csv", "mine");
-    const Finished refused = shell(folder, "$BEAMCAM run s.json");
-    EXPECT_EQ(refused.code, 6);
-    EXPECT_THAT(refused.err, HasSubstr("t.csv"));
+    const Finished rejected = shell(folder, "$BEAMCAM run s.json");
+    EXPECT_EQ(rejected.code, 6);
+    EXPECT_THAT(rejected.err, HasSubstr("t.csv"));
     EXPECT_EQ(testing::slurp(folder / "t.csv"), "mine");
     EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 0);  // its own now
@@ -236,7 +236,7 @@ TEST(CommandLine, QuietSaysNothing) {
     EXPECT_THAT(finished.out, IsEmpty());
 }
 
-// The terminal that messages go to may be full or gone; the exit code tells all the same.
+// The terminal that messages go to may be full or gone; the exit code is the same.
 TEST(CommandLine, UnreadMessagesChangeNothing) {
     const Folder folder;
     folder.write("bad.json", R"({"beam": {"lenght": 1}})");

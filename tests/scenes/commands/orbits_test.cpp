@@ -201,16 +201,16 @@ TEST(OrbitsCommand, WritesASceneThatStaysOnTheOrbitAndWhoseFilmLoops) {
     EXPECT_NEAR(times.frames.back() + period / 180, 2 * period, 1e-12);
 }
 
-TEST(OrbitsCommand, TellsThatABeamThatNeverLeavesTheCamHasNoFlightToBeginIn) {
+TEST(OrbitsCommand, ReportsThatABeamThatNeverLeavesTheCamHasNoFlightToBeginIn) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished done = shell(folder, "$BEAMCAM orbits s.json --set cam.speed=5 --scene loop.json");
-    EXPECT_EQ(done.code, 4) << done.err;  // the scene that was asked for is not there
+    EXPECT_EQ(done.code, 4) << done.err;  // the requested scene was not written
     EXPECT_THAT(done.err, HasSubstr("never leaves the cam"));
     EXPECT_FALSE(std::filesystem::exists(folder / "loop.json"));
 }
 
-TEST(OrbitsCommand, TellsWhatItCannotDo) {
+TEST(OrbitsCommand, ReportsWhatItCannotDo) {
     const Folder folder;
     folder.write("s.json", kPressed);
     EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json -o b.pdf").code, 2);
@@ -249,7 +249,7 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
                 HasSubstr("after 1.0472 s"));
 }
 
-TEST(OrbitsCommand, RefusesOptionsThatWouldDoNothing) {
+TEST(OrbitsCommand, RejectsOptionsThatWouldDoNothing) {
     const Folder folder;
     folder.write("s.json", kPressed);
     for (const char* options : {"--at 50", "--doublings 3", "--over cam.speed=40:60:3"})

@@ -78,7 +78,7 @@ TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
               0);
 }
 
-TEST(Info, ForeignAndDamagedFilesAreToldApart) {
+TEST(Info, ForeignAndDamagedFilesAreDistinguished) {
     const Folder folder;
     folder.write("s.json", kEveryOutput);
     ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json && ffmpeg -v error -i a.png -map_metadata -1 f.png").code, 0);

@@ -1,4 +1,4 @@
-// Nothing of a foreign file speaks to the terminal, whatever command prints it.
+// Control characters of foreign files never reach the terminal, whatever command prints them.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -276,7 +276,7 @@ TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
     }
 }
 
-TEST(Figures, BeyondTheHorizonIsPaleAndSaid) {
+TEST(Figures, BeyondTheHorizonIsPaleAndStated) {
     const auto figure = figure_of(scene_from(R"({"time": {"end": 2.2}})"), "angle");
     ASSERT_EQ(figure.panels[0].series.size(), 2u);
     EXPECT_TRUE(figure.panels[0].series[0].faded);
@@ -385,7 +385,7 @@ TEST(Captions, CallNoMotionChaotic) {
         }
 }
 
-// The fewest digits that are right and the most that may be told.
+// The fewest correct digits and the most that may be printed.
 TEST(Captions, HaveTheDigitsThatModesAndToleranceSupport) {
     EXPECT_EQ(supported({0.36999493, 3e-7}), "0.369\u2009995");
     EXPECT_EQ(supported({0.36999493, 3e-3}), "0.37");
@@ -428,7 +428,7 @@ TEST(Figures, ModelsEndWhereTheirWorkIsSpentAndSaySo) {
 }
 
 // Also what a figure computes beside the scene must be possible: without the cam nothing rests on it.
-TEST(Figures, OfARestingBeamAreMadeOrRefused) {
+TEST(Figures, OfARestingBeamAreMadeOrRejected) {
     SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", R"({"initial": {"shape": "resting"}, "time": {"end": 0.2}})");
@@ -439,9 +439,9 @@ TEST(Figures, OfARestingBeamAreMadeOrRefused) {
         EXPECT_TRUE(made.code == 0 || made.code == 3) << recipe.name << made.err;
     }
     for (const char* name : {"free-fall", "distance"}) {
-        const Finished refused = shell(folder, fmt::format("$BEAMCAM figure s.json {} -o b.svg", name));
-        EXPECT_EQ(refused.code, 3);
-        EXPECT_THAT(refused.err, HasSubstr("rests on the cam"));
+        const Finished rejected = shell(folder, fmt::format("$BEAMCAM figure s.json {} -o b.svg", name));
+        EXPECT_EQ(rejected.code, 3);
+        EXPECT_THAT(rejected.err, HasSubstr("rests on the cam"));
     }
 }
 
@@ -458,16 +458,16 @@ TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
     EXPECT_FALSE(refusal_of(careless, scene_from("{}")));
 }
 
-TEST(Figures, WhatASceneHasNotIsToldInWords) {
+TEST(Figures, WhatASceneHasNotIsReported) {
     const Folder folder;
     folder.write("s.json", R"({"cam": null})");
     const Finished list = shell(folder, "$BEAMCAM figure s.json");
     EXPECT_EQ(list.code, 0);
     EXPECT_THAT(list.out, HasSubstr("schematic"));
     EXPECT_THAT(list.out, HasSubstr("no cam"));
-    const Finished refused = shell(folder, "$BEAMCAM figure s.json collision -o a.pdf");
-    EXPECT_EQ(refused.code, 3);
-    EXPECT_THAT(refused.err, HasSubstr("no cam"));
+    const Finished rejected = shell(folder, "$BEAMCAM figure s.json collision -o a.pdf");
+    EXPECT_EQ(rejected.code, 3);
+    EXPECT_THAT(rejected.err, HasSubstr("no cam"));
     folder.write("t.json", R"({"time": {"end": 0.01}})");
     const Finished early = shell(folder, "$BEAMCAM figure t.json collision -o a.pdf");
     EXPECT_EQ(early.code, 3);
@@ -569,7 +569,7 @@ TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
     EXPECT_EQ(work[1].label, "auto");
     EXPECT_EQ(work[1].x.size(), 10u);
     EXPECT_DOUBLE_EQ(work[1].x[0], 3);  // ms
-    EXPECT_EQ(work[1].y.back(), 1e-9);  // not below what the reference can tell
+    EXPECT_EQ(work[1].y.back(), 1e-9);  // not below the error of the reference
     EXPECT_EQ(work[3].x.size(), 6u);
     EXPECT_DOUBLE_EQ(work[2].x[1] / work[2].x[0], 1.2 / 0.9);
     EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
@@ -654,7 +654,7 @@ TEST(Findings, ForeshorteningInGravityMatters) {
 }
 
 TEST(Findings, SeparationAsPrintedHasTheWrongSign) {
-    // The rigid rod: in contact N >= 0 exactly where `separation` >= 0, and the printed Δ says the opposite.
+    // The rigid rod: in contact N >= 0 exactly where `separation` >= 0, and the printed Δ has the opposite sign.
     sim::Problem p;
     p.beam.model = sim::ModelKind::rigid;
     p.cam->speed = 0;
@@ -878,9 +878,9 @@ TEST(Figures, ACollisionReachesItsPeak) {
     const Folder folder;
     folder.write("s.json", kLight);
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json collision -o c.svg --data c.csv").code, 0);
-    const Finished told = shell(
+    const Finished printed = shell(
         folder, R"($BEAMCAM simulate s.json --impacts - | sed -n 's/.*"force_peak": \([0-9.e+-]*\).*/\1/p' | head -1)");
-    const double peak = std::stod(told.out);
+    const double peak = std::stod(printed.out);
     // panel, series, quantity and value of x, quantity and value of y
     double highest = 0;
     std::istringstream rows(testing::slurp(folder / "c.csv"));

@@ -64,12 +64,12 @@ TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
         EXPECT_EQ(shell(folder, fmt::format("$BEAMCAM render s.json {}", wrong)).code, 2) << wrong;
 }
 
-Plan resolved_plan(const Scene& scene, const RejectOutput& refuse = {}) {
+Plan resolved_plan(const Scene& scene, const RejectOutput& reject = {}) {
     Plan made = plan(scene);
     resolve_event_times(
         made, scene,
         [](const sim::Problem& problem, const sim::Request& request) { return sim::simulate(problem, request); },
-        refuse);
+        reject);
     return made;
 }
 
@@ -94,7 +94,7 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
         return made.figures[figure].studies.at(0).request.tables.at(0).times;
     };
     EXPECT_NEAR(times(0).front(), own.impacts[0].t_start, 1e-12);
-    // The apex: the hub stands still between the first collision and the next.
+    // The apex: the hub is at rest between the first collision and the next.
     const double apex = times(0).back();
     EXPECT_GT(apex, *own.collisions[0].t_end);
     EXPECT_LT(apex, own.collisions[1].t_start);
@@ -110,7 +110,7 @@ TEST(Stretch, BeginsAndEndsAtEventsOfTheFirstMotion) {
     EXPECT_NEAR(times(3).front(), higher.collisions[0].t_start, 1e-12);
 }
 
-TEST(Stretch, OfAnEventThatDoesNotOccurIsRefusedAlone) {
+TEST(Stretch, OfAnEventThatDoesNotOccurIsRejectedAlone) {
     const Reading reading = testing::read(R"({"time": {"end": 0.4}, "outputs": [
         {"type": "figure", "figure": "strobe", "at": "impact:7", "file": "a.pdf"},
         {"type": "figure", "figure": "kymograph", "from": "release", "to": "touch", "file": "b.pdf"},
@@ -181,7 +181,7 @@ TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
     // The apex of a rebound is known when it is over.
     EXPECT_LT(ends(R"({"type": "figure", "figure": "strobe", "at": "apex:1"})", searched), second);
     EXPECT_EQ(searched, second);
-    // What looks at all impacts, or at the end, needs all.
+    // An output that shows all impacts, or the end, needs the whole motion.
     EXPECT_EQ(ends(std::string(kFigure) + R"(, {"type": "video", "speed": "impacts"})", searched), 2);
     EXPECT_EQ(searched, 2);
 }
@@ -316,7 +316,7 @@ TEST(Overviews, TakeAnIntervalAndNoOtherKeysOfSeries) {
     EXPECT_THAT(report(R"("figure": "kymograph", "from": 0.1, "to": 0.1)"), HasSubstr("is not before the end"));
 }
 
-// The same pixels as of PNG, at 600 dpi when nothing else is said.
+// The same pixels as of PNG, at 600 dpi by default.
 TEST(Exports, TiffHasThePixelsOfPng) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.1}})");
@@ -410,7 +410,7 @@ TEST(Exports, ImpactsCarryTheirStates) {
     }
 }
 
-TEST(Exports, ShapesAreThoseOfTheAskedInstants) {
+TEST(Exports, ShapesAreThoseOfTheRequestedInstants) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}})");
     const Finished made = shell(folder, "$BEAMCAM simulate s.json --shapes v.csv --times 0.2,0.1");

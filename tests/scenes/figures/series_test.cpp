@@ -104,7 +104,7 @@ TEST(Series, PanelsShareOneAxis) {
     }
 }
 
-TEST(Series, AChannelWithoutValuesIsTold) {
+TEST(Series, AChannelWithoutValuesIsReported) {
     EXPECT_THROW(figure_of(R"("channels": ["contact_x"])", R"("cam": null,)"), render::PictureError);
 }
 
@@ -254,32 +254,32 @@ TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
     }
     EXPECT_EQ(quiet.find("rig"), std::string::npos) << quiet;
     EXPECT_EQ(drawn("--channels theta,theta_dot --x theta").first.size(), 4u);
-    // Over what the data do not hold they are not drawn, which the caption and the messages say.
-    const auto [none, told] = drawn("--channels theta --x theta_dot");
+    // Data are not drawn over a channel that they do not hold; caption and messages state it.
+    const auto [none, report] = drawn("--channels theta --x theta_dot");
     EXPECT_EQ(none.size(), 0u);
-    EXPECT_THAT(told, HasSubstr("warning: --x = \"theta_dot\": the data \"rig\" have no theta_dot"));
+    EXPECT_THAT(report, HasSubstr("warning: --x = \"theta_dot\": the data \"rig\" have no theta_dot"));
     EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Data “rig” do not hold"));
 }
 
-TEST(Measured, BadFilesAreToldWithTheirPlace) {
+TEST(Measured, BadFilesAreReportedWithTheirPlace) {
     const Folder folder;
     folder.write("m.json", kRig);
-    const auto told = [&](const std::string& rig) {
+    const auto report = [&](const std::string& rig) {
         folder.write("rig.csv", rig);
         const Finished checked = shell(folder, "$BEAMCAM check m.json");
         EXPECT_EQ(checked.code, 3);
         return checked.out + checked.err;
     };
     EXPECT_THAT(shell(folder, "$BEAMCAM check m.json").err, HasSubstr("rig.csv\": No such file"));
-    EXPECT_THAT(told("time,angle\n100,45\n200,x\n"), HasSubstr("rig.csv:3:5: \"x\" is not a number"));
-    EXPECT_THAT(told("time,angle\n100,45\n90,44\n"), HasSubstr("line 3: the time does not increase"));
-    EXPECT_THAT(told("time,angel\n100,45\n"), HasSubstr("the file has no column \"angle\"; did you mean \"angel\"?"));
-    EXPECT_THAT(told("time,angle\n1000,45\n"), HasSubstr("no row lies between 0 and 0.4 s"));
-    EXPECT_THAT(told(""), HasSubstr("the file is empty"));
-    EXPECT_THAT(told("time,angle\n"), HasSubstr("the file has no rows below the names of the columns"));
-    EXPECT_THAT(told("time,angle\n100,45\n200,inf\n"), HasSubstr("rig.csv:3:5: \"inf\" is not a finite number"));
-    EXPECT_THAT(told("time;angle\n100;45\n"), HasSubstr("rig.csv:1:5: columns are separated by semicolons"));
-    EXPECT_THAT(told("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" contains no number"));
+    EXPECT_THAT(report("time,angle\n100,45\n200,x\n"), HasSubstr("rig.csv:3:5: \"x\" is not a number"));
+    EXPECT_THAT(report("time,angle\n100,45\n90,44\n"), HasSubstr("line 3: the time does not increase"));
+    EXPECT_THAT(report("time,angel\n100,45\n"), HasSubstr("the file has no column \"angle\"; did you mean \"angel\"?"));
+    EXPECT_THAT(report("time,angle\n1000,45\n"), HasSubstr("no row lies between 0 and 0.4 s"));
+    EXPECT_THAT(report(""), HasSubstr("the file is empty"));
+    EXPECT_THAT(report("time,angle\n"), HasSubstr("the file has no rows below the names of the columns"));
+    EXPECT_THAT(report("time,angle\n100,45\n200,inf\n"), HasSubstr("rig.csv:3:5: \"inf\" is not a finite number"));
+    EXPECT_THAT(report("time;angle\n100;45\n"), HasSubstr("rig.csv:1:5: columns are separated by semicolons"));
+    EXPECT_THAT(report("time,angle\n100,nan\n200,\n"), HasSubstr("the column \"angle\" contains no number"));
     folder.write("rig.csv", "time,angle\n100,45\n");
     EXPECT_THAT(shell(folder, R"(sed 's/"deg"/"mm"/' m.json > n.json; $BEAMCAM check n.json)").err,
                 HasSubstr("\"mm\" is not a unit of theta, which is measured in rad"));
@@ -369,7 +369,7 @@ TEST(Series, RunsOverThePhaseOfTheCam) {
 }
 
 // Of a stretch alone, whatever was lost before.
-TEST(Series, TellsOnlyWhatItShowsOfTheReproducible) {
+TEST(Series, StatesReproducibilityOnlyOfWhatItShows) {
     const std::string run = R"("cam": {"speed": 5}, "initial": {"angle": "45 deg"}, )";
     const std::string whole = figure_of(R"("channels": ["theta"], "to": 6)", run).caption;
     ASSERT_THAT(whole, HasSubstr("Drawn lighter, from "));
@@ -399,7 +399,7 @@ TEST(Measured, NamesOfFilesAreLabelsAsTheyAre) {
     EXPECT_THAT(testing::slurp(folder / "a.txt"), HasSubstr("Data “run_2$”: at 1 instants"));
 }
 
-// A vibration of 50 Hz has its line there, in its own amplitude; unequal steps have no spectrum, which is told.
+// A vibration of 50 Hz has its line there, in its own amplitude; unequal steps have no spectrum, which is reported.
 TEST(Measured, DataHaveSpectraOfTheirOwn) {
     const Folder folder;
     std::string even = "t,tip_deflection\n", uneven = even;
@@ -427,14 +427,14 @@ TEST(Measured, DataHaveSpectraOfTheirOwn) {
     EXPECT_NEAR(most, 2000, 20);
 }
 
-TEST(Series, ASpectrumWithoutLinesIsTold) {
+TEST(Series, ASpectrumWithoutLinesIsReported) {
     EXPECT_THROW(figure_of(R"("channels": ["theta"], "x": "frequency", "x_high": 0.1)"), render::PictureError);
     EXPECT_THROW(figure_of(R"("channels": ["theta"], "x": "frequency")",
                            R"("cam": null, "gravity": 0, "initial": {"angle": 0},)"),
                  render::PictureError);
 }
 
-TEST(Series, MarksInstantsWithWords) {
+TEST(Series, MarksInstantsWithText) {
     const Figure figure =
         figure_of(R"("channels": ["theta", "gap"], "notes": [{"at": "impact:1", "text": "touch"}, {"at": 0.1}])");
     ASSERT_EQ(figure.panels[0].rules.size(), 2u);
@@ -447,7 +447,7 @@ TEST(Series, MarksInstantsWithWords) {
     EXPECT_THROW(figure_of(R"("channels": ["theta"], "notes": [{"at": "impact:99"}])"), render::PictureError);
 }
 
-TEST(Series, TooManyPanelsAreToldWithTheLimit) {
+TEST(Series, TooManyPanelsAreReportedWithTheLimit) {
     std::string panels;
     for (int k = 0; k < 60; ++k) panels += std::string(k > 0 ? "," : "") + R"({"channels": ["theta"]})";
     EXPECT_THAT(

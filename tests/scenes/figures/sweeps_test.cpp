@@ -1,4 +1,4 @@
-// Figures of sweeps: what is drawn as a section, what only as a class, and that both starts are told apart.
+// Figures of sweeps: what is drawn as a section, what only as a class, and that both starts are distinguished.
 #include "scenes/figures/sweeps.hpp"
 
 #include <gmock/gmock.h>
@@ -173,7 +173,7 @@ TEST(Diagram, OfSamplesAndOfBranchesHaveOneApproachSpeed) {
     EXPECT_EQ(map.panels[0].color_bar->label, "mean of approach speed / (m s^{−1})");
 }
 
-TEST(Diagram, TellsUpAndDownApart) {
+TEST(Diagram, DistinguishesUpAndDown) {
     const SweepGrid both =
         grid(R"({"over": [{"key": "cam.speed", "values": [1, 2]}], "seed": ["carry-up", "carry-down"]})");
     const auto figure = diagram("bifurcation", both, data(both, {AttractorClass::periodic}), "v_n_before");
@@ -238,7 +238,7 @@ TEST(Diagram, PairsEachImpactWithTheNext) {
                  render::PictureError);
 }
 
-TEST(Diagram, TellsFewValuesApart) {
+TEST(Diagram, DistinguishesFewValues) {
     const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [40, 50]}], "seed": {"random": 3}})");
     const auto panel = diagram("poincare", speeds, data(speeds, {AttractorClass::chaotic}), "").panels.at(0);
     ASSERT_THAT(panel.clouds, SizeIs(2));
@@ -285,9 +285,9 @@ TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {
     EXPECT_THAT(again.err, HasSubstr("kept ./s.csv: up to date"));
     EXPECT_THAT(again.err, ::testing::Not(HasSubstr("points in")));
     folder.write("none.json", R"({"outputs": [{"type": "sweep"}, {"type": "figure", "figure": "map"}]})");
-    const auto refused = testing::shell(folder, "$BEAMCAM check none.json");
-    EXPECT_EQ(refused.code, 3);
-    EXPECT_THAT(refused.err, HasSubstr("no key \"sweep\""));
+    const auto rejected = testing::shell(folder, "$BEAMCAM check none.json");
+    EXPECT_EQ(rejected.code, 3);
+    EXPECT_THAT(rejected.err, HasSubstr("no key \"sweep\""));
 }
 
 TEST(Diagram, IsMadeAgainWhenATableChangesAndIsGuardedAsABaseline) {

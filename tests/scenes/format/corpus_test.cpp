@@ -1,5 +1,5 @@
 // The reader and the JSON Schema are two descriptions of one format: they agree on a corpus of small
-// scenes and on hundreds of scenes made from one by a single change. What a schema cannot say —
+// scenes and on hundreds of scenes made from one by a single change. What a schema cannot express —
 // syntax, units, rules across keys — is tested with the reader alone.
 #include <gtest/gtest.h>
 
@@ -52,7 +52,7 @@ TEST(Corpus, TheReaderAcceptsEveryValidScene) {
     }
 }
 
-TEST(Corpus, TheReaderRefusesEveryInvalidSceneAtAPlaceInsideIt) {
+TEST(Corpus, TheReaderRejectsEveryInvalidSceneAtAPlaceInsideIt) {
     const auto files = files_in("invalid");
     EXPECT_GE(files.size(), 150u);
     for (const auto& file : files) {
@@ -65,7 +65,7 @@ TEST(Corpus, TheReaderRefusesEveryInvalidSceneAtAPlaceInsideIt) {
     }
 }
 
-TEST(Corpus, TheReaderAloneRefusesWhatASchemaCannotSay) {
+TEST(Corpus, TheReaderAloneRejectsWhatASchemaCannotExpress) {
     const auto files = files_in("reader_only");
     EXPECT_GE(files.size(), 45u);
     for (const auto& file : files) {
@@ -75,7 +75,7 @@ TEST(Corpus, TheReaderAloneRefusesWhatASchemaCannotSay) {
     }
 }
 
-TEST(Corpus, TheSchemaAcceptsAndRefusesTheSame) {
+TEST(Corpus, TheSchemaAcceptsAndRejectsTheSame) {
     const auto valid = schema_verdicts("'" + (kCorpus / "valid").string() + "'");
     EXPECT_EQ(valid.size(), files_in("valid").size());
     for (const Verdict& verdict : valid) EXPECT_TRUE(verdict.accepted) << verdict.scene;

@@ -196,13 +196,13 @@ TEST(Reader, BeyondAHundredIssuesAreCounted) {
                                  ::testing::EndsWith("and 150 more\n")));
 }
 
-TEST(Reader, AValueOfTheWrongKindIsToldNextToTheOthers) {
+TEST(Reader, AValueOfTheWrongKindIsReportedBesideTheOthers) {
     const Reading reading = read(
         R"({"hub": [], "beam": {"length": [], "model": 3}, "cam": 5, "contact": {"friction": "none"}, "outputs": {}})");
     EXPECT_EQ(messages(reading).size(), 6u) << reading.report();
 }
 
-TEST(Reader, ImpossiblePhysicsStandsAtTheKeyThatSaysIt) {
+TEST(Reader, ImpossiblePhysicsIsReportedAtItsKey) {
     EXPECT_THAT(messages(read("{\"cam\": {\"radius\": 0.1,\n \"eccentricity\": 0.2}}")),
                 ElementsAre(StartsWith("2:18 cam.eccentricity")));
     // No such key in the text: the nearest one that is there.
@@ -227,12 +227,12 @@ TEST(Reader, PointlessScenesAreWarnedAboutAndRead) {
     EXPECT_THAT(reading.report(), HasSubstr("scene.json:1:20: warning: cam.centre"));
 }
 
-TEST(Reader, WhatTheVersionCannotDoIsRefusedByName) {
+TEST(Reader, WhatTheVersionCannotDoIsRejectedByName) {
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "gif"}]})")),
                 ElementsAre(HasSubstr("write a \"video\" whose \"file\" ends in .gif")));
 }
 
-TEST(Reader, AnImpossibleFormatIsRefusedWithAPossibleOne) {
+TEST(Reader, AnImpossibleFormatIsRejectedWithAPossibleOne) {
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "background": "transparent"}]})")),
                 ElementsAre(HasSubstr("name a .webm (vp9)")));
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "file": "a.webm", "size": [321, 240]}]})")),
@@ -270,7 +270,7 @@ TEST(Reader, ComparedMotionsAreTheSceneWithChanges) {
     EXPECT_EQ(compared[2].label, "3");
 }
 
-TEST(Reader, WhatAComparisonCannotChangeIsToldAtItsPlace) {
+TEST(Reader, WhatAComparisonCannotChangeIsReportedAtItsPlace) {
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"cam.spede": 1}}]}]})")),
                 ElementsAre(HasSubstr("did you mean \"speed\"")));
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"time.end": 1}}]}]})")),
@@ -356,7 +356,7 @@ Reading read_file_of(const testing::Folder& folder, const std::string& name) {
     return read_scene(load_source((folder / name).string()));
 }
 
-TEST(ComparedFiles, ARingIsRefusedWithItsChain) {
+TEST(ComparedFiles, ACycleIsRejectedWithItsChain) {
     const testing::Folder folder;
     folder.write("self.json", comparing("./self.json"));
     folder.write("a.json", comparing("b.json"));
@@ -382,7 +382,7 @@ TEST(ComparedFiles, EachIsReadOnce) {
               5);
 }
 
-TEST(ComparedFiles, LongChainsAreRefused) {
+TEST(ComparedFiles, LongChainsAreRejected) {
     const testing::Folder folder;
     for (int i = 0; i < 2000; ++i) folder.write(fmt::format("{}.json", i), comparing(fmt::format("{}.json", i + 1)));
     folder.write("2000.json", "{}");
@@ -409,7 +409,7 @@ TEST(Reader, NoTextHasTheCharacterThatEndsOne) {
 
 // ---- files -------------------------------------------------------------------------------------
 
-TEST(LoadSource, WhatCannotBeReadIsToldInWords) {
+TEST(LoadSource, WhatCannotBeReadIsReported) {
     const testing::Folder folder;
     EXPECT_THROW(load_source((folder / "absent.json").string()), UnreadableFile);
     EXPECT_THROW(load_source(folder.path().string()), UnreadableFile);

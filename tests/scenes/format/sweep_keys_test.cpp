@@ -72,7 +72,7 @@ TEST(SweepKeys, MeanWhatTheySay) {
     EXPECT_FALSE(read(scene_with("null")).scene->sweep);
 }
 
-TEST(SweepKeys, AreRefusedWithTheRemedy) {
+TEST(SweepKeys, AreRejectedWithTheRemedy) {
     const auto only = [](const std::string& sweep) {
         const std::vector<std::string> all = messages(read(scene_with(sweep)));
         return all.size() == 1 ? all.front() : "messages: " + std::to_string(all.size());

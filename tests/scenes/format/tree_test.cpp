@@ -28,7 +28,7 @@ TEST(Tree, CommasThatAreNotTrailingStay) {
         EXPECT_FALSE(parse(text).is_json) << text;
 }
 
-TEST(Tree, KeysAndValuesKnowWhereTheyStand) {
+TEST(Tree, KeysAndValuesHavePositions) {
     const std::string text = "{\n  \"α\": \"x\", \"b\" : [ -1.5e3, {\"c\": true}, \"\\\"]\" , null],\n\t\"d\":{}}";
     const Parsed parsed = parse(text);
     ASSERT_TRUE(parsed.is_json);
@@ -58,7 +58,7 @@ TEST(Tree, AByteOrderMarkIsNoCharacter) {
     EXPECT_EQ(locate(text, parsed.root.find("a")->key_place.offset).column, 2u);
 }
 
-TEST(Tree, DuplicateKeysAreToldAndTheFirstCounts) {
+TEST(Tree, DuplicateKeysAreReportedAndTheFirstCounts) {
     const Parsed parsed = parse("{\"a\": {\"b\": 1,\n \"b\": {\"c\": [2]}, \"d\": 3}}");
     ASSERT_TRUE(parsed.is_json);
     ASSERT_EQ(parsed.messages.size(), 1u);
@@ -153,7 +153,7 @@ TEST(Tree, TheParserAgreesWithAnotherOneOnDamagedTexts) {
     EXPECT_GT(accepted, 2000);
 }
 
-TEST(Source, TheCaretStandsBelowThePlaceWhateverPrecedesIt) {
+TEST(Source, TheCaretIsBelowThePlaceWhateverPrecedesIt) {
     const std::vector<Source> sources = {{"f.json", "{\n\t\"αβ\": \"x\"}", true}};
     const std::size_t offset = sources[0].text.find("\"x");
     EXPECT_EQ(describe(sources, Message{{0, offset}, "wrong", true}),

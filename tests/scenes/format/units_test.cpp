@@ -64,7 +64,7 @@ TEST(Units, CyclesAreNotRadians) {
     EXPECT_FALSE(same(parse_quantity("5 1/s").quantity->dimension, dimension::kAngularSpeed));
 }
 
-TEST(Units, WhatIsNoQuantityIsToldInWords) {
+TEST(Units, WhatIsNoQuantityIsReported) {
     for (const char* text : {"",      "mm",    "twelve mm", "12 parsec", "12 mm^",  "12 mm^x",   "12 m//s",
                              "12 (m", "12 m)", "12 kg/m s", "12 m^99",   "1e999 m", "1e300 Gm",  "inf m",
                              "nan",   "12 m/", "+-3 m",     "12 mm mm)", "0x10 m",  "12 m^(1/0)"}) {
@@ -79,7 +79,7 @@ TEST(Units, WhatIsNoQuantityIsToldInWords) {
     EXPECT_NE(parse_quantity("1e307 Gm").problem.find("out of the range"), std::string::npos);
 }
 
-TEST(Units, ExponentsAreReadWholeOrRefusedInWords) {
+TEST(Units, ExponentsAreReadWholeOrRejected) {
     EXPECT_EQ(parse_quantity("2 m¹⁰").quantity.value().dimension.length, 10);
     EXPECT_EQ(parse_quantity("2 m⁻¹²").quantity.value().dimension.length, -12);
     EXPECT_EQ(parse_quantity("2 m12").quantity.value().dimension.length, 12);

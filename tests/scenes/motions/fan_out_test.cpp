@@ -27,10 +27,10 @@ TEST(FanOut, CallsEachNumberOnceAndLetsThemThroughInOrder) {
 }
 
 TEST(FanOut, StartsAnotherThreadOnlyWhereItHelps) {
-    std::atomic<int> asked{0};
+    std::atomic<int> calls{0};
     const auto crew_of = [&](int yes_from, int yes_until) {
-        return Crew{1, 8, [&asked, yes_from, yes_until] {
-                        const int time = ++asked;
+        return Crew{1, 8, [&calls, yes_from, yes_until] {
+                        const int time = ++calls;
                         return time >= yes_from && time < yes_until;
                     }};
     };
@@ -44,12 +44,12 @@ TEST(FanOut, StartsAnotherThreadOnlyWhereItHelps) {
     };
     EXPECT_EQ(fan_out(100, crew_of(1000, 0), note, gate), 1);
     EXPECT_EQ(threads, std::set{std::this_thread::get_id()});
-    asked = 0;
+    calls = 0;
     threads.clear();
     EXPECT_EQ(fan_out(100, crew_of(10, 12), note, gate), 3);
     EXPECT_EQ(threads.size(), 3u);
     // No more than there are numbers, however often it would help.
-    asked = 0;
+    calls = 0;
     EXPECT_LE(fan_out(2, crew_of(1, 1000), note, gate), 2);
     EXPECT_EQ(fan_out(0, crew_of(1, 1000), note, gate), 1);
 }

@@ -1,4 +1,4 @@
-// What past runs took, and what plans say of it.
+// Measurements of earlier runs, and the estimates of plans.
 #include "scenes/motions/history.hpp"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
-// A kept motion serves every problem with the same key, a finished file every scene with the same inputs. So the keys
-// must change with every leaf of a scene that matters, and with no other. The leaves are those of the schema: one that
-// the full scenes lack fails the test.
+// A cached motion is used for every problem with the same key, a finished file for every scene with the same inputs. So
+// the keys must change with every leaf of a scene that matters, and with no other. The leaves are those of the schema:
+// one that the full scenes lack fails the test.
 #include "scenes/motions/identity.hpp"
 
 #include <fmt/format.h>
@@ -77,7 +77,7 @@ class Schema {
         return out;
     }
 
-    // What tells a variant from its siblings: its tags, and the keys that it cannot do without.
+    // A variant differs from the others by its tags and its required keys.
     static std::string label(const SortedJson& object) {
         std::string text;
         for (const SortedJson& key : object.value("required", SortedJson::array())) {

@@ -81,7 +81,7 @@ TEST(PoseSpool, OtherStationsHaveNoPlace) {
     EXPECT_NO_THROW(poses.put(1, pose));
 }
 
-TEST(PoseSpool, ASurveyBegunAnewForgetsItsContacts) {
+TEST(PoseSpool, ARestartedSurveyForgetsItsContacts) {
     PoseSpool poses({.times = {0}, .stations = 5, .contacts = 2});
     sim::Pose pose;
     pose.centreline.resize(5), pose.moment.resize(5);

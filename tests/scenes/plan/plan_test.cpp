@@ -63,7 +63,7 @@ TEST(Plan, SimulationEndsWhereTheLastOutputLooks) {
     EXPECT_EQ(plan_of(R"([{"type": "still", "at": 0}])").simulation->request.end_time, 0);
 }
 
-TEST(Plan, FramesStandAtMultiplesOfTheFramePeriod) {
+TEST(Plan, FramesAreAtMultiplesOfTheFramePeriod) {
     const Plan p = plan_of(R"([{"type": "frames", "fps": 10, "from": 0.2, "to": 0.5}])");
     EXPECT_EQ(p.pictures[0].first_frame, 2);
     EXPECT_THAT(p.simulation->request.poses[0].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
@@ -157,11 +157,10 @@ TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
         R"({"title": "Fall", "outputs": [{"type": "still", "file": "a.png", "at": 0, "size": [320, 180]}, {"type": "still", "file": "b.png", "at": 0}]})");
     Plan p = plan(scene);
     add_omitted_text(p, scene);
-    EXPECT_THAT(
-        to_text(p, scene),
-        HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10⁸ N m^−1.5, c = 0.7; "
-                  "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
-                  "  simulation from 0 s"));
+    EXPECT_THAT(to_text(p, scene),
+                HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10⁸ N m^−1.5, c = 0.7; "
+                          "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
+                          "  simulation from 0 s"));
 }
 
 TEST(PlanText, EveryOutputAtOnce) {
@@ -267,7 +266,7 @@ TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {
     EXPECT_TRUE(keeps(R"([{"type": "still", "at": 0.1}])"));
 }
 
-TEST(Plan, PicturesThatEndBeforeTheRunAreToldOfNoMoreThanTheirs) {
+TEST(Plan, PicturesThatEndBeforeTheRunReportOnlyTheirPart) {
     const Plan p = plan_of(
         R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}, {"type": "still", "at": 0.5}])");
     EXPECT_THAT(p.simulation->ends, ElementsAre(0.5));

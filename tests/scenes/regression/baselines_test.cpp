@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 using testing::shell;
 using testing::slurp;
 
-// The schema that editors use says the same as the reader, but for what only the reader can know.
+// The schema for editors and the reader give the same verdicts, except on rules that only the reader can check.
 TEST(Baselines, TheSchemaAndTheReaderAgree) {
     SKIP_UNDER_SANITIZERS();
     const Guarded folder;
@@ -83,7 +83,7 @@ TEST(Baselines, EditsKeepEveryOtherByte) {
     EXPECT_EQ(edited(again, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}}), changed);
 }
 
-// What is said of an entry counts more than what is said of all; of a renderer, more than of any.
+// The tolerance of an entry overrides that of all entries; that of a renderer overrides the common one.
 TEST(Baselines, TolerancesOfRenderersAreOverThoseOfTheSamePlace) {
     const Folder folder;
     folder.write("b.json", R"({"tolerance": {"channel": 3, "share": 0.1, "renderers": {"0123456789ab": {"channel": 4}}},
@@ -114,7 +114,7 @@ TEST(Baselines, PicturesAreExpectedOfPicturesOnly) {
     EXPECT_THAT(finished.err, HasSubstr("b.json:2:53: entries.a.output has no pictures to compare with \"expected\""));
 }
 
-TEST(Baselines, ReferencesMayStandBesideTheFile) {
+TEST(Baselines, ReferencesMayBeBesideTheFile) {
     const Folder folder;
     folder.write("b.json", R"({"references": "", "entries": {
   "a": {"scene": {"time": {"end": 0.1}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");

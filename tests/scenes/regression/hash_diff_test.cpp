@@ -32,7 +32,7 @@ TEST(Hash, PrintsOneDigestAPictureThatFFmpegPrintsToo) {
     EXPECT_EQ(ffmpeg.out.substr(0, 64), ffmpeg.out.substr(65, 64)) << ffmpeg.err;
 }
 
-TEST(Hash, RefusesWhatIsNoPictureWithSix) {
+TEST(Hash, RejectsWhatIsNoPictureWithSix) {
     const Folder folder;
     folder.write("empty.png", "");
     folder.write("text.png", "no picture");

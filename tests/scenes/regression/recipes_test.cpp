@@ -1,4 +1,4 @@
-// The recipes of tests/REGRESSION.md work as they stand there.
+// The recipes of tests/REGRESSION.md work as written.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -102,7 +102,7 @@ TEST(References, AnUpdateReplacesWhatTheMarkerListsAndKeepsEverythingElse) {
     EXPECT_FALSE(marked_files(scratch / "refs/a").contains("notes.txt"));
 }
 
-TEST(References, AFolderThatIsNotMarkedIsRefusedAndLeftAlone) {
+TEST(References, AFolderThatIsNotMarkedIsRejectedAndUnchanged) {
     Scratch scratch;
     write_file(scratch / "b.json", "first");
     output::ensure_directory(scratch / "refs/a");
@@ -116,7 +116,7 @@ TEST(References, AFolderThatIsNotMarkedIsRefusedAndLeftAlone) {
     EXPECT_EQ(slurp(scratch / "refs/a/0000.png"), "newa");
 }
 
-TEST(References, AChangedFileAFileInTheWayAndALinkAreRefused) {
+TEST(References, AChangedFileAFileInTheWayAndALinkAreRejected) {
     const std::pair<const char*, std::function<void(const fs::path&)>> cases[] = {
         {"was changed", [](const fs::path& refs) { write_file(refs / "a/0000.png", "edited"); }},
         {"was not made by beamcam",

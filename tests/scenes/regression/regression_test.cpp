@@ -58,7 +58,7 @@ TEST(Regression, DigestsAreThoseOfTheReferencePictures) {
     EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(digest));
 }
 
-TEST(Regression, TellsAPictureThatMovedFromAMotionThatMoved) {
+TEST(Regression, DistinguishesAPictureThatMovedFromAMotionThatMoved) {
     const Guarded folder;
     folder.update();
     folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another title"})");
@@ -75,7 +75,7 @@ TEST(Regression, TellsAPictureThatMovedFromAMotionThatMoved) {
     EXPECT_THAT(motion.out, HasSubstr("different   motion"));
 }
 
-// One looks at the scene's motion, one at a variant of it, one at none.
+// One shows the scene's motion, one a variant of it, one none.
 TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.3}})");
@@ -149,7 +149,7 @@ TEST(Regression, WithinTheToleranceIsEquivalentAndItsDigestCanBeAdded) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
 }
 
-TEST(Regression, ReadsOnlyAsFarAsTheEntryLooks) {
+TEST(Regression, ReadsOnlyAsFarAsTheEntryShows) {
     const Folder folder;
     folder.write(
         "b.json",
@@ -175,7 +175,7 @@ TEST(Regression, EntriesAreMeantByPatterns) {
 }
 
 // After 4 s the motion of the default scene is another one on another processor.
-TEST(Regression, PicturesOfWhatIsNotReproducibleAreRefused) {
+TEST(Regression, PicturesOfWhatIsNotReproducibleAreRejected) {
     const Folder folder;
     folder.write("b.json", R"({"entries": {
   "late": {"scene": {"time": {"end": 8}}, "output": {"type": "still", "at": 8, "size": [64, 64], "view": {"style": "flat"}}},
@@ -190,7 +190,7 @@ TEST(Regression, PicturesOfWhatIsNotReproducibleAreRefused) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only late").code, 7);
 }
 
-TEST(Regression, MistakesInBaselinesAreToldWithTheirPlaces) {
+TEST(Regression, MistakesInBaselinesAreReportedWithTheirPlaces) {
     const Folder folder;
     folder.write("s.json", "{}");
     folder.write("b.json", R"({
@@ -311,7 +311,7 @@ TEST(Regression, AMotionThatUpdateDidNotAcceptFails) {
 
 // ---- what an update must not touch -------------------------------------------------------------------
 
-TEST(Regression, UpdateRefusesAFolderThatIsNotItsOwn) {
+TEST(Regression, UpdateRejectsAFolderThatIsNotItsOwn) {
     for (const char* references : {"scenes", ".", "..", "ABSOLUTE"}) {
         const Folder folder;
         std::filesystem::create_directories(folder / "scenes/fall");
@@ -400,7 +400,7 @@ TEST(Regression, AnotherMathematicalLibraryIsNoChange) {
     EXPECT_EQ(finished.code, 0) << finished.out;
 }
 
-TEST(Regression, WhatLibrariesTellOfThemselvesIsNotInTheJson) {
+TEST(Regression, MessagesOfLibrariesAreNotInTheJson) {
     const Guarded folder;
     const Finished finished = shell(folder, "export PIXMAN_DISABLE=fast FC_DEBUG=1; $BEAMCAM test b.json --json");
     EXPECT_EQ(finished.out.substr(0, 2), "{\n") << finished.out;

@@ -48,7 +48,7 @@ struct Machines : Guarded {
     }
 };
 
-TEST(Renderers, PicturesOfANewRendererPassWhereThatIsAskedForAndTheyLookAlike) {
+TEST(Renderers, SimilarPicturesOfANewRendererPassOnRequest) {
     const Machines folder;
     folder.accept_of_another("lutrgb=r=max(val-9\\,0)");
     const std::string renderer = flat_fingerprint().id(), accepted = slurp(folder / "b.json");

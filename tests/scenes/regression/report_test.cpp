@@ -1,4 +1,4 @@
-// What `beamcam test` tells: pages, JUnit, annotations; and `beamcam accept`, which takes what a report holds.
+// The reports of `beamcam test`: pages, JUnit, annotations; and `beamcam accept`, which accepts a report.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,16 +51,16 @@ TEST(Report, JUnitHasACaseForEachPictureAndMotion) {
     EXPECT_EQ(slurp(folder / "mine.xml"), "mine");
 }
 
-TEST(Report, GitHubIsToldWhereItRuns) {
+TEST(Report, AnnotatesOnGitHub) {
     const Guarded folder;
     folder.update();
     folder.write("s.json", R"({"time": {"end": 0.35}, "title": "100 %"})");
     const std::string command = "$BEAMCAM test b.json -q --only fall motion";
     EXPECT_THAT(shell(folder, command).err, Not(HasSubstr("::error")));
-    const Finished told = shell(folder, "export GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY=summary.md; " + command);
-    EXPECT_EQ(told.code, 7);
-    EXPECT_THAT(told.err, HasSubstr("::error file=b.json,title=fall: different::picture different: "));
-    EXPECT_THAT(told.err, HasSubstr("%25)"));  // a share of the pixels, its sign escaped
+    const Finished annotated = shell(folder, "export GITHUB_ACTIONS=true GITHUB_STEP_SUMMARY=summary.md; " + command);
+    EXPECT_EQ(annotated.code, 7);
+    EXPECT_THAT(annotated.err, HasSubstr("::error file=b.json,title=fall: different::picture different: "));
+    EXPECT_THAT(annotated.err, HasSubstr("%25)"));  // a share of the pixels, its sign escaped
     EXPECT_THAT(slurp(folder / "summary.md"),
                 AllOf(HasSubstr("1 of 2 entries identical"), HasSubstr("| **fails** | fall | different | picture ")));
     EXPECT_THAT(shell(folder, "export GITHUB_ACTIONS=true; " + command + " --annotate none").err,
@@ -176,7 +176,7 @@ TEST(Accept, TakesTheNamedEntriesOnly) {
     EXPECT_EQ(shell(folder, "$BEAMCAM accept r nothing").code, 2);
 }
 
-TEST(Accept, RefusesWhatIsDamagedAndChangesNothing) {
+TEST(Accept, RejectsWhatIsDamagedAndChangesNothing) {
     const Guarded folder;
     folder.update();
     const std::string before = slurp(folder / "b.json");
@@ -212,7 +212,7 @@ TEST(Accept, NamesWhatHasNothingAndTakesTheOthers) {
 }
 
 // Through a report no more is accepted than by --update.
-TEST(Accept, RefusesPicturesOfWhatIsNotReproducible) {
+TEST(Accept, RejectsPicturesOfWhatIsNotReproducible) {
     const Guarded folder;
     folder.write("b.json", R"({"entries": {
   "late": {"scene": {"time": {"end": 8}}, "output": {"type": "still", "at": 8, "size": [64, 64], "view": {"style": "flat"}}},
@@ -237,9 +237,9 @@ TEST(Accept, TakesNoFilesButThoseThatWereTested) {
     for (const char* name : {"../secret.csv", ".beamcam-reference"}) {
         folder.write("r/report.json", report);
         folder.swap("r/report.json", "motion.csv\": ", std::string(name) + "\": ");
-        const Finished refused = shell(folder, "$BEAMCAM accept r");
-        EXPECT_EQ(refused.code, 6) << name;
-        EXPECT_THAT(refused.err, HasSubstr("is not the name of a file")) << refused.err;
+        const Finished rejected = shell(folder, "$BEAMCAM accept r");
+        EXPECT_EQ(rejected.code, 6) << name;
+        EXPECT_THAT(rejected.err, HasSubstr("is not the name of a file")) << rejected.err;
     }
     folder.write("r/report.json", report);
     folder.swap("r/report.json", "\"motion\": {\n      \"verdict\"",

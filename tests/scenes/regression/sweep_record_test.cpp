@@ -123,7 +123,7 @@ TEST(SweepRecord, AClassThatChangesIsADifferenceUnlessThereAreBorders) {
     EXPECT_EQ(judge(expected, actual).verdict, Verdict::different);
 }
 
-TEST(SweepRecord, OtherValuesAndDamageAreTold) {
+TEST(SweepRecord, OtherValuesAndDamageAreReported) {
     Table a, b;
     a.point(1, kPeriodic, 1, kNone, kNone, {{0, 1}});
     b.point(2, kPeriodic, 1, kNone, kNone, {{0, 1}});

@@ -80,7 +80,7 @@ TEST(TimeMap, IntervalsHaveTheirOwnSpeeds) {
     }
 }
 
-TEST(FilmTimes, IntervalsThatOverlapAreRefused) {
+TEST(FilmTimes, IntervalsThatOverlapAreRejected) {
     FrameSpan span;
     span.speed = {.factor = 1, .intervals = {{at(0.2), at(0.4), 0.1}, {at(0.3), at(0.5), 0.5}}};
     EXPECT_THROW(film_times(span, 1, {}), render::PictureError);
@@ -98,8 +98,8 @@ TEST(FilmTimes, ExposuresAreExactInstantsBetweenFrames) {
     view.shutter = std::acos(-1), view.exposures = 2;
     add_exposures(times, view, 10, 0.35);
     EXPECT_EQ(times.exposures.size(), 6U);
-    const double wanted[] = {0, 0.025, 0.1, 0.15, 0.3, 0.35};
-    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(times.exposures[i], wanted[i], 1e-12) << i;
+    const double expected[] = {0, 0.025, 0.1, 0.15, 0.3, 0.35};
+    for (std::size_t i = 0; i < 6; ++i) EXPECT_NEAR(times.exposures[i], expected[i], 1e-12) << i;
 }
 TEST(FilmTimes, TheStrobeFlashesAtMultiplesOfItsTime) {
     FilmTimes times;
@@ -107,9 +107,9 @@ TEST(FilmTimes, TheStrobeFlashesAtMultiplesOfItsTime) {
     View view;
     view.strobe_every = 0.1, view.exposures = 2;
     add_exposures(times, view, 10, 1);
-    const double wanted[] = {0, 0, 0, 0.1, 0.1, 0, 0.25, 0.1, 0.2};  // a flash before the start is none
+    const double expected[] = {0, 0, 0, 0.1, 0.1, 0, 0.25, 0.1, 0.2};  // a flash before the start is none
     ASSERT_EQ(times.exposures.size(), 9U);
-    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(times.exposures[i], wanted[i], 1e-12) << i;
+    for (std::size_t i = 0; i < 9; ++i) EXPECT_NEAR(times.exposures[i], expected[i], 1e-12) << i;
 }
 TEST(FilmTimes, TheCameraArrivesAtTheFrameOfItsInstant) {
     FilmTimes times;
@@ -174,7 +174,7 @@ TEST(TimeMap, OverlappingSpansAreOne) {
     EXPECT_DOUBLE_EQ(both.duration(), one.duration());
 }
 
-TEST(TimeMap, ANumberBeyondTheImpactsIsRefusedWithTheirCount) {
+TEST(TimeMap, ANumberBeyondTheImpactsIsRejectedWithTheirCount) {
     sim::Result motion;
     motion.impacts = kImpacts;
     EXPECT_EQ(instant_of({.kind = Instant::Kind::impact, .number = 3}, motion), 0.8);
@@ -271,7 +271,7 @@ TEST(FilmTimes, CollisionsHaveRowsOfTheirOwn) {
     EXPECT_LT(film_times(span, 1, motion, true).chart.size(), 600'000u);
 }
 
-TEST(FilmTimes, WordsStandAsLongAsTheFreeze) {
+TEST(FilmTimes, TextIsShownAsLongAsTheFreeze) {
     const FilmTimes times =
         film_times({.fps = {10, 1}, .events = {{.at = {.t = 0.5}, .freeze = 2, .text = "now", .show = 1}}}, 1, {});
     ASSERT_EQ(times.callouts.size(), 1u);
@@ -280,7 +280,7 @@ TEST(FilmTimes, WordsStandAsLongAsTheFreeze) {
     EXPECT_EQ(times.frames.size(), 30u);
 }
 
-TEST(FilmTimes, WordsOfOneInstantStandOneAfterTheOther) {
+TEST(FilmTimes, TextsOfOneInstantFollowEachOther) {
     const FilmTimes times =
         film_times({.fps = {10, 1}, .events = {{{.t = 0.5}, 2, "first", 1}, {{.t = 0.5}, 1, "second", 1}}}, 1, {});
     ASSERT_EQ(times.callouts.size(), 2u);

@@ -1,6 +1,6 @@
 // Published and closed-form numbers, scene in, number out: the program itself, as its users run it, or the library
 // function behind it where a scene cannot pose the question. `published.json` holds the numbers with their sources;
-// every one of them is asked for by the check of its entry, or the check fails.
+// the check of each entry must read all of its numbers, or it fails.
 #include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -47,7 +47,7 @@ bool is_number(const Json& leaf) {
     return leaf.is_string() && leaf.get<std::string>().find_first_not_of("0123456789.-+e") == std::string::npos;
 }
 
-// One entry of the table; remembers which of its numbers were asked for.
+// One entry of the table; records which of its numbers were read.
 class Entry {
   public:
     explicit Entry(const std::string& key) : table_(published().at(key)) {}
@@ -65,7 +65,7 @@ class Entry {
     bool has(const std::string& pointer) const { return table_.contains(Json::json_pointer(pointer)); }
     const Json& operator[](const std::string& key) const { return table_.at(key); }
 
-    // Numbers that nobody asked for.
+    // Numbers that were not read.
     std::vector<std::string> forgotten() const {
         std::vector<std::string> all;
         walk(table_, "", all);

@@ -1,4 +1,4 @@
-// Sweeps cut into parts: the joined file has the bytes of the whole, and what does not fit is refused by name.
+// Sweeps cut into parts: the joined file has the bytes of the whole, and foreign parts are rejected by name.
 #include "scenes/sweep/parts.hpp"
 
 #include <gmock/gmock.h>
@@ -75,7 +75,7 @@ TEST(SweepParts, JoinToTheBytesOfTheWhole) {
     }
 }
 
-TEST(SweepParts, AreRefusedByName) {
+TEST(SweepParts, AreRejectedByName) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
     ASSERT_EQ(shell(folder,
@@ -98,6 +98,17 @@ TEST(SweepParts, AreRefusedByName) {
     }
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o r.csv --shard 1/2").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json --shard 1/2").code, 2);
+}
+
+TEST(SweepParts, OfFilmsAreThoseOfAnArrayTaskToo) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.2}, "outputs": [{"type": "video", "file": "f.mp4", "fps": 60}]})");
+    const Finished task = shell(folder,
+                                "SLURM_ARRAY_TASK_ID=2 SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_COUNT=3 "
+                                "$BEAMCAM run s.json -n --shard auto");
+    EXPECT_EQ(task.code, 0) << task.err;
+    EXPECT_THAT(task.out, HasSubstr("f.2of3.mp4: 4 frames"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM run s.json -n --shard auto").code, 2);
 }
 
 TEST(SweepParts, EndWithTheSameBytesAfterTheyWereKilled) {

@@ -130,7 +130,7 @@ TEST(SweepCommand, TakesThePointsOfAFinishedFileForItsDiagram) {
     const Finished drawn = shell(folder, sweep + "-o a.nc --diagram d.svg");
     EXPECT_THAT(drawn.err, AllOf(HasSubstr("62 points exist already"), HasSubstr("kept a.nc: up to date")));
     EXPECT_EQ(slurp(folder / "d.svg"), slurp(folder / "fresh.svg"));
-    // Not those of another sweep, nor where all is to be made anew.
+    // Not those of another sweep, nor with --force.
     EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg").err, Not(HasSubstr("exist already")));
     EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg --force").err, Not(HasSubstr("exist already")));
 }
@@ -183,7 +183,7 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
     EXPECT_EQ(first_column("cam.speed=300 rpm").at(0).substr(0, 6), "31.415");
 }
 
-TEST(SweepCommand, RefusesInWords) {
+TEST(SweepCommand, RejectsWithAMessage) {
     Folder folder;
     folder.write("s.json", kSweptScene);
     for (const auto& [arguments, code, words] :
