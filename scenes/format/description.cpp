@@ -116,20 +116,14 @@ class Describer final : public SceneVisitor {
             shapes_.push_back(std::move(shape));
         }
     }
-    void value(const Key& key, const ValueFormat& format, const char* meaning) override {
+    void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields) override {
         DescribedKey& d = add_key(key, format.type, meaning);
         d.schema = node_of(format.schema);
         if (!key.derived) d.value = format.write();
-    }
-    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields,
-                         const char* meaning) override {
-        const std::optional<Node> value = format.write();
+        if (!fields) return;
         Describer inside(meaning);
         fields(inside);
-        DescribedKey& d = add_key(key, format.type, meaning);
         d.shapes = inside.take();
-        d.schema = node_of(format.schema);
-        d.value = value;
     }
     void list(const Key& key, const List& list, const char* meaning) override {
         DescribedKey described;

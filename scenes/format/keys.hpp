@@ -43,9 +43,8 @@ class SceneVisitor : public sim::Visitor {
   public:
     using Fields = std::function<void(Visitor&)>;
 
-    virtual void value(const Key& key, const ValueFormat& format, const char* meaning) = 0;
-    virtual void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields,
-                                 const char* meaning) = 0;
+    // A value with its own notation; with `fields` an object with these keys, too.
+    virtual void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields = {}) = 0;
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
     virtual void exclusive(const char* one, const char* other) = 0;
     // JSON Schema of a rule between the keys visited so far; `check` applies the same rule.
@@ -54,6 +53,9 @@ class SceneVisitor : public sim::Visitor {
     // A rule between the keys visited so far, or between them and the scene. Only the reader applies it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}
 
+    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields, const char* meaning) {
+        value(key, format, meaning, fields);
+    }
     using Visitor::choice;
     template <class Enum, std::size_t n>
     void choice(const Key& key, Enum& value, const sim::Named<Enum> (&among)[n], const char* meaning) {

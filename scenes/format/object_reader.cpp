@@ -298,14 +298,10 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all) {
     (named == left.rend() ? left.front() : *named)->fields(*this);
 }
 
-void ObjectReader::value(const Key& key, const ValueFormat& format, const char*) {
-    if (const Node* node = take(key)) format.read(*this, *node, key.name);
-}
-
-void ObjectReader::value_or_object(const Key& key, const ValueFormat& format, const Fields& fields, const char*) {
+void ObjectReader::value(const Key& key, const ValueFormat& format, const char*, const Fields& fields) {
     const Node* node = take(key);
     if (!node) return;
-    if (node->kind != Node::Kind::object) return format.read(*this, *node, key.name);
+    if (!fields || node->kind != Node::Kind::object) return format.read(*this, *node, key.name);
     ObjectReader reader = inside(*node, key.name);
     fields(reader);
     reader.finish();

@@ -124,8 +124,7 @@ class ObjectReader final : public SceneVisitor {
                  const char* meaning) override;
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override;
     void alternatives(const std::vector<sim::Alternative>& all) override;
-    void value(const Key& key, const ValueFormat& format, const char* meaning) override;
-    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields, const char* meaning) override;
+    void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields) override;
     void list(const Key& key, const List& list, const char* meaning) override;
     void exclusive(const char* one, const char* other) override;
     void problem(sim::Problem& problem) override;  // sim::validate checks the ranges of its numbers

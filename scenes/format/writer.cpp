@@ -47,15 +47,11 @@ class Writer final : public SceneVisitor {
             return each.fields(*this);
         }
     }
-    void value(const Key& key, const ValueFormat& format, const char*) override {
+    void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields) override {
         if (!key.written) return;
-        if (auto node = format.write()) put(key, std::move(*node));
-    }
-    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields,
-                         const char* meaning) override {
         if (auto node = format.write())
             put(key, std::move(*node));
-        else
+        else if (fields)
             object(key, fields, meaning, nullptr);
     }
     void list(const Key& key, const List& list, const char*) override {
