@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "scenes/commands/commands.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/format/description.hpp"
 #include "scenes/format/embedded.hpp"
 #include "sim/observe/channels.hpp"
@@ -60,7 +60,7 @@ Completion completion_of(const Parameter& parameter) {
     } else if (placeholder == "PATTERN") {
         out.words = key_names("");
     } else if (placeholder == "FIGURE") {
-        out.words = recipe_names();
+        out.words = figure_names();
     } else if (placeholder == "EXAMPLE") {
         for (const EmbeddedScene& scene : embedded_scenes()) out.words.emplace_back(scene.name);
     }

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "scenes/commands/key_options.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/format/source.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/outputs/run.hpp"
@@ -36,9 +36,9 @@ struct FigureArguments {
 // The names of all figures; why the scene cannot have some of them.
 std::string list(const Scene& scene, Lang lang) {
     std::string text;
-    for (const Recipe& recipe : recipes()) {
-        const auto refusal = refusal_of(recipe, scene);
-        text += fmt::format("{:<18} {}{}\n", recipe.name, recipe.title.in(lang),
+    for (const FigureType& type : figure_types()) {
+        const auto refusal = refusal_of(type, scene);
+        text += fmt::format("{:<18} {}{}\n", type.name, type.title.in(lang),
                             refusal ? fmt::format(" (not for this scene: {})", *refusal) : "");
     }
     return text;
@@ -129,15 +129,15 @@ void act(const FigureArguments& given) {
         print_text(list(scene, args.lang()));
         return;
     }
-    const Recipe* recipe = recipe_named(args.figure);
-    if (!recipe)
+    const FigureType* type = figure_type(args.figure);
+    if (!type)
         throw UsageError(fmt::format("there is no figure {}{}", in_quotes(args.figure),
-                                     suggestion_or_list(args.figure, recipe_names())));
+                                     suggestion_or_list(args.figure, figure_names())));
     if (args.file.empty())
         throw UsageError(
             fmt::format("figure {}: name the file with -o, ending in .pdf, .svg, .eps, .png or .tif", args.figure));
-    if (const auto refusal = refusal_of(*recipe, scene))
-        throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, recipe->name, *refusal));
+    if (const auto refusal = refusal_of(*type, scene))
+        throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, type->name, *refusal));
     scene.set_outputs({figure_output(args, scene)});
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }

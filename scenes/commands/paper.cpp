@@ -9,8 +9,8 @@
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/figure_files.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/findings.hpp"
-#include "scenes/figures/recipes.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/motions/fan_out.hpp"
@@ -73,7 +73,7 @@ void prepare(std::vector<Job>& jobs, const FindEvents& find, Studies& studies) {
     for (Job& job : jobs) {
         const bool known = find || !job.how.series.needs_events();
         const FigureOutput how = known ? with_found_times(job.how, job.scene, find) : without_events(job.how);
-        job.make = recipe_named(how.figure)->prepare(job.scene, how, studies);
+        job.make = figure_type(how.figure)->prepare(job.scene, how, studies);
     }
 }
 

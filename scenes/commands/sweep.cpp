@@ -7,7 +7,7 @@
 #include "output/files/numbers.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/sweep_keys.hpp"
@@ -126,7 +126,7 @@ void check_value(const SweepArguments& args, std::string_view diagram, const Sce
 
 // Like the scene's own sweep film, if it has one.
 SweepFilmOutput film_of(const SweepArguments& args, const Scene& scene) {
-    if (const auto why = recipe_named("bifurcation")->refusal(scene)) throw UsageError("--film: " + *why);
+    if (const auto why = figure_type("bifurcation")->refusal(scene)) throw UsageError("--film: " + *why);
     check_value(args, "bifurcation", scene);
     SweepFilmOutput film;
     for (const Output& output : scene.outputs)
@@ -147,7 +147,7 @@ std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     FigureOutput diagram;
     diagram.file = *args.diagram;
     diagram.figure = args.figure.value_or(usual_diagram(scene));
-    if (const auto why = recipe_named(diagram.figure)->refusal(scene))
+    if (const auto why = figure_type(diagram.figure)->refusal(scene))
         throw UsageError(fmt::format("--figure {}: {}", diagram.figure, *why));
     check_value(args, diagram.figure, scene);
     diagram.value = args.value.value_or("");

@@ -4,7 +4,7 @@
 #include <limits>
 
 #include "render/base/error.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/study_figures.hpp"
 
 namespace beamcam::scenes {

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -97,9 +97,9 @@ std::optional<std::string> needs_free_cam(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kApexModes{"apex-modes",
-                               {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
-                               needs_free_cam,
-                               prepare_apex};
+extern const FigureType kApexModes{"apex-modes",
+                                   {"Rebound apex against the number of modes", "回弹最高点随模态数的变化"},
+                                   needs_free_cam,
+                                   prepare_apex};
 
 }  // namespace beamcam::scenes

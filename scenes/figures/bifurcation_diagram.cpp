@@ -6,7 +6,7 @@
 #include <optional>
 #include <utility>
 
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/figures/swept_points.hpp"
 

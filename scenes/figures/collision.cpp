@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -176,10 +176,10 @@ std::optional<std::string> needs_force(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kCollision{.name = "collision",
-                               .title = {"One collision in close-up", "一次碰撞的细部"},
-                               .refusal = needs_force,
-                               .maker = prepare_collision,
-                               .keys = {"collision"}};
+extern const FigureType kCollision{.name = "collision",
+                                   .title = {"One collision in close-up", "一次碰撞的细部"},
+                                   .refusal = needs_force,
+                                   .maker = prepare_collision,
+                                   .keys = {"collision"}};
 
 }  // namespace beamcam::scenes

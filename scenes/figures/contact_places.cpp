@@ -8,7 +8,7 @@
 
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -153,7 +153,7 @@ FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies&
 
 }  // namespace
 
-extern const Recipe kContactPlaces{
+extern const FigureType kContactPlaces{
     "contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
 
 }  // namespace beamcam::scenes

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <span>
 
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
@@ -151,9 +151,9 @@ std::optional<std::string> needs_static_bending(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kDeflection{"deflection",
-                                {"Static deflection for several contact points", "不同接触点的静挠度"},
-                                needs_static_bending,
-                                prepare_deflection};
+extern const FigureType kDeflection{"deflection",
+                                    {"Static deflection for several contact points", "不同接触点的静挠度"},
+                                    needs_static_bending,
+                                    prepare_deflection};
 
 }  // namespace beamcam::scenes

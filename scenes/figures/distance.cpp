@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "sim/problem/problem.hpp"
 #include "sim/studies/paper.hpp"
 
@@ -260,9 +260,9 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kDistance{"distance",
-                              {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"},
-                              needs_tangent,
-                              prepare_distance};
+extern const FigureType kDistance{"distance",
+                                  {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"},
+                                  needs_tangent,
+                                  prepare_distance};
 
 }  // namespace beamcam::scenes

@@ -1,25 +1,28 @@
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "scenes/figures/sweeps.hpp"
+#include "sim/beam/modes.hpp"
 
 namespace beamcam::scenes {
 
 // Each is in its file of this folder.
-extern const Recipe kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision, kEnergy,
-    kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
+extern const FigureType kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision,
+    kEnergy, kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
     kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
 
 namespace {
 
-// Made on first use: the recipes are initialized before.
-const std::vector<Recipe>& table() {
-    static const std::vector<Recipe> all{
+// Made on first use: the types are initialized before.
+const std::vector<FigureType>& table() {
+    static const std::vector<FigureType> all{
         kSeries,    kSchematic,  kFreeFall,         kTipVibration, kDeflection, kDistance, kAngle,     kSpeeds,
         kCollision, kEnergy,     kContactPlaces,    kPhase,        kApexModes,  kModels,   kKymograph, kSpectrogram,
         kStrobe,    kImpactMaps, kImpactHistograms, kBifurcation,  kBasins,     kMap,      kPoincare,  kImpactMap};
@@ -28,7 +31,7 @@ const std::vector<Recipe>& table() {
 
 }  // namespace
 
-FigureMaker Recipe::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
+FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
     studies.name_figure(name);
     FigureMaker make = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies);
     return [make = std::move(make), called = std::string(name), usual = title.in(how.lang)](const Results& results) {
@@ -39,26 +42,26 @@ FigureMaker Recipe::prepare(const Scene& scene, const FigureOutput& how, Studies
     };
 }
 
-std::span<const Recipe> recipes() { return table(); }
+std::span<const FigureType> figure_types() { return table(); }
 
-std::vector<std::string> recipe_names() {
+std::vector<std::string> figure_names() {
     std::vector<std::string> names;
-    for (const Recipe& recipe : recipes()) names.emplace_back(recipe.name);
+    for (const FigureType& type : figure_types()) names.emplace_back(type.name);
     return names;
 }
 
 std::vector<std::string_view> keys_of_figures() {
     std::vector<std::string_view> all;
-    for (const Recipe& recipe : recipes())
-        for (const std::string_view key : recipe.keys)
+    for (const FigureType& type : figure_types())
+        for (const std::string_view key : type.keys)
             if (std::ranges::find(all, key) == all.end()) all.push_back(key);
     return all;
 }
 
 std::vector<std::string> figures_with(std::string_view key) {
     std::vector<std::string> names;
-    for (const Recipe& recipe : recipes())
-        if (recipe.takes(key)) names.emplace_back(recipe.name);
+    for (const FigureType& type : figure_types())
+        if (type.takes(key)) names.emplace_back(type.name);
     return names;
 }
 
@@ -70,15 +73,15 @@ std::string list_of_figures_with(std::string_view key) {
     return quoted.empty() ? last : fmt::format("{} and {}", fmt::join(quoted, ", "), last);
 }
 
-const Recipe* recipe_named(std::string_view name) {
-    const auto it = std::find_if(table().begin(), table().end(), [&](const Recipe& r) { return name == r.name; });
+const FigureType* figure_type(std::string_view name) {
+    const auto it = std::find_if(table().begin(), table().end(), [&](const FigureType& r) { return name == r.name; });
     return it == table().end() ? nullptr : &*it;
 }
 
-std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene) {
-    if (auto why = recipe.refusal(scene)) return why;
+std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene) {
+    if (auto why = type.refusal(scene)) return why;
     Studies studies;
-    recipe.prepare(scene, {}, studies);
+    type.prepare(scene, {}, studies);
     for (const Study& study : studies.take()) {
         if (study.may_fail) continue;
         for (const sim::Issue& finding : sim::validate(study.problem))
@@ -161,6 +164,13 @@ std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem
     const std::size_t study = studies.of(*fewer, end);
     studies.may_fail(study);
     return study;
+}
+
+std::vector<double> frequencies_of(const sim::Problem& problem) {
+    std::vector<double> all;
+    for (const sim::Mode& mode : sim::natural_modes(problem))
+        if (mode.omega > 0 && std::isfinite(mode.omega)) all.push_back(mode.omega / (2 * std::numbers::pi));
+    return all;
 }
 
 sim::Problem without_cam(sim::Problem problem) {

@@ -1,6 +1,6 @@
 // The figures by name: what each needs of the mechanics, and how it comes out of the results.
 //
-// A recipe first adds its needs to a set of studies that all figures share, then makes a Figure from the results. It
+// A type first adds its needs to a set of studies that all figures share, then makes a Figure from the results. It
 // neither integrates nor draws.
 #pragma once
 
@@ -32,7 +32,7 @@ using FigureMaker = std::function<Figure(const Results&)>;
 
 class SweptPoints;
 
-struct Recipe {
+struct FigureType {
     const char* name;
     Translated title;
     // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` checks more.
@@ -46,22 +46,22 @@ struct Recipe {
 
     bool of_sweep() const { return draw != nullptr; }
     bool takes(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
-    // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the recipe's name, and
+    // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the type's name, and
     // its title unless it has another. `how`: the language and the figure's own keys.
     FigureMaker prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const;
 };
 
-std::span<const Recipe> recipes();
-std::vector<std::string> recipe_names();
-const Recipe* recipe_named(std::string_view name);  // nullptr: none
+std::span<const FigureType> figure_types();
+std::vector<std::string> figure_names();
+const FigureType* figure_type(std::string_view name);  // nullptr: none
 
 // The keys that only some figures have, and the names of the figures that have one of them.
 std::vector<std::string_view> keys_of_figures();
 std::vector<std::string> figures_with(std::string_view key);
 std::string list_of_figures_with(std::string_view key);  // "\"map\" and \"basins\""
 
-// The recipe's own refusal, or that of a motion without which it has no figure: the problem is impossible.
-std::optional<std::string> refusal_of(const Recipe& recipe, const Scene& scene);
+// The type's own refusal, or that of a motion without which it has no figure: the problem is impossible.
+std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene);
 
 // ---- what they share ------------------------------------------------------------------------------
 
@@ -110,6 +110,9 @@ ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count,
 
 // The study of the motion with one mode fewer, which bounds the digits of numbers; none for a rigid beam.
 std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, Studies& studies);
+
+// Natural frequencies of the bending vibrations [Hz], ascending; none of a rigid beam.
+std::vector<double> frequencies_of(const sim::Problem& problem);
 
 sim::Problem without_cam(sim::Problem problem);
 sim::Problem rigid(sim::Problem problem);

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "render/draw/markup.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "sim/beam/modes.hpp"
 #include "sim/studies/paper.hpp"
 

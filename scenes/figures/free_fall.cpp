@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "sim/studies/paper.hpp"
 
 namespace beamcam::scenes {
@@ -179,6 +179,7 @@ FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& s
 
 }  // namespace
 
-extern const Recipe kFreeFall{"free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
+extern const FigureType kFreeFall{
+    "free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
 
 }  // namespace beamcam::scenes

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -146,15 +146,15 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
 
 }  // namespace
 
-extern const Recipe kImpactMaps{.name = "impact-maps",
-                                .title = {"Maps of the impacts", "冲击映射"},
-                                .refusal = needs_cam,
-                                .maker = prepare_maps,
-                                .keys = {"from", "to"}};
-extern const Recipe kImpactHistograms{.name = "impact-histograms",
-                                      .title = {"Histograms of impact speed and phase", "冲击速度与相位的直方图"},
-                                      .refusal = needs_cam,
-                                      .maker = prepare_histograms,
-                                      .keys = {"from", "to"}};
+extern const FigureType kImpactMaps{.name = "impact-maps",
+                                    .title = {"Maps of the impacts", "冲击映射"},
+                                    .refusal = needs_cam,
+                                    .maker = prepare_maps,
+                                    .keys = {"from", "to"}};
+extern const FigureType kImpactHistograms{.name = "impact-histograms",
+                                          .title = {"Histograms of impact speed and phase", "冲击速度与相位的直方图"},
+                                          .refusal = needs_cam,
+                                          .maker = prepare_histograms,
+                                          .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

@@ -3,11 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "render/plot/ticks.hpp"
-#include "scenes/figures/recipes.hpp"
-#include "sim/beam/modes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -17,9 +15,9 @@ constexpr int kMostSamples = 16;               // of a column
 
 // Instants per column: more than one where the vibration is faster than the columns, so that it is not aliased.
 std::size_t samples_per_column(const sim::Problem& problem, double column) {
-    const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
-    if (modes.empty() || !(modes.front().omega > 0)) return 1;
-    const double periods = column * modes.front().omega / (2 * std::numbers::pi);
+    const std::vector<double> frequencies = frequencies_of(problem);
+    if (frequencies.empty()) return 1;
+    const double periods = column * frequencies.front();
     return periods < 0.25 ? 1 : static_cast<std::size_t>(std::clamp(std::ceil(8 * periods), 2.0, double(kMostSamples)));
 }
 
@@ -95,10 +93,10 @@ std::optional<std::string> needs_bending(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kKymograph{.name = "kymograph",
-                               .title = {"Deflection along the beam in time", "梁挠度的时空图"},
-                               .refusal = needs_bending,
-                               .maker = prepare_kymograph,
-                               .keys = {"from", "to"}};
+extern const FigureType kKymograph{.name = "kymograph",
+                                   .title = {"Deflection along the beam in time", "梁挠度的时空图"},
+                                   .refusal = needs_bending,
+                                   .maker = prepare_kymograph,
+                                   .keys = {"from", "to"}};
 
 }  // namespace beamcam::scenes

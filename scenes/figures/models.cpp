@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -209,6 +209,6 @@ std::optional<std::string> needs_flexible_fall(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kModels{"models", {"The models compared", "各模型比较"}, needs_flexible_fall, prepare_models};
+extern const FigureType kModels{"models", {"The models compared", "各模型比较"}, needs_flexible_fall, prepare_models};
 
 }  // namespace beamcam::scenes

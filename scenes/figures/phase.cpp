@@ -3,16 +3,15 @@
 #include <array>
 #include <cmath>
 
-#include "scenes/figures/recipes.hpp"
-#include "sim/beam/modes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 // Of the first bending mode [s]; 0: the beam has none.
 double first_period(const sim::Problem& problem) {
-    const std::vector<sim::Mode> modes = sim::natural_modes(problem, std::nullopt);
-    return modes.empty() || !(modes.front().omega > 0) ? 0 : 2 * M_PI / modes.front().omega;
+    const std::vector<double> frequencies = frequencies_of(problem);
+    return frequencies.empty() ? 0 : 1 / frequencies.front();
 }
 
 // Enough rows for a mean over a period.
@@ -94,6 +93,6 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
 
 }  // namespace
 
-extern const Recipe kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
+extern const FigureType kPhase{"phase", {"Phase portrait", "相图"}, no_refusal, prepare_phase};
 
 }  // namespace beamcam::scenes

@@ -5,7 +5,7 @@
 #include <numbers>
 #include <utility>
 
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {
@@ -349,7 +349,7 @@ FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studi
 
 }  // namespace
 
-extern const Recipe kSchematic{
+extern const FigureType kSchematic{
     "schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare_schematic};
 
 }  // namespace beamcam::scenes

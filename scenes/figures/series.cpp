@@ -12,7 +12,7 @@
 #include <map>
 
 #include "render/plot/channel_label.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -177,17 +177,17 @@ std::optional<std::string> needs_vibration(const Scene& scene) {
 
 }  // namespace
 
-extern const Recipe kSeries{.name = "series",
-                            .title = {"Any channels, of one motion or of several", "任意通道"},
-                            .refusal = no_refusal,
-                            .maker = prepare_keys,
-                            .keys = {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "notes",
-                                     "compare", "comparison", "residuals"}};
-extern const Recipe kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
-extern const Recipe kSpeeds{
+extern const FigureType kSeries{.name = "series",
+                                .title = {"Any channels, of one motion or of several", "任意通道"},
+                                .refusal = no_refusal,
+                                .maker = prepare_keys,
+                                .keys = {"channels", "panels", "x", "x_low", "x_high", "from", "to", "impacts", "notes",
+                                         "compare", "comparison", "residuals"}};
+extern const FigureType kAngle{"angle", {"Hub angle", "转角"}, no_refusal, prepare_angle};
+extern const FigureType kSpeeds{
     "speeds", {"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"}, needs_cam, prepare_speeds};
-extern const Recipe kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
-extern const Recipe kTipVibration{
+extern const FigureType kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
+extern const FigureType kTipVibration{
     "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_vibration, prepare_tip};
 
 }  // namespace beamcam::scenes

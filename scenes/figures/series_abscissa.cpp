@@ -6,7 +6,7 @@
 
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
 
 namespace beamcam::scenes {

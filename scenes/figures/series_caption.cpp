@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "render/plot/channel_label.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
 

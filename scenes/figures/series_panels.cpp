@@ -8,7 +8,7 @@
 #include "render/base/error.hpp"
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
 #include "scenes/scene/time_map.hpp"

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 #include "render/base/error.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series_data.hpp"
 #include "scenes/figures/studies.hpp"
-#include "sim/beam/modes.hpp"
 #include "sim/observe/spectrum.hpp"
 
 namespace beamcam::scenes {
@@ -18,9 +17,8 @@ constexpr int kFewest = 1 << 12, kMost = 1 << 20;  // 1 << 20: 8 MB a curve
 
 // A power of two: the fastest transform.
 int samples(const sim::Problem& problem, double length) {
-    double highest = 0;  // [Hz]
-    for (const sim::Mode& mode : sim::natural_modes(problem))
-        if (std::isfinite(mode.omega)) highest = std::max(highest, mode.omega / (2 * std::numbers::pi));
+    const std::vector<double> frequencies = frequencies_of(problem);
+    const double highest = frequencies.empty() ? 0 : frequencies.back();
     int count = kFewest;
     while (count < kMost && count < kSamplesPerPeriod * highest * length) count *= 2;
     return count;

@@ -7,10 +7,9 @@
 
 #include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
-#include "sim/beam/modes.hpp"
 #include "sim/observe/spectrum.hpp"
 
 namespace beamcam::scenes {
@@ -65,9 +64,8 @@ void shorten(Spectrogram& s, double least) {
 
 // A twentieth of the interval, or four periods of the slowest vibration if four such windows fit.
 double usual_window(const sim::Problem& problem, double length) {
-    double slowest = 0;  // period [s]
-    for (const sim::Mode& mode : sim::natural_modes(problem))
-        if (mode.omega > 0 && std::isfinite(mode.omega)) slowest = std::max(slowest, 2 * std::numbers::pi / mode.omega);
+    const std::vector<double> frequencies = frequencies_of(problem);
+    const double slowest = frequencies.empty() ? 0 : 1 / frequencies.front();  // period [s]
     return std::min(std::max(length / 20, 4 * slowest), length / 4);
 }
 
@@ -151,10 +149,10 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
 
 }  // namespace
 
-extern const Recipe kSpectrogram{.name = "spectrogram",
-                                 .title = {"Amplitudes by frequency and time", "时频谱"},
-                                 .refusal = no_refusal,
-                                 .maker = prepare_spectrogram,
-                                 .keys = {"channels", "from", "to", "window", "highest"}};
+extern const FigureType kSpectrogram{.name = "spectrogram",
+                                     .title = {"Amplitudes by frequency and time", "时频谱"},
+                                     .refusal = no_refusal,
+                                     .maker = prepare_spectrogram,
+                                     .keys = {"channels", "from", "to", "window", "highest"}};
 
 }  // namespace beamcam::scenes

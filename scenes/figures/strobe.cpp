@@ -6,7 +6,7 @@
 
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -140,10 +140,10 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
 
 }  // namespace
 
-extern const Recipe kStrobe{.name = "strobe",
-                            .title = {"The mechanism at several instants", "机构的多时刻叠加"},
-                            .refusal = no_refusal,
-                            .maker = prepare_strobe,
-                            .keys = {"from", "to", "at"}};
+extern const FigureType kStrobe{.name = "strobe",
+                                .title = {"The mechanism at several instants", "机构的多时刻叠加"},
+                                .refusal = no_refusal,
+                                .maker = prepare_strobe,
+                                .keys = {"from", "to", "at"}};
 
 }  // namespace beamcam::scenes

@@ -10,7 +10,7 @@
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/axis_labels.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/swept_points.hpp"
 
 namespace beamcam::scenes {
@@ -178,32 +178,32 @@ figure::Figure draw_impact_map(const SweptPoints& points, const FigureOutput&) {
 
 }  // namespace
 
-extern const Recipe kBifurcation{.name = "bifurcation",
-                                 .title = {"Bifurcation diagram", "分岔图"},
-                                 .refusal = needs_one_key,
-                                 .draw = draw_bifurcation,
-                                 .keys = {"value"}};
-extern const Recipe kBasins{.name = "basins",
-                            .title = {"Basins of attraction", "吸引域"},
-                            .refusal = needs_two_starts,
-                            .draw = draw_map,
-                            .keys = {"value"}};
-extern const Recipe kMap{.name = "map",
-                         .title = {"Map of two keys", "双参数图"},
-                         .refusal = needs_two_keys,
-                         .draw = draw_map,
-                         .keys = {"value"}};
-extern const Recipe kPoincare{
+extern const FigureType kBifurcation{.name = "bifurcation",
+                                     .title = {"Bifurcation diagram", "分岔图"},
+                                     .refusal = needs_one_key,
+                                     .draw = draw_bifurcation,
+                                     .keys = {"value"}};
+extern const FigureType kBasins{.name = "basins",
+                                .title = {"Basins of attraction", "吸引域"},
+                                .refusal = needs_two_starts,
+                                .draw = draw_map,
+                                .keys = {"value"}};
+extern const FigureType kMap{.name = "map",
+                             .title = {"Map of two keys", "双参数图"},
+                             .refusal = needs_two_keys,
+                             .draw = draw_map,
+                             .keys = {"value"}};
+extern const FigureType kPoincare{
     .name = "poincare", .title = {"Poincaré section", "Poincaré 截面"}, .refusal = needs_sweep, .draw = draw_poincare};
-extern const Recipe kImpactMap{
+extern const FigureType kImpactMap{
     .name = "impact-map", .title = {"Map of impacts", "碰撞映射"}, .refusal = needs_impacts, .draw = draw_impact_map};
 
-FigureMaker swept_figure(const Recipe& recipe, const FigureOutput& how) {
-    return [&recipe, how](const Results& results) {
+FigureMaker swept_figure(const FigureType& type, const FigureOutput& how) {
+    return [&type, how](const Results& results) {
         if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
         const SweptPoints points(*results.swept, how.lang);
-        figure::Figure out = recipe.draw(points, how);
-        out.title = phrase(how.lang, "{} over {}", "{}：{}", recipe.title.in(how.lang), points.axis(0).name);
+        figure::Figure out = type.draw(points, how);
+        out.title = phrase(how.lang, "{} over {}", "{}：{}", type.title.in(how.lang), points.axis(0).name);
         out.caption = sweep_caption(points) + (out.caption.empty() ? "" : " ") + out.caption;
         out.accuracy = tolerance_text(points);
         return out;
@@ -211,8 +211,8 @@ FigureMaker swept_figure(const Recipe& recipe, const FigureOutput& how) {
 }
 
 std::string usual_diagram(const Scene& scene) {
-    for (const Recipe& recipe : recipes())
-        if (recipe.of_sweep() && !recipe.refusal(scene)) return recipe.name;
+    for (const FigureType& type : figure_types())
+        if (type.of_sweep() && !type.refusal(scene)) return type.name;
     return kPoincare.name;
 }
 
@@ -243,8 +243,8 @@ std::string point_text(const Swept& swept, std::uint64_t point, std::optional<in
 
 std::vector<std::string> diagram_names() {
     std::vector<std::string> names;
-    for (const Recipe& recipe : recipes())
-        if (recipe.of_sweep()) names.emplace_back(recipe.name);
+    for (const FigureType& type : figure_types())
+        if (type.of_sweep()) names.emplace_back(type.name);
     return names;
 }
 

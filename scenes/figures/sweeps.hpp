@@ -10,13 +10,13 @@
 #include <vector>
 
 #include "render/plot/figure.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
 
-// Draws the scene's sweep as this recipe, which must live as long, and adds title, caption and accuracy.
-FigureMaker swept_figure(const Recipe& recipe, const FigureOutput& how);
+// Draws the scene's sweep as this type, which must live as long, and adds title, caption and accuracy.
+FigureMaker swept_figure(const FigureType& type, const FigureOutput& how);
 
 std::vector<std::string> diagram_names();
 // The default diagram of the scene's sweep.

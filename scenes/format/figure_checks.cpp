@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "render/draw/markup.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
@@ -40,9 +40,9 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
 }
 
 // Keys that only other figures have.
-void check_own_keys(ObjectReader& r, const Recipe& recipe) {
+void check_own_keys(ObjectReader& r, const FigureType& type) {
     for (const std::string_view key : keys_of_figures())
-        if (r.has(key) && !recipe.takes(key))
+        if (r.has(key) && !type.takes(key))
             r.reject(key, " belongs to the figure{} {}; remove it", figures_with(key).size() > 1 ? "s" : "",
                      list_of_figures_with(key));
 }
@@ -143,17 +143,17 @@ void check_series_panel(ObjectReader& r, const SeriesPanel& panel) {
 
 void check_figure(ObjectReader& r, FigureOutput& figure) {
     if (figure.file.empty()) figure.file = figure.figure + ".pdf";
-    const Recipe* recipe = recipe_named(figure.figure);
-    if (!recipe) return;
-    check_own_keys(r, *recipe);
+    const FigureType* type = figure_type(figure.figure);
+    if (!type) return;
+    check_own_keys(r, *type);
     if (figure.figure == "series") check_series(r, figure);
-    if (recipe->takes("from")) check_interval(r, figure);
-    if (recipe->takes("window")) check_windows(r, figure);
+    if (type->takes("from")) check_interval(r, figure);
+    if (type->takes("window")) check_windows(r, figure);
     if (!r.has("figure") || r.diagnostics().any()) return;  // the next rules need a valid scene
     const Scene& scene = r.context().scene;
-    if (const auto refusal = refusal_of(*recipe, scene))
+    if (const auto refusal = refusal_of(*type, scene))
         return r.reject("figure", " = \"{}\": {}", figure.figure, *refusal);
-    if (const std::string problem = recipe->of_sweep() ? problem_with_value(recipe->name, figure.value, scene) : "";
+    if (const std::string problem = type->of_sweep() ? problem_with_value(type->name, figure.value, scene) : "";
         !problem.empty())
         r.reject("value", ": {}", problem);
 }

@@ -12,7 +12,7 @@
 #include <variant>
 
 #include "output/files/digest.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -80,9 +80,9 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     Scene inputs = scene;
     inputs.outputs = {one};
     const auto* figure = std::get_if<FigureOutput>(&one);
-    const Recipe* recipe = figure ? recipe_named(figure->figure) : nullptr;
+    const FigureType* type = figure ? figure_type(figure->figure) : nullptr;
     const bool sweep_film = std::holds_alternative<SweepFilmOutput>(one);
-    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(one) || (recipe && recipe->of_sweep());
+    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(one) || (type && type->of_sweep());
     if (of_sweep)
         resolve_tables(*inputs.sweep);
     else

@@ -1,11 +1,11 @@
-// Output "figure": a figure for print, made by its recipe.
+// Output "figure": a figure for print, made by its type.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <map>
 
 #include "render/plot/style.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/output_times.hpp"
@@ -73,9 +73,9 @@ static const std::string& constraint_of_figures() {
 
 // The keys of the figure "series"; the other figures have some of them.
 static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string& figure) {
-    const Recipe* recipe = recipe_named(figure);
-    const bool windows = recipe && recipe->takes("window");
-    const auto key = [recipe](const char* name) { return sim::written_if(recipe && recipe->takes(name), name); };
+    const FigureType* type = figure_type(figure);
+    const bool windows = type && type->takes("window");
+    const auto key = [type](const char* name) { return sim::written_if(type && type->takes(name), name); };
     const auto bound = [&](const char* name) { return series.at ? sim::written_if(false, name) : key(name); };
     if (windows && series.panels.empty()) series.panels.emplace_back();
     v.value("channels",
@@ -125,7 +125,7 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
 void FigureOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, kFigureEndings),
             "Name of the file; by default the name of the figure with .pdf.");
-    v.choice(required("figure", "\"free-fall\""), figure, recipe_names(), "Name of the figure.");
+    v.choice(required("figure", "\"free-fall\""), figure, figure_names(), "Name of the figure.");
     v.choice("column", column, render::figure::column_names(),
              "The journal's column: width and font size of the figure.");
     v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400),
@@ -146,10 +146,10 @@ void FigureOutput::visit(SceneVisitor& v) {
             "File for the caption: plain text and LaTeX, in .tex only LaTeX; by default none.");
     v.value("data", file_format(data_file, {".csv"}), "File for the numbers of the figure; by default none.");
     visit_series(v, series, figure);
-    const Recipe* recipe = recipe_named(figure);
-    v.integer(sim::written_if(recipe && recipe->takes("collision"), "collision"), collision, 1, 100'000,
+    const FigureType* type = figure_type(figure);
+    v.integer(sim::written_if(type && type->takes("collision"), "collision"), collision, 1, 100'000,
               "Of \"collision\": number of the collision, counted from 1.");
-    v.text(sim::written_if(recipe && recipe->takes("value"), "value"), value,
+    v.text(sim::written_if(type && type->takes("value"), "value"), value,
            "Of \"bifurcation\": the column of the samples, by default \"v_n_before\" or \"theta\". Of \"map\" and "
            "\"basins\": \"class\", \"exponent\", \"impacts_per_period\", or a column, whose mean is shown.");
     v.check([this](ObjectReader& r) { check_figure(r, *this); });
@@ -167,7 +167,7 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
         how = without_events(std::move(how));
     }
     prepare_figure(planned, planner.scene(), how);
-    if (recipe_named(figure)->of_sweep()) {
+    if (figure_type(figure)->of_sweep()) {
         if (planner.selection().shards > 1)
             return planner.skip(file, "a part of a sweep has no diagram; join the parts with `beamcam collect` first");
         planner.require_sweep(file);

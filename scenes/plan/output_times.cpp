@@ -75,10 +75,10 @@ sim::Result find_events(const sim::Problem& problem, sim::Request request, const
 // ---- figures -----------------------------------------------------------------------------------
 
 void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& how) {
-    const Recipe* recipe = recipe_named(how.figure);
-    if (!recipe) throw std::logic_error("unknown figure: " + how.figure);
+    const FigureType* type = figure_type(how.figure);
+    if (!type) throw std::logic_error("unknown figure: " + how.figure);
     Studies studies;
-    figure.make = [make = recipe->prepare(scene, how, studies), height = how.series.height](const Results& results) {
+    figure.make = [make = type->prepare(scene, how, studies), height = how.series.height](const Results& results) {
         render::figure::Figure made = make(results);
         if (height) made.height = *height * 1e3;
         return made;

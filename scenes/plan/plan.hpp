@@ -16,7 +16,7 @@
 
 #include "output/files/target.hpp"
 #include "output/files/work.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/format/tree.hpp"
 #include "scenes/motions/progress.hpp"

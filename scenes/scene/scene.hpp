@@ -320,7 +320,7 @@ struct FigureOutput {
                                 *kMeaning = "A figure for print; `beamcam figure SCENE` lists all figures.";
     static constexpr bool kIsData = false;
     std::string file;                 // of one of kFigureEndings
-    std::string figure;               // its name, see figures/recipes.hpp
+    std::string figure;               // its name, see figures/figure_types.hpp
     std::string column = "elsevier";  // of a journal, see render/plot/style.hpp
     std::optional<double> width;      // [m]; nullopt: that of the column
     Lang lang = Lang::en;

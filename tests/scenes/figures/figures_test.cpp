@@ -14,8 +14,8 @@
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/figure_files.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/findings.hpp"
-#include "scenes/figures/recipes.hpp"
 #include "scenes/figures/study_figures.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
@@ -45,7 +45,7 @@ FigureOutput in(Lang lang) {
 
 render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
     Studies studies;
-    const FigureMaker make = recipe_named(name)->prepare(s, in(lang), studies);
+    const FigureMaker make = figure_type(name)->prepare(s, in(lang), studies);
     std::vector<sim::Result> made;
     for (const Study& study : studies.take()) {
         try {
@@ -81,9 +81,9 @@ TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
 TEST(Figures, EqualPhysicsIsOneStudy) {
     Studies studies;
     const Scene s = scene_from("{}");
-    recipe_named("speeds")->prepare(s, {}, studies);  // 0, 1 and 5 rad/s; the scene's own is 1
-    recipe_named("energy")->prepare(s, {}, studies);
-    recipe_named("contact-places")->prepare(s, in(Lang::zh), studies);
+    figure_type("speeds")->prepare(s, {}, studies);  // 0, 1 and 5 rad/s; the scene's own is 1
+    figure_type("energy")->prepare(s, {}, studies);
+    figure_type("contact-places")->prepare(s, in(Lang::zh), studies);
     EXPECT_EQ(studies.take().size(), 3u);
 }
 
@@ -179,7 +179,7 @@ TEST(ContactPlaces, HaveTheUnitThatSuitsTheBeam) {
     const auto label = [](const char* scene) {
         const Scene s = scene_from(scene);
         Studies studies;
-        const FigureMaker make = recipe_named("contact-places")->prepare(s, {}, studies);
+        const FigureMaker make = figure_type("contact-places")->prepare(s, {}, studies);
         std::vector<sim::Result> made;
         for (const Study& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
         Results results;
@@ -432,11 +432,11 @@ TEST(Figures, OfARestingBeamAreMadeOrRejected) {
     SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", R"({"initial": {"shape": "resting"}, "time": {"end": 0.2}})");
-    for (const Recipe& recipe : recipes()) {
-        const std::string options = std::string_view(recipe.name) == "series" ? "--channels theta" : "";
+    for (const FigureType& type : figure_types()) {
+        const std::string options = std::string_view(type.name) == "series" ? "--channels theta" : "";
         const Finished made =
-            shell(folder, fmt::format("$BEAMCAM figure s.json {} {} -o a.svg -q --force", recipe.name, options));
-        EXPECT_TRUE(made.code == 0 || made.code == 3) << recipe.name << made.err;
+            shell(folder, fmt::format("$BEAMCAM figure s.json {} {} -o a.svg -q --force", type.name, options));
+        EXPECT_TRUE(made.code == 0 || made.code == 3) << type.name << made.err;
     }
     for (const char* name : {"free-fall", "distance"}) {
         const Finished rejected = shell(folder, fmt::format("$BEAMCAM figure s.json {} -o b.svg", name));
@@ -446,8 +446,8 @@ TEST(Figures, OfARestingBeamAreMadeOrRejected) {
 }
 
 TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
-    // A recipe that removes the cam without asking.
-    const Recipe careless{
+    // A type that removes the cam without asking.
+    const FigureType careless{
         "careless", {"", ""}, no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureMaker {
             studies.of(without_cam(s.problem), s.end_time);
             return {};
@@ -608,7 +608,7 @@ TEST(Paper, IntegratesEachPhysicsOnce) {
         if (!embedded.is_of_paper()) continue;
         const Reading reading = read_scene({std::string(embedded.name), std::string(embedded.text), true});
         for (const Output& output : reading.scene->outputs)
-            recipe_named(std::get<FigureOutput>(output).figure)->prepare(*reading.scene, {}, studies);
+            figure_type(std::get<FigureOutput>(output).figure)->prepare(*reading.scene, {}, studies);
     }
     prepare_findings(studies);
     std::vector<std::string> physics;

@@ -8,7 +8,7 @@
 #include <sstream>
 
 #include "output/data/tables.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/plan/plan.hpp"
 #include "sim/beam/modes.hpp"
 #include "tests/scenes/support.hpp"
@@ -28,7 +28,7 @@ render::figure::Figure overview_of(const std::string& name, const std::string& k
     if (!reading.scene) throw std::runtime_error(reading.report());
     Studies studies;
     const FigureMaker make =
-        recipe_named(name)->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs.front()), studies);
+        figure_type(name)->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs.front()), studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
     Results results;
@@ -238,8 +238,8 @@ TEST(Overviews, ASpectrogramHasItsLargestAmplitudeAtTheFirstFrequency) {
         {"type": "figure", "figure": "spectrogram", "window": "0.2 s", "highest": 400}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
     Studies studies;
-    const FigureMaker make = recipe_named("spectrogram")
-                                 ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
+    const FigureMaker make =
+        figure_type("spectrogram")->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
     const auto figure = make({{&runs[0]}});
@@ -269,7 +269,7 @@ TEST(Overviews, HistogramsCountEachImpactOnce) {
         "outputs": [{"type": "figure", "figure": "impact-histograms"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
     Studies studies;
-    const FigureMaker make = recipe_named("impact-histograms")
+    const FigureMaker make = figure_type("impact-histograms")
                                  ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));

@@ -8,7 +8,7 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/fonts.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -73,7 +73,7 @@ constexpr double kDpi = 144;
 
 Drawn drawn(const Scene& scene, const FigureOutput& how) {
     Studies studies;
-    const FigureMaker make = recipe_named(how.figure)->prepare(scene, how, studies);
+    const FigureMaker make = figure_type(how.figure)->prepare(scene, how, studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) {
         try {

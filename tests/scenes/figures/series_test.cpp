@@ -8,7 +8,7 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "sim/beam/modes.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -30,7 +30,7 @@ Figure figure_of(const std::string& output, const std::string& mechanics = "") {
     if (!reading.scene) throw std::runtime_error(reading.report());
     Studies studies;
     const auto& how = std::get<FigureOutput>(reading.scene->outputs.front());
-    const FigureMaker make = recipe_named("series")->prepare(*reading.scene, how, studies);
+    const FigureMaker make = figure_type("series")->prepare(*reading.scene, how, studies);
     std::vector<sim::Result> runs;
     for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
     Results results;

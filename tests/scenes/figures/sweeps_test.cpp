@@ -6,7 +6,7 @@
 
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
-#include "scenes/figures/recipes.hpp"
+#include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/study_figures.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -30,7 +30,7 @@ render::figure::Figure diagram(const char* name, const SweepGrid& grid, const ou
     how.value = value;
     how.lang = lang;
     Studies none;
-    return recipe_named(name)->prepare(grid.scene(), how, none)({.swept = Swept{&grid.scene(), &data}});
+    return figure_type(name)->prepare(grid.scene(), how, none)({.swept = Swept{&grid.scene(), &data}});
 }
 
 // Each point of these classes has two samples.
@@ -197,7 +197,7 @@ TEST(Diagram, IsAMapOfTwoKeysAndBasinsOfTwoInitialValues) {
     const SweepGrid starts = grid(R"({"over": [{"key": "initial.angle", "values": [0.5, 0.6]},
         {"key": "initial.angular_velocity", "values": [0, 1]}]})");
     EXPECT_EQ(usual_diagram(starts.scene()), "basins");
-    EXPECT_TRUE(recipe_named("bifurcation")->refusal(two.scene()));
+    EXPECT_TRUE(figure_type("bifurcation")->refusal(two.scene()));
 }
 
 TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
