@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <map>
-
 #include "render/plot/style.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/format/checks.hpp"
@@ -51,22 +49,18 @@ static void visit(SceneVisitor& v, SeriesNote& note) {
 // JSON Schema of the keys that only some figures have.
 static const std::string& constraint_of_figures() {
     static const std::string kText = [] {
-        std::map<std::vector<std::string>, Node> others;  // by the figures that have the keys
-        for (const std::string_view key : keys_of_figures()) {
-            Node& absent = others.try_emplace(figures_with(key), object_node()).first->second;
-            add(absent, std::string(key), boolean_node(false));
-        }
-        std::string rules = fmt::format(
+        Node others = object_node();
+        for (const std::string_view key : keys_of_figures())
+            add(others, std::string(key),
+                object_node({{"properties",
+                              object_node({{"figure", object_node({{"enum", texts_node(figures_with(key))}})}})}}));
+        return fmt::format(
             R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}}},
-                "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}}}},
-               {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}},
-                "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}}}})",
-            one_line(texts_node(figures_with("window"))));
-        for (const auto& [figures, absent] : others)
-            rules += fmt::format(
-                R"(, {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}}, "else": {{"properties": {}}}}})",
-                one_line(texts_node(figures)), one_line(absent));
-        return fmt::format(R"({{"allOf": [{}]}})", rules);
+                "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
+                "else": {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}},
+                          "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}}}},
+                "dependentSchemas": {}}})",
+            one_line(texts_node(figures_with("window"))), one_line(others));
     }();
     return kText;
 }

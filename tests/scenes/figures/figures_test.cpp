@@ -13,13 +13,13 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/findings.hpp"
-#include "scenes/figures/study_figures.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/plan/plan.hpp"
-#include "tests/scenes/support.hpp"
+#include "tests/scenes/figures/simulated.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -44,20 +44,9 @@ FigureOutput in(Lang lang) {
 }
 
 render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
-    Studies studies;
-    const FigureMaker make = figure_type(name)->prepare(s, in(lang), studies);
-    std::vector<sim::Result> made;
-    for (const Study& study : studies.take()) {
-        try {
-            made.push_back(sim::simulate(study.problem, study.request));
-        } catch (const sim::SolverError& error) {
-            if (!study.may_fail) throw;
-            made.push_back(error.partials.at(0));
-        }
-    }
-    Results results;
-    for (const sim::Result& r : made) results.studies.push_back(&r);
-    return make(results);
+    FigureOutput how = in(lang);
+    how.figure = name;
+    return testing::simulated(s, how);
 }
 
 TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
@@ -177,14 +166,7 @@ TEST(Figures, AnyCollisionIsShownInCloseUp) {
 // Places along a beam of any size, in the unit that suits it; those of the paper in millimetres.
 TEST(ContactPlaces, HaveTheUnitThatSuitsTheBeam) {
     const auto label = [](const char* scene) {
-        const Scene s = scene_from(scene);
-        Studies studies;
-        const FigureMaker make = figure_type("contact-places")->prepare(s, {}, studies);
-        std::vector<sim::Result> made;
-        for (const Study& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
-        Results results;
-        for (const sim::Result& result : made) results.studies.push_back(&result);
-        return make(results).panels[0].y.label;
+        return figure_of(scene_from(scene), "contact-places").panels[0].y.label;
     };
     EXPECT_THAT(label(R"({"time": {"end": 0.4}})"), HasSubstr("/ mm"));
     EXPECT_THAT(label(R"({"beam": {"length": 20, "area": 0.02, "second_moment": 2e-4, "density": 7850, "modes": 2,

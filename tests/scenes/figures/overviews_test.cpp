@@ -5,35 +5,28 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <sstream>
 
 #include "output/data/tables.hpp"
-#include "scenes/figures/figure_types.hpp"
 #include "scenes/plan/plan.hpp"
 #include "sim/beam/modes.hpp"
-#include "tests/scenes/support.hpp"
+#include "tests/scenes/figures/simulated.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
+using ::testing::AllOf;
 using testing::Finished;
 using testing::Folder;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using testing::shell;
 using ::testing::StartsWith;
 
 render::figure::Figure overview_of(const std::string& name, const std::string& keys) {
-    const Reading reading = testing::read(R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": ")" +
-                                          name + "\"" + keys + "}]}");
-    if (!reading.scene) throw std::runtime_error(reading.report());
-    Studies studies;
-    const FigureMaker make =
-        figure_type(name)->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs.front()), studies);
-    std::vector<sim::Result> runs;
-    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
-    Results results;
-    for (const sim::Result& run : runs) results.studies.push_back(&run);
-    return make(results);
+    return testing::simulated(R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": ")" + name + "\"" +
+                              keys + "}]}");
 }
 
 TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
@@ -237,12 +230,7 @@ TEST(Overviews, ASpectrogramHasItsLargestAmplitudeAtTheFirstFrequency) {
         testing::read(R"({"cam": null, "initial": {"shape": "static"}, "time": {"end": 2}, "outputs": [
         {"type": "figure", "figure": "spectrogram", "window": "0.2 s", "highest": 400}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
-    Studies studies;
-    const FigureMaker make =
-        figure_type("spectrogram")->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
-    std::vector<sim::Result> runs;
-    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
-    const auto figure = make({{&runs[0]}});
+    const auto figure = testing::simulated(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]));
     const auto& cells = figure.panels[0].cells.at(0);
     const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
     const double first = sim::natural_modes(reading.scene->problem).front().omega / (2 * M_PI);
@@ -268,16 +256,14 @@ TEST(Overviews, HistogramsCountEachImpactOnce) {
         testing::read(R"({"time": {"end": 1.5}, "beam": {"model": "rigid"}, "contact": {"restitution": 0.5},
         "outputs": [{"type": "figure", "figure": "impact-histograms"}]})");
     ASSERT_TRUE(reading.scene) << reading.report();
-    Studies studies;
-    const FigureMaker make = figure_type("impact-histograms")
-                                 ->prepare(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]), studies);
-    std::vector<sim::Result> runs;
-    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
-    const auto figure = make({{&runs[0]}});
+    const auto figure = testing::simulated(*reading.scene, std::get<FigureOutput>(reading.scene->outputs[0]));
+    sim::Request request;
+    request.end_time = reading.scene->end_time;
+    const std::size_t impacts = sim::simulate(reading.scene->problem, request).impacts.size();
     for (const auto& panel : figure.panels) {
         double sum = 0;
         for (std::size_t k = 0; k < panel.series[0].y.size(); k += 2) sum += panel.series[0].y[k];
-        EXPECT_EQ(sum, static_cast<double>(runs[0].impacts.size()));
+        EXPECT_EQ(sum, static_cast<double>(impacts));
     }
     EXPECT_THROW(overview_of("impact-histograms", ""), render::PictureError);  // one impact
 }
@@ -314,6 +300,31 @@ TEST(Overviews, TakeAnIntervalAndNoOtherKeysOfSeries) {
     EXPECT_THAT(report(R"("figure": "strobe", "channels": ["theta"])"), HasSubstr("belongs to the figure"));
     EXPECT_THAT(report(R"("figure": "phase", "from": 0.1)"), HasSubstr("belongs to the figure"));
     EXPECT_THAT(report(R"("figure": "kymograph", "from": 0.1, "to": 0.1)"), HasSubstr("is not before the end"));
+}
+
+TEST(Overviews, KeysOfOtherFiguresAreRejectedWithTheNamesOfThese) {
+    const std::map<std::string_view, std::string> values{{"channels", "[\"theta\"]"},
+                                                         {"panels", "[{\"channels\": [\"theta\"]}]"},
+                                                         {"x", "\"t\""},
+                                                         {"comparison", "\"overlay\""},
+                                                         {"compare", "[{}, {}]"},
+                                                         {"notes", "[]"},
+                                                         {"impacts", "true"},
+                                                         {"residuals", "false"},
+                                                         {"value", "\"class\""}};
+    for (const FigureType& type : figure_types())
+        for (const std::string_view key : keys_of_figures()) {
+            const std::string value = values.contains(key) ? values.at(key) : "1";
+            const std::string report =
+                testing::read(fmt::format(R"({{"outputs": [{{"type": "figure", "figure": "{}", "{}": {}}}]}})",
+                                          type.name, key, value))
+                    .report();
+            const auto rejected = HasSubstr(fmt::format("{} belongs to the figure", key));
+            if (type.takes(key))
+                EXPECT_THAT(report, Not(rejected)) << type.name;
+            else
+                EXPECT_THAT(report, AllOf(rejected, HasSubstr(list_of_figures_with(key)))) << type.name;
+        }
 }
 
 // The same pixels as of PNG, at 600 dpi by default.

@@ -9,7 +9,7 @@
 #include "render/base/error.hpp"
 #include "render/draw/fonts.hpp"
 #include "scenes/figures/figure_types.hpp"
-#include "tests/scenes/support.hpp"
+#include "tests/scenes/figures/simulated.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -72,20 +72,7 @@ struct Drawn {
 constexpr double kDpi = 144;
 
 Drawn drawn(const Scene& scene, const FigureOutput& how) {
-    Studies studies;
-    const FigureMaker make = figure_type(how.figure)->prepare(scene, how, studies);
-    std::vector<sim::Result> runs;
-    for (const Study& study : studies.take()) {
-        try {
-            runs.push_back(sim::simulate(study.problem, study.request));
-        } catch (const sim::SolverError& error) {
-            if (!study.may_fail) throw;
-            runs.push_back(error.partials.at(0));
-        }
-    }
-    Results results;
-    for (const sim::Result& run : runs) results.studies.push_back(&run);
-    plot::Figure figure = make(results);
+    plot::Figure figure = testing::simulated(scene, how);
     const plot::Page page = plot::page_of(figure, *plot::column_named(how.column));
     const render::Fonts fonts(plot::needs_chinese(figure), render::Typefaces::print);
     const double w = plot::points(page.width), h = plot::points(page.height);

@@ -10,7 +10,7 @@
 #include "render/draw/markup.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "sim/beam/modes.hpp"
-#include "tests/scenes/support.hpp"
+#include "tests/scenes/figures/simulated.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -24,18 +24,9 @@ using testing::shell;
 
 // The figure of the first output of a scene.
 Figure figure_of(const std::string& output, const std::string& mechanics = "") {
-    const Reading reading =
-        testing::read("{" + mechanics + R"("time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "series", )" +
-                      output + "}]}");
-    if (!reading.scene) throw std::runtime_error(reading.report());
-    Studies studies;
-    const auto& how = std::get<FigureOutput>(reading.scene->outputs.front());
-    const FigureMaker make = figure_type("series")->prepare(*reading.scene, how, studies);
-    std::vector<sim::Result> runs;
-    for (const Study& study : studies.take()) runs.push_back(sim::simulate(study.problem, study.request));
-    Results results;
-    for (const sim::Result& run : runs) results.studies.push_back(&run);
-    return make(results);
+    return testing::simulated("{" + mechanics +
+                              R"("time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "series", )" + output +
+                              "}]}");
 }
 
 double largest(const std::vector<double>& values) { return *std::ranges::max_element(values); }

@@ -6,8 +6,8 @@
 
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_types.hpp"
-#include "scenes/figures/study_figures.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
 #include "tests/scenes/support.hpp"
