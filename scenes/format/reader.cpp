@@ -10,11 +10,22 @@
 #include <filesystem>
 #include <memory>
 
+#include "scenes/format/description.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
 
 namespace beamcam::scenes {
 namespace {
+
+// Where in an output a key belongs that was found beside the outputs; empty: no output has it.
+std::string place_in_outputs(const std::string& key) {
+    const auto outputs = std::ranges::find(scene_format().keys, "outputs", &DescribedKey::name);
+    for (const DescribedObject& type : outputs->shapes)
+        if (std::ranges::find(type.keys, key, &DescribedKey::name) != type.keys.end())
+            return fmt::format("to an output: \"outputs\": [{{\"type\": \"{}\", \"{}\": …}}]", type.tags.front().second,
+                               key);
+    return {};
+}
 
 Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const std::string& scene_name,
                 std::vector<Message>& messages) {
@@ -24,14 +35,7 @@ Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const
     const SceneContext context{scene, root, source, files};
     ObjectReader reader(diagnostics, &root, "", "the scene", &context);
     visit(reader, scene);
-    reader.finish([](const std::string& key) {
-        static constexpr std::string_view kOfOutputs[] = {
-            "view",    "size",       "fps",    "from",  "to",  "at",     "speed",     "layout",     "theme", "events",
-            "compare", "comparison", "poster", "codec", "crf", "preset", "rate_mode", "background", "camera"};
-        return std::ranges::find(kOfOutputs, key) == std::end(kOfOutputs)
-                   ? std::string()
-                   : fmt::format("to an output: \"outputs\": [{{\"type\": \"video\", \"{}\": …}}]", key);
-    });
+    reader.finish(place_in_outputs);
     for (Message& message : diagnostics.take()) messages.push_back(std::move(message));
     return scene;
 }

@@ -77,24 +77,22 @@ std::string motion_key(const sim::Problem& problem) {
 
 std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part) {
     const Output& one = scene.outputs.at(output);
-    Scene inputs = scene;
-    inputs.outputs = {one};
+    const OutputInputs shown = inputs_of(one);
     const auto* figure = std::get_if<FigureOutput>(&one);
     const FigureType* type = figure ? figure_type(figure->figure) : nullptr;
-    const bool sweep_film = std::holds_alternative<SweepFilmOutput>(one);
-    const bool of_sweep = sweep_film || std::holds_alternative<SweepOutput>(one) || (type && type->of_sweep());
+    const bool of_sweep = shown.sweep || (type && type->of_sweep());
+    Scene inputs = scene;
+    inputs.outputs = {one};
+    if (!shown.title) inputs.title.clear();
+    if (!shown.units) inputs.units = {};
+    if (!shown.data) inputs.data.clear();
     if (of_sweep)
         resolve_tables(*inputs.sweep);
     else
         inputs.sweep.reset();
-    if (is_data(one)) inputs.title.clear();
-    if (!is_picture(one) && !sweep_film) inputs.units = {};
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, one);
     if (extent != Extent::scene || of_sweep) inputs.end_time = extent == Extent::run ? until : 0;
     std::string other = part;
-    const bool shows_data =
-        is_picture(one) || std::holds_alternative<FigureOutput>(one) || std::holds_alternative<SummaryOutput>(one);
-    if (!shows_data) inputs.data.clear();
     for (const Measurement& each : inputs.data) other += "\n" + each.digest;
     if (const auto* picture = std::get_if<PictureOutput>(&one)) other += picture->logo_digest;
     if (figure) {  // not part of the scene

@@ -68,9 +68,11 @@ const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind) 
     return picture && picture->kind == kind ? picture : nullptr;
 }
 
-bool is_data(const Output& output) {
-    return std::visit([](const auto& o) { return o.kIsData; }, output);
+OutputInputs inputs_of(const Output& output) {
+    return std::visit([](const auto& o) { return o.kInputs; }, output);
 }
+
+bool is_data(const Output& output) { return !inputs_of(output).title; }
 
 std::string name_of(const Instant& at) {
     for (const EventWord& each : kEventWords)

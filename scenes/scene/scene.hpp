@@ -162,6 +162,12 @@ enum class Subtitles { none, vtt, srt };
 class Planner;       // plan/planner.hpp
 class SceneVisitor;  // format/keys.hpp
 
+// The parts of a scene, besides its mechanics, that the files of an output type depend on. A file without the title
+// contains only numbers.
+struct OutputInputs {
+    bool title = false, units = false, data = false, sweep = false;
+};
+
 // What determines the end of the motion that an output needs: its keys, the scene's end, or the run of all outputs.
 enum class Extent { keys, scene, run };
 
@@ -171,7 +177,7 @@ enum class Extent { keys, scene, run };
 // Pictures of the mechanism.
 struct PictureOutput : Picture {
     enum class Kind { video, frames, still, page, model };
-    static constexpr bool kIsData = false;  // true: it contains only numbers, not the title of the scene
+    static constexpr OutputInputs kInputs{.title = true, .units = true, .data = true};
 
     Kind kind = Kind::video;
     std::string file;                       // relative to the output directory; of frames with one run of '#'
@@ -201,7 +207,7 @@ inline constexpr PictureType kPictureTypes[] = {
 
 struct TrajectoryOutput {
     static constexpr const char *kType = "trajectory", *kMeaning = "A table of channels against time.";
-    static constexpr bool kIsData = true;
+    static constexpr OutputInputs kInputs{};
     std::string file;                    // .csv or .npz
     std::vector<sim::Channel> channels;  // in this order, always after the time
     double rate = 1000;                  // [Hz]: rows k/rate and the end, unless `times` is given
@@ -214,7 +220,7 @@ struct TrajectoryOutput {
 struct ShapesOutput {
     static constexpr const char *kType = "shapes",
                                 *kMeaning = "The deflection along the beam in time: one row for each time and point.";
-    static constexpr bool kIsData = true;
+    static constexpr OutputInputs kInputs{};
     std::string file;                // .csv or .npz
     double rate = 1000;              // [Hz]: times k/rate and the end
     std::vector<double> times = {};  // [s]; replaces `rate` unless empty
@@ -226,7 +232,7 @@ struct ShapesOutput {
 };
 struct ImpactsOutput {
     static constexpr const char *kType = "impacts", *kMeaning = "All impacts and collisions.";
-    static constexpr bool kIsData = true;
+    static constexpr OutputInputs kInputs{};
     std::string file;  // .json or .csv
 
     Extent extent() const { return Extent::run; }
@@ -235,7 +241,7 @@ struct ImpactsOutput {
 };
 struct SummaryOutput {
     static constexpr const char *kType = "summary", *kMeaning = "Counts, extrema, energy balance, warnings.";
-    static constexpr bool kIsData = true;
+    static constexpr OutputInputs kInputs{.data = true};
     std::string file;  // .json
     bool horizon = false;
 
@@ -246,7 +252,7 @@ struct SummaryOutput {
 struct SweepOutput {
     static constexpr const char *kType = "sweep",
                                 *kMeaning = "The points of the scene's sweep: one row for each sample.";
-    static constexpr bool kIsData = true;
+    static constexpr OutputInputs kInputs{.sweep = true};
     std::string file;  // .nc, .csv or .npz
 
     Extent extent() const { return Extent::keys; }
@@ -259,7 +265,7 @@ struct SweepFilmOutput {
         *kType = "sweep-film",
         *kMeaning =
             "A film of the scene's sweep over one key: a growing bifurcation diagram beside the motion at that value.";
-    static constexpr bool kIsData = false;
+    static constexpr OutputInputs kInputs{.title = true, .units = true, .sweep = true};
     std::string file;  // .mp4, .mov, .mkv or .webm
     Size size;
     FrameRate fps{30, 1};
@@ -318,7 +324,7 @@ inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg
 struct FigureOutput {
     static constexpr const char *kType = "figure",
                                 *kMeaning = "A figure for print; `beamcam figure SCENE` lists all figures.";
-    static constexpr bool kIsData = false;
+    static constexpr OutputInputs kInputs{.title = true, .data = true};
     std::string file;                 // of one of kFigureEndings
     std::string figure;               // its name, see figures/figure_types.hpp
     std::string column = "elsevier";  // of a journal, see render/plot/style.hpp
@@ -353,6 +359,7 @@ const std::string& file_of(const Output& output);
 std::string poster_file(const PictureOutput& video);        // "fall.png" beside "fall.mp4"; empty: none
 std::string subtitles_file(const PictureOutput& video);     // "fall.vtt"; empty: none
 std::vector<std::string> written_by(const Output& output);  // its file and its secondary files
+OutputInputs inputs_of(const Output& output);
 bool is_data(const Output& output);
 bool is_picture(const Output& output);
 const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind);  // null: it is none of this kind
