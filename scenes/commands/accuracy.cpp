@@ -8,7 +8,7 @@
 #include "output/data/records.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/result_files.hpp"
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
@@ -100,7 +100,7 @@ void act(const AccuracyArguments& args) {
     });
     progress.end();
     write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
-                  [&] { return accuracy_figure(found, scene.problem, args.files.lang()); }},
+                  [&] { return accuracy_figure(found, scene.problem, args.files.lang); }},
                  args.files, scene, args.common, manifest);
 }
 

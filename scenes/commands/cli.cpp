@@ -87,9 +87,12 @@ struct Parsers {
 
 void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) {
     CLI::Option* option = std::visit(
-        [&](auto* target) {
-            if constexpr (std::is_same_v<decltype(target), bool*>)
+        [&](const auto& target) {
+            using Stored = std::remove_cvref_t<decltype(target)>;
+            if constexpr (std::is_same_v<Stored, bool*>)
                 return app.add_flag(parameter.names, *target, parameter.meaning);
+            else if constexpr (!std::is_pointer_v<Stored>)
+                return app.add_option_function(parameter.names, target, parameter.meaning)->type_name(parameter.value);
             else
                 return app.add_option(parameter.names, *target, parameter.meaning)->type_name(parameter.value);
         },

@@ -37,7 +37,7 @@ struct Common {
     std::vector<std::string> overrides;
     int threads = 0;
     bool quiet = false, verbose = false, force = false, no_cache = false;
-    std::string progress = "auto";
+    ProgressStyle progress = ProgressStyle::automatic;
     bool dry_run = false, json = false;
 };
 
@@ -50,7 +50,7 @@ void add_progress(Command& app, Common& common);                                
 void add_json(Command& app, Common& common);                                      // --json
 void add_force(Command& app, Common& common);                                     // --force
 void add_column(Command& app, std::string& column);                               // --column
-void add_lang(Command& app, std::string& lang);                                   // --lang
+void add_lang(Command& app, Lang& lang);                                          // --lang
 void add_work(Command& app, Common& common);  // -v -j --progress --force --no-cache -n --json
 void add_shard(Command& app, std::optional<std::string>& shard);
 Selection shard_argument(const std::string& text);  // "2/3", "auto"; throws UsageError
@@ -77,7 +77,6 @@ double signed_argument(const std::string& option, const std::string& text, const
 // The same, not negative.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
 double seconds_argument(const char* option, const std::string& text);
-Lang lang_named(const std::string* name);        // null: English
 std::string ending_of(const std::string& file);  // ".png"
 // Throws UsageError unless `file` is "-" or ends in one of these.
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);

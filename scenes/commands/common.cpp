@@ -10,6 +10,7 @@
 #include "output/files/standard_output.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/format/keys.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/sweep/parts.hpp"
@@ -39,7 +40,7 @@ void add_jobs(Command& app, Common& common, const char* what) {
     app.option("-j,--jobs", &common.threads, "N", fmt::format("{} (default: one for each core)", what)).range(1, 1024);
 }
 void add_progress(Command& app, Common& common) {
-    app.option("--progress", &common.progress, "STYLE", "Progress on standard error: auto, bar, plain, json or none");
+    app.choice("--progress", common.progress, kProgressStyles, "STYLE", "Progress on standard error");
 }
 void add_json(Command& app, Common& common) { app.flag("--json", common.json, "Print JSON"); }
 void add_force(Command& app, Common& common) {
@@ -49,9 +50,7 @@ void add_column(Command& app, std::string& column) {
     app.option("--column", &column, "COLUMN", "Column of a journal: sets width and font size of the figure")
         .one_of(render::figure::column_names());
 }
-void add_lang(Command& app, std::string& lang) {
-    app.option("--lang", &lang, "LANG", "Language of the figure").one_of({"en", "zh"});
-}
+void add_lang(Command& app, Lang& lang) { app.choice("--lang", lang, kLanguages, "LANG", "Language of the figure"); }
 
 void add_work(Command& app, Common& common) {
     app.flag("-v,--verbose", common.verbose, "Print where the time was spent, and counts of the work");
@@ -112,9 +111,7 @@ RunOptions run_options(const Common& common, std::string directory) {
     options.no_cache = common.no_cache;
     options.quiet = common.quiet;
     options.verbose = common.verbose;
-    const auto style = progress_style_named(common.progress);
-    if (!style) throw UsageError(fmt::format("--progress {}: choose auto, bar, plain, json or none", common.progress));
-    options.progress = common.quiet ? ProgressStyle::none : resolve(*style);
+    options.progress = common.quiet ? ProgressStyle::none : resolve(common.progress);
     return options;
 }
 
@@ -160,8 +157,6 @@ double quantity_argument(const char* option, const std::string& text, const Dime
 double seconds_argument(const char* option, const std::string& text) {
     return quantity_argument(option, text, dimension::kTime);
 }
-
-Lang lang_named(const std::string* name) { return name && *name == "zh" ? Lang::zh : Lang::en; }
 
 std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
 

@@ -25,7 +25,10 @@ struct FigureArguments {
     std::optional<std::string> title;
     bool impacts = false, residuals = false, logarithmic = false, apart = false;
 
-    Lang lang() const { return lang_named(print.value("--lang")); }
+    Lang lang() const {
+        const std::string* given = print.value("--lang");
+        return given && *given == "zh" ? Lang::zh : Lang::en;
+    }
     bool describes_panel() const { return panel.any() || title; }
     bool describes_series() const {
         return channels.any() || axis.any() || span.any() || describes_panel() || !compare.empty() || !notes.empty() ||

@@ -2,6 +2,7 @@
 // includes CLI11), the completion and the manual page are made from these lists.
 #pragma once
 
+#include <algorithm>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -12,11 +13,13 @@
 #include <variant>
 #include <vector>
 
+#include "sim/base/named.hpp"
+
 namespace beamcam::scenes {
 
-// Where the parser stores a value. A vector collects repeated values; a bool becomes true.
+// Where the parser stores a value. A vector collects repeated values; a bool becomes true; a function stores a word.
 using Target = std::variant<bool*, int*, double*, std::optional<double>*, std::string*, std::optional<std::string>*,
-                            std::vector<std::string>*>;
+                            std::vector<std::string>*, std::function<void(const std::string&)>>;
 
 // A flag, an option or a positional argument of a command.
 struct Parameter {
@@ -64,6 +67,17 @@ struct Command {
     void flag(std::string names, bool& target, std::string meaning);
     Parameter& option(std::string names, Target target, std::string value, std::string meaning);
     Parameter& positional(std::string name, Target target, std::string meaning);
+    // An option whose words are the names of an enumeration.
+    template <class Enum, std::size_t n>
+    Parameter& choice(std::string names, Enum& target, const sim::Named<Enum> (&words)[n], std::string value,
+                      std::string meaning) {
+        std::vector<std::string> allowed;
+        for (const sim::Named<Enum>& each : words) allowed.emplace_back(each.name);
+        const auto store = [&target, &words](const std::string& word) {
+            target = std::ranges::find(words, word, &sim::Named<Enum>::name)->value;
+        };
+        return option(std::move(names), store, std::move(value), std::move(meaning)).one_of(std::move(allowed));
+    }
 
     template <class Arguments, class Code>
     BoundCommand<Arguments> subcommand(std::string word, std::string text, Code (*act)(const Arguments&)) {

@@ -8,7 +8,7 @@
 #include "output/data/orbit_records.hpp"
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/result_files.hpp"
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
@@ -75,7 +75,7 @@ void act(const LyapunovArguments& args) {
         progress.end();
     }
     write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
-                  [&] { return exponents_figure(found, scene.problem, args.files.lang()); }},
+                  [&] { return exponents_figure(found, scene.problem, args.files.lang); }},
                  args.files, scene, args.common, manifest);
     if (std::cmp_greater(args.count, found.lambda.size()))
         inform(args.common, fmt::format("note: there are {} exponents, not {}", found.lambda.size(), args.count));

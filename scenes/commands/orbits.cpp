@@ -11,7 +11,7 @@
 #include "output/files/interrupt.hpp"
 #include "scenes/commands/orbit_text.hpp"
 #include "scenes/commands/result_files.hpp"
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/format/units.hpp"
 #include "scenes/motions/identity.hpp"
@@ -241,7 +241,7 @@ int act(const OrbitsArguments& args) {
 
     // 3. The result and its files.
     write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table); },
-                  [&] { return branches_figure(table, swept, scene.problem, args.files.lang()); },
+                  [&] { return branches_figure(table, swept, scene.problem, args.files.lang); },
                   [&] { return output::orbit_columns(table, attributes_of(scene)); }},
                  args.files, scene, args.common, manifest);
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);

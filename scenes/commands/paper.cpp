@@ -27,7 +27,8 @@ namespace fs = std::filesystem;
 
 struct PaperArguments {
     Common common;
-    std::string directory, column, lang = "en";
+    std::string directory, column;
+    Lang lang = Lang::en;
     double dpi = 300;
     bool data = false;
 };
@@ -56,7 +57,7 @@ std::vector<Job> jobs_of(const PaperArguments& args) {
             const auto* figure = std::get_if<FigureOutput>(&output);
             if (!figure) continue;
             FigureOutput how = *figure;
-            how.lang = lang_named(&args.lang);
+            how.lang = args.lang;
             if (!args.column.empty()) how.column = args.column;
             how.dpi = args.dpi;
             Scene alone = *reading.scene;

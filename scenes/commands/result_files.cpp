@@ -20,7 +20,7 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
     how.file = file;
     how.figure = figure.name;
     how.column = files.column;
-    how.lang = files.lang();
+    how.lang = files.lang;
     scene.outputs.clear();
     return figure_files(figure, how, to_json(scene)).front().second;
 }
@@ -30,7 +30,7 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
 void add_result_options(Command& app, ResultFiles& files, Common& common, const char* what) {
     app.option("-o,--output", &files.names, "FILE", what);
     add_column(app, files.column);
-    add_lang(app, files.lang_name);
+    add_lang(app, files.lang);
     add_progress(app, common);
     add_json(app, common);
     add_force(app, common);

@@ -16,9 +16,8 @@ namespace beamcam::scenes {
 
 struct ResultFiles {
     std::vector<std::string> names;
-    std::string column = "elsevier", lang_name = "en";
-
-    Lang lang() const { return lang_named(&lang_name); }
+    std::string column = "elsevier";
+    Lang lang = Lang::en;
 };
 
 struct Result {

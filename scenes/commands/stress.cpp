@@ -13,8 +13,8 @@
 #include "output/files/interrupt.hpp"
 #include "output/image/png.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_files.hpp"
-#include "scenes/figures/study_figures.hpp"
 #include "scenes/motions/fan_out.hpp"
 
 namespace beamcam::scenes {

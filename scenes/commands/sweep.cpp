@@ -27,7 +27,8 @@ struct SweepArguments {
     std::vector<std::string> over;
     std::optional<std::string> sample, transient, keep, seed;
     std::optional<std::string> diagram, figure, value, caption, film;
-    std::string column = "elsevier", lang = "en";
+    std::string column = "elsevier";
+    Lang lang = Lang::en;
     std::optional<std::string> shard, emit;
     int parts = 0;  // 0: kDefaultParts
 };
@@ -133,7 +134,7 @@ SweepFilmOutput film_of(const SweepArguments& args, const Scene& scene) {
         if (const auto* own = std::get_if<SweepFilmOutput>(&output)) film = *own;
     film.file = *args.film;
     if (args.value) film.value = *args.value;
-    if (args.lang == "zh") film.lang = Lang::zh;
+    if (args.lang == Lang::zh) film.lang = Lang::zh;
     return film;
 }
 
@@ -152,7 +153,7 @@ std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     check_value(args, diagram.figure, scene);
     diagram.value = args.value.value_or("");
     diagram.column = args.column;
-    diagram.lang = lang_named(&args.lang);
+    diagram.lang = args.lang;
     diagram.caption_file = args.caption.value_or("");
     outputs.emplace_back(std::move(diagram));
     return outputs;

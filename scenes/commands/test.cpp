@@ -18,17 +18,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
+enum class Annotations { automatic, github, none };
+constexpr sim::Named<Annotations> kAnnotations[] = {
+    {Annotations::automatic, "auto"}, {Annotations::github, "github"}, {Annotations::none, "none"}};
+
 struct TestArguments {
     Common common;
     std::string baselines;
     std::vector<std::string> update, only, tolerance;
     std::optional<std::string> report, junit;
-    std::string on_new_renderer = "fail", annotate = "auto";
+    NewRenderer on_new_renderer = NewRenderer::fail;
+    Annotations annotate = Annotations::automatic;
     bool add_digest = false, strict = false;
 };
 
-const std::map<std::string, NewRenderer> kOnNewRenderer = {
-    {"fail", NewRenderer::fail}, {"warn", NewRenderer::warn}, {"accept", NewRenderer::accept}};
+constexpr sim::Named<NewRenderer> kOnNewRenderer[] = {
+    {NewRenderer::fail, "fail"}, {NewRenderer::warn, "warn"}, {NewRenderer::accept, "accept"}};
 
 RegressionOptions options_of(const TestArguments& args) {
     if (!args.update.empty() && !args.only.empty())
@@ -41,7 +46,7 @@ RegressionOptions options_of(const TestArguments& args) {
     options.update = args.update;
     options.add_digest = args.add_digest;
     options.rule.strict = args.strict;
-    options.rule.new_renderer = kOnNewRenderer.at(args.on_new_renderer);
+    options.rule.new_renderer = args.on_new_renderer;
     options.tolerance = tolerance_argument(args.tolerance);
     if (args.report) options.report = *args.report;
     options.run = run_options(args.common, "");
@@ -69,7 +74,8 @@ void write_reports(const TestArguments& args, const RegressionResult& result, co
 // Annotations, and a table in the file to which the steps of GitHub Actions append their summaries.
 void report_to_github(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
     const char* actions = std::getenv("GITHUB_ACTIONS");
-    if (args.annotate == "none" || (args.annotate == "auto" && !(actions && *actions))) return;
+    if (args.annotate == Annotations::none) return;
+    if (args.annotate == Annotations::automatic && !(actions && *actions)) return;
     output::print_message("{}", to_annotations(result, rule));
     const char* summary = std::getenv("GITHUB_STEP_SUMMARY");
     if (!summary || !*summary) return;
@@ -147,10 +153,9 @@ void add_test(Grammar& grammar) {
     app.flag("--add-digest", args.add_digest,
              "Accept the pictures of this machine in addition to the others, where they are equivalent, or where no "
              "picture of its libraries and fonts is accepted yet (exit code 7)");
-    app.option("--on-new-renderer", &args.on_new_renderer, "WHAT",
+    app.choice("--on-new-renderer", args.on_new_renderer, kOnNewRenderer, "WHAT",
                "Verdict on pictures of libraries or fonts of which no picture is accepted yet: fail; warn: similar "
-               "pictures pass; accept: they pass and are accepted (default: fail)")
-        .one_of({"fail", "warn", "accept"});
+               "pictures pass; accept: they pass and are accepted (default: fail)");
     app.flag("--strict", args.strict, "Fail entries that are only equivalent");
     app.option("--tolerance", &args.tolerance, "KEY=X,...",
                "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
@@ -159,10 +164,9 @@ void add_test(Grammar& grammar) {
     app.option("--report", &args.report, "DIR",
                "Directory for an HTML page with actual, expected and difference pictures");
     app.option("--junit", &args.junit, "FILE", "Write a JUnit report, .xml");
-    app.option("--annotate", &args.annotate, "SERVICE",
+    app.choice("--annotate", args.annotate, kAnnotations, "SERVICE",
                "Print failures as annotations, and add a table to the summary of the step (default: auto: if "
-               "GITHUB_ACTIONS is set)")
-        .one_of({"auto", "github", "none"});
+               "GITHUB_ACTIONS is set)");
     add_jobs(app, args.common, "Largest number of threads that draw");
     add_progress(app, args.common);
     add_json(app, args.common);

@@ -4,8 +4,8 @@
 #include <limits>
 
 #include "render/base/error.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_types.hpp"
-#include "scenes/figures/study_figures.hpp"
 
 namespace beamcam::scenes {
 namespace {

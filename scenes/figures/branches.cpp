@@ -4,7 +4,7 @@
 #include "render/base/error.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/caption.hpp"
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 
 namespace beamcam::scenes {
 namespace {

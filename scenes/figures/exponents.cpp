@@ -2,7 +2,7 @@
 
 #include "render/base/error.hpp"
 #include "scenes/figures/caption.hpp"
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 
 namespace beamcam::scenes {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "render/draw/markup.hpp"
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <string_view>
 
 namespace beamcam::scenes {
 namespace {
@@ -29,15 +30,6 @@ bool is_set(const char* variable) {
 }
 
 }  // namespace
-
-std::optional<ProgressStyle> progress_style_named(std::string_view name) {
-    if (name == "auto") return ProgressStyle::automatic;
-    if (name == "bar") return ProgressStyle::bar;
-    if (name == "plain") return ProgressStyle::plain;
-    if (name == "json") return ProgressStyle::json;
-    if (name == "none") return ProgressStyle::none;
-    return std::nullopt;
-}
 
 ProgressStyle resolve(ProgressStyle style) {
     if (style != ProgressStyle::automatic) return style;

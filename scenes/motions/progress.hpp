@@ -4,11 +4,10 @@
 
 #include <cstdio>
 #include <mutex>
-#include <optional>
 #include <string>
-#include <string_view>
 
 #include "sim/base/clock.hpp"
+#include "sim/base/named.hpp"
 
 namespace beamcam::scenes {
 
@@ -19,7 +18,11 @@ enum class ProgressStyle {
     json,       // an object per line, for programs
     none
 };
-std::optional<ProgressStyle> progress_style_named(std::string_view name);
+inline constexpr sim::Named<ProgressStyle> kProgressStyles[] = {{ProgressStyle::automatic, "auto"},
+                                                                {ProgressStyle::bar, "bar"},
+                                                                {ProgressStyle::plain, "plain"},
+                                                                {ProgressStyle::json, "json"},
+                                                                {ProgressStyle::none, "none"}};
 // Replaces `automatic`: a bar on a terminal that can rewrite lines, outside CI; else plain.
 ProgressStyle resolve(ProgressStyle style);
 

@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "scenes/figures/study_figures.hpp"
+#include "scenes/figures/command_figures.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {
