@@ -132,17 +132,9 @@ std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Resul
     const sim::Vec2 disc = problem.cam->centre + problem.cam->eccentricity * sim::unit(touch.cam_angle);
     const bool from_below = cross(sim::unit(touch.at_touch->theta), disc) > 0;
     if (from_below) return std::nullopt;
-    const std::vector<sim::Collision>& all = result.collisions;
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        const bool last = k + 1 == all.size();
-        if (last && result.end_time < end) break;
-        const double after = all[k].t_end.value_or(result.end_time),
-                     until = last ? result.end_time : all[k + 1].t_start;
-        // Ripple makes small maxima; the rebound is the highest of those before the next collision.
-        double highest = touch.at_touch->theta;
-        for (const sim::Apex& apex : result.apexes)
-            if (apex.t > after && apex.t < until) highest = std::max(highest, apex.theta);
-        if (highest > touch.at_touch->theta) return highest;
+    for (const sim::Apex& apex : sim::rebounds(result)) {
+        const bool cut_short = apex.t > result.collisions.back().t_start && result.end_time < end;
+        if (apex.theta > touch.at_touch->theta && !cut_short) return apex.theta;
     }
     return std::nullopt;
 }

@@ -36,17 +36,11 @@ std::string plain(double value, int digits) { return render::to_plain(number(val
 
 double zero(const sim::Result& r) { return r.theta_zero.empty() ? std::nan("") : r.theta_zero.front().t; }
 
-// Highest θ between collisions of the first seconds, in order.
-std::vector<double> rebounds(const sim::Result& r) {
+// Highest θ of the rebounds of the first seconds, in order.
+std::vector<double> heights_of_rebounds(const sim::Result& r) {
     std::vector<double> heights;
-    for (std::size_t i = 0; i < r.collisions.size() && r.collisions[i].t_start < kRepeated; ++i) {
-        const double from = r.collisions[i].t_end.value_or(r.end_time);
-        const double to = i + 1 < r.collisions.size() ? r.collisions[i + 1].t_start : r.end_time;
-        double highest = -1e300;
-        for (const sim::Apex& apex : r.apexes)
-            if (apex.t > from && apex.t < to) highest = std::max(highest, apex.theta);
-        if (highest > -1e300) heights.push_back(highest);
-    }
+    for (const sim::Apex& apex : sim::rebounds(r))
+        if (apex.t < kRepeated) heights.push_back(apex.theta);
     return heights;
 }
 
@@ -232,7 +226,7 @@ std::string numbers_of_repeated_impacts(const FindingStudies& all, const Results
     for (std::size_t k = 0; k < 3; ++k) {
         const auto run = [&](std::size_t tight) -> const sim::Result& { return *results[all.repeated[k][tight]]; };
         const Transient apart = transient(run(0).tables[all.angles[k][0]], run(1).tables[all.angles[k][1]]);
-        const std::vector<double> heights = rebounds(run(0));
+        const std::vector<double> heights = heights_of_rebounds(run(0));
         numbers += fmt::format(
             "{}ω = {}: θ is not reproducible to {} rad from {:.1f} s to {:.1f} s (there within {:.2f} rad); {} of "
             "{} rebounds in {} s exceed the one before",

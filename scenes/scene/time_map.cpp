@@ -162,23 +162,6 @@ double TimeMap::film_time(double t) const {
     return film;
 }
 
-// The highest apex of each rebound, between the beginnings of two collisions or after the last one. Without collisions
-// every apex is a rebound.
-static std::vector<sim::Apex> rebounds(const sim::Result& motion) {
-    std::vector<sim::Apex> out;
-    if (motion.collisions.empty()) return motion.apexes;
-    for (std::size_t i = 0; i < motion.collisions.size(); ++i) {
-        const bool last = i + 1 == motion.collisions.size();
-        const double from = motion.collisions[i].t_start,
-                     to = last ? motion.end_time : motion.collisions[i + 1].t_start;
-        std::optional<sim::Apex> highest;
-        for (const sim::Apex& apex : motion.apexes)
-            if (apex.t > from && apex.t < to && (!highest || apex.theta > highest->theta)) highest = apex;
-        if (highest) out.push_back(*highest);
-    }
-    return out;
-}
-
 std::optional<double> find_instant(const Instant& instant, const sim::Result& motion) {
     const auto pick = [&](const auto& all, auto time) -> std::optional<double> {
         if (instant.number < 1 || std::cmp_greater(instant.number, all.size())) return std::nullopt;
@@ -196,7 +179,7 @@ std::optional<double> find_instant(const Instant& instant, const sim::Result& mo
         case Instant::Kind::release:
             return pick(motion.impacts, &sim::Impact::t_end);
         case Instant::Kind::apex:
-            return pick(rebounds(motion), &sim::Apex::t);
+            return pick(sim::rebounds(motion), &sim::Apex::t);
     }
     return instant.t;
 }
@@ -205,7 +188,7 @@ double instant_of(const Instant& instant, const sim::Result& motion) {
     if (const auto t = find_instant(instant, motion)) return *t;
     const auto released =
         std::ranges::count_if(motion.impacts, [](const sim::Impact& i) { return i.t_end.has_value(); });
-    const std::size_t count = instant.kind == Instant::Kind::apex        ? rebounds(motion).size()
+    const std::size_t count = instant.kind == Instant::Kind::apex        ? sim::rebounds(motion).size()
                               : instant.kind == Instant::Kind::collision ? motion.collisions.size()
                               : instant.kind == Instant::Kind::release   ? static_cast<std::size_t>(released)
                                                                          : motion.impacts.size();

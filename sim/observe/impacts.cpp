@@ -97,4 +97,19 @@ void ImpactRecorder::finish(double t, const double* y) {
     result_.collisions.back().energy_lost -= stored;
 }
 
+std::vector<Apex> rebounds(const Result& result) {
+    const std::vector<Collision>& all = result.collisions;
+    if (all.empty()) return result.apexes;
+    std::vector<Apex> out;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+        const bool last = i + 1 == all.size();
+        const double from = all[i].t_start, to = last ? result.end_time : all[i + 1].t_start;
+        std::optional<Apex> highest;
+        for (const Apex& apex : result.apexes)
+            if (apex.t > from && apex.t < to && (!highest || apex.theta > highest->theta)) highest = apex;
+        if (highest && !(last && result.end_theta > highest->theta)) out.push_back(*highest);
+    }
+    return out;
+}
+
 }  // namespace beamcam::sim

@@ -134,6 +134,8 @@ void Recorder::finish(double t, const double* y, const RunStatistics& statistics
         if (e.min > e.max) e = {kNan, kNan, kNan, kNan};
     const Problem& problem = evaluator_.system().problem();
     result_.end_time = t;
+    evaluator_.set(t, y);
+    result_.end_theta = evaluator_.value({ChannelKind::theta, 0});
     result_.energy_scale = summary_.energy_scale;
     result_.energy_residual_max = summary_.energy_residual_max;
     result_.counters = statistics.counters;

@@ -74,6 +74,7 @@ struct Counters {
 
 struct Result {
     double end_time = 0;                    // reached [s]
+    double end_theta = 0;                   // θ there [rad]
     std::vector<Table> tables;              // one per TableRequest
     std::vector<std::vector<Pose>> poses;   // one per PoseRequest, in the order of its times, then those in contact
     std::vector<std::vector<Vec2>> points;  // one per PointRequest [m]
@@ -96,5 +97,9 @@ struct Result {
     bool beyond_model = false;  // the beam bends through larger angles than its model allows
     std::vector<std::string> warnings;
 };
+
+// The highest apex of each rebound: between the beginnings of two collisions, or after the last one. A rise that the
+// end of the run interrupts has no apex, only ripple. Without collisions every apex is a rebound.
+std::vector<Apex> rebounds(const Result& result);
 
 }  // namespace beamcam::sim

@@ -19,6 +19,19 @@ sim::Impact impact(double from, double to) {
 const std::vector<sim::Impact> kImpacts{impact(0.300, 0.301), impact(0.304, 0.305), impact(0.800, 0.802)};
 const Speed kSlow{.factor = 1, .around = SlowMotion{.factor = 0.02, .before = 2e-3, .after = 10e-3, .ease = 20e-3}};
 
+TEST(Instants, AnUnfinishedRiseHasNoApex) {
+    sim::Result motion;
+    motion.collisions.resize(2);
+    motion.collisions[0].t_start = 0.2, motion.collisions[1].t_start = 0.5;
+    motion.apexes = {{0.3, 0.7}, {0.4, 0.8}, {0.6, 1.0}};
+    motion.end_time = 0.9, motion.end_theta = 0.9;
+    const Instant second{.kind = Instant::Kind::apex, .number = 2};
+    EXPECT_EQ(find_instant({.kind = Instant::Kind::apex, .number = 1}, motion), 0.4);
+    EXPECT_EQ(find_instant(second, motion), 0.6);
+    motion.end_theta = 1.1;
+    EXPECT_FALSE(find_instant(second, motion));
+}
+
 TEST(TimeMap, AConstantSpeedIsALine) {
     const TimeMap map(0.5, 2, {.factor = 0.25, .around = {}}, {});
     EXPECT_DOUBLE_EQ(map.duration(), 6);
