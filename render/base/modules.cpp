@@ -74,7 +74,10 @@ const void* load_module(const std::string& file) {
             if (const void* found = interface_in(place, reason)) return found;
         searched += fmt::format("\n  {}: {}", place.string(), reason);
     }
-    throw ModuleError(fmt::format("the module {} cannot be used; install beamcam again. Searched:{}", file, searched));
+    throw ModuleError(
+        fmt::format("the module {} cannot be used; install beamcam again, or build it where the libraries of this "
+                    "module are installed. Searched:{}",
+                    file, searched));
 }
 
 }  // namespace beamcam::render

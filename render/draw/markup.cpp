@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cstdlib>
 #include <stdexcept>
@@ -47,6 +48,10 @@ constexpr std::array kLatexText{Pair{"–", "--"},
                                 Pair{"\\", "\\textbackslash{}"},
                                 Pair{"…", "\\dots{}"},
                                 Pair{"µ", "\\textmu{}"}};
+
+// Upright in mathematics.
+constexpr std::array<std::string_view, 11> kFunctions{"sin", "cos", "tan", "arcsin", "arccos", "arctan",
+                                                      "exp", "ln",  "log", "min",    "max"};
 
 std::string_view next_character(std::string_view text, std::size_t at) {
     return text.substr(at, std::size_t(g_utf8_next_char(&text[at]) - &text[at]));
@@ -146,6 +151,18 @@ class Parser {
             runs_.push_back(std::move(changed));
             return true;
         }
+        if (name == "mathrm" || name == "text") {
+            upright([&] { group(changed); });
+            return true;
+        }
+        if (name == "left" || name == "right") {  // the size of delimiters is that of the line
+            take(".");
+            return true;
+        }
+        if (std::ranges::find(kFunctions, name) != kFunctions.end()) {
+            function(name, style);
+            return true;
+        }
         if (name == "dot" || name == "ddot") {
             changed.dots = name == "dot" ? 1 : 2;
             item(changed);
@@ -157,6 +174,21 @@ class Parser {
                 return true;
             }
         fail(fmt::format("\\{} is not among the commands that can be drawn", name).c_str());
+    }
+
+    template <class Parse>
+    void upright(const Parse& parse) {
+        const bool before = std::exchange(upright_, true);
+        parse();
+        upright_ = before;
+    }
+
+    // A thin space separates its name from an argument without parentheses.
+    void function(std::string_view name, const Run& style) {
+        upright([&] { put(name, style); });
+        if (at_ < text_.size() && std::string_view("([{_^)$},.").find(text_[at_]) == std::string_view::npos &&
+            !text_.substr(at_).starts_with("\\left"))
+            put("\u2009", style);
     }
 
     // "0072b2}{": the part of a colour behind its sign, and the brace of its group.
@@ -189,9 +221,7 @@ class Parser {
             changed.dots = 2;
             sequence(changed, true);
         } else if (take("\\r{")) {
-            const bool before = std::exchange(upright_, true);
-            sequence(changed, true);
-            upright_ = before;
+            upright([&] { sequence(changed, true); });
         } else if (take("\\b{")) {
             changed.bold = true;
             sequence(changed, true);
@@ -297,18 +327,28 @@ std::string latex_of(const std::vector<Run>& runs) {
     return out;
 }
 
-std::string superscript(std::string_view text) {
-    static constexpr std::array kSuperscripts{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
-                                              Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
-                                              Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
+constexpr std::array kSuperscripts{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
+                                   Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
+                                   Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
+constexpr std::array kSubscripts{Pair{"0", "₀"}, Pair{"1", "₁"}, Pair{"2", "₂"}, Pair{"3", "₃"}, Pair{"4", "₄"},
+                                 Pair{"5", "₅"}, Pair{"6", "₆"}, Pair{"7", "₇"}, Pair{"8", "₈"}, Pair{"9", "₉"}};
+
+// In small letters if Unicode has all of them; else after `sign`, in parentheses unless it is a word or a number.
+template <std::size_t N>
+std::string script_text(std::string_view text, const std::array<Pair, N>& small, const char* sign) {
     std::string out;
-    bool all = true;
-    each_character(text, [&](std::string_view c, std::string_view) {
-        const std::string_view* known = find(kSuperscripts, c);
+    bool all = true, word = true, number = true;
+    each_character(text, [&](std::string_view c, std::string_view rest) {
+        const std::string_view* known = find(small, c);
         all = all && known;
         if (known) out += *known;
+        const bool digit = std::isdigit(static_cast<unsigned char>(c[0])),
+                   first = rest.size() + c.size() == text.size();
+        word = word && (digit || is_letter(c));
+        number = number && (digit || c == "." || (first && c == "−"));
     });
-    return all ? out : fmt::format("^{}", text);
+    if (all) return out;
+    return word || number ? fmt::format("{}{}", sign, text) : fmt::format("{}({})", sign, text);
 }
 
 }  // namespace
@@ -352,24 +392,57 @@ std::vector<Run> parse_markup(std::string_view markup) {
 
 std::string to_latex(std::string_view markup) { return latex_of(parse_markup(markup)); }
 
-static std::string plain_of(const std::vector<Run>& runs) {
-    const auto part = [](const std::vector<Run>& some) {
-        const std::string text = plain_of(some);
-        const bool one = !text.empty() && next_character(text, 0).size() == text.size();
-        return one ? text : fmt::format("({})", text);
-    };
-    std::string out;
+static std::string plain_of(const std::vector<Run>& runs);
+
+// A part of a fraction, or what a root covers: in parentheses unless it is one symbol with its scripts, or one number.
+static std::string plain_part(const std::vector<Run>& runs) {
+    const std::string text = plain_of(runs);
+    int symbols = 0;
+    bool number = true, simple = true;
     for (const Run& run : runs) {
-        if (!run.over.empty())
-            out += run.under.empty() ? "√" + part(run.over) : part(run.over) + "/" + part(run.under);
-        else if (run.script > 0)
-            out += superscript(run.text);
-        else if (run.script < 0)
-            out += "_" + run.text;
-        else
-            out += run.text;
-        for (int i = 0; i < (run.dots == 1 ? 1 : 0); ++i) out += "\u0307";
-        if (run.dots == 2) out += "\u0308";
+        simple = simple && run.over.empty();
+        each_character(run.text, [&](std::string_view c, std::string_view) {
+            const bool digit = std::isdigit(static_cast<unsigned char>(c[0])) || c == ".";
+            number = number && digit;
+            simple = simple && (digit || is_letter(c));
+            symbols += run.script == 0;
+        });
+    }
+    return simple && (number || symbols <= 1) ? text : fmt::format("({})", text);
+}
+
+// Whether a fraction beside this text needs a sign of multiplication.
+static bool is_factor(std::string_view character) {
+    return is_letter(character) || character == ")" || character == "(" || character == "√" ||
+           std::isdigit(static_cast<unsigned char>(character[0]));
+}
+
+static std::string plain_of(const std::vector<Run>& runs) {
+    std::string out;
+    bool after_fraction = false, after_factor = false;
+    for (std::size_t i = 0; i < runs.size(); ++i) {
+        const Run& run = runs[i];
+        if (run.script != 0) {  // belongs to what it follows
+            std::string text = run.text;
+            while (i + 1 < runs.size() && runs[i + 1].script == run.script) text += runs[++i].text;
+            out += run.script > 0 ? script_text(text, kSuperscripts, "^") : script_text(text, kSubscripts, "_");
+            continue;
+        }
+        const bool fraction = !run.under.empty();
+        std::string text = run.text;
+        if (fraction)
+            text = plain_part(run.over) + "/" + plain_part(run.under);
+        else if (!run.over.empty())
+            text = "√" + plain_part(run.over);
+        if (text.empty()) continue;
+        if ((after_fraction && (fraction || is_factor(next_character(text, 0)))) || (fraction && after_factor))
+            out += "·";
+        out += text;
+        if (run.dots > 0) out += run.dots == 1 ? "\u0307" : "\u0308";
+        std::string_view last = text;
+        while (next_character(last, 0).size() < last.size()) last.remove_prefix(next_character(last, 0).size());
+        after_fraction = fraction;
+        after_factor = is_factor(last) && last != "(";
     }
     return out;
 }

@@ -212,7 +212,8 @@ class CloseUpPanel final : public FilmPanel {
         const double u = context_.unit;
         const bool deep = near.gap < 0;
         const double size = std::abs(near.gap);
-        const std::string amount = unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
+        const std::string amount = size < 1e-3 * unit_.factor          ? quantity(0, unit_, "m", 1)
+                                   : unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
                                    : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
                                                  : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
         draw_reading(canvas, {plot_.right(), box_.y + 26 * u}, context_.translate(deep ? "penetration" : "gap"), amount,

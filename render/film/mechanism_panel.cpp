@@ -321,7 +321,7 @@ void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Thread
 // The whole path of the tip, unless it is on the accumulated layer, or its last part.
 void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
     if (whole_path()) return;
-    if (at_.context.setup->view.tip_path && s.at.moved && !s.view)
+    if (at_.context.setup->view.tip_path)
         tip_path_.draw_whole(s, at_);
     else
         tip_path_.draw_trail(s, at_);

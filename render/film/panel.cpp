@@ -142,13 +142,15 @@ void FilmContext::place_logo() {
 
 double FilmContext::shown_factor(Channel channel) const {
     const std::string si = sim::unit(channel, setup->problem);
+    if (si == "rad/s" && setup->units.rpm) return 30 / std::numbers::pi;
     return setup->units.degrees && (si == "rad" || si == "rad/s") ? 180 / std::numbers::pi : 1;
 }
 
 std::string FilmContext::shown_unit(Channel channel) const {
     const std::string si = sim::unit(channel, setup->problem);
     if (si == "m/s^2") return "m/s²";
-    return shown_factor(channel) == 1 ? si : si == "rad" ? "°" : "°/s";
+    if (shown_factor(channel) == 1) return si;
+    return si == "rad" ? "°" : setup->units.rpm ? "rpm" : "°/s";
 }
 
 double FilmContext::measured_angle(std::size_t k, double t) const {

@@ -42,13 +42,28 @@ std::optional<PrefixedUnit> prefixed_unit(const std::string& unit) {
 Ticks with_round_ends(Range& range, double step) {
     const double first = std::floor(range.low / step + 1e-9), last = std::ceil(range.high / step - 1e-9);
     range = {first * step, last * step};
-    return ticks(range.low, range.high, static_cast<int>(std::lround(last - first)) + 1);
+    return multiples(step, range.low, range.high);
 }
 
-// Minor intervals in a step of 1, 2 or 5.
+// Steps for angles of more than a quarter turn [°], and the minor intervals in them.
+constexpr std::pair<double, int> kTurns[] = {{45, 3}, {90, 3}, {180, 4}, {360, 4}};
+
+// Minor intervals in a step of 1, 2 or 5, or of a part of a turn.
 int minor_parts(double step) {
+    for (const auto& [turn, parts] : kTurns)
+        if (step == turn) return parts;
     const double mantissa = step / std::pow(10.0, std::floor(std::log10(step) + 1e-9));
     return std::lround(mantissa) == 2 ? 4 : 5;
+}
+
+// Angles in degrees have ticks at parts of a turn where steps of 50 or more would be needed.
+Ticks in_turns(const Ticks& marks, const Range& range, int most) {
+    if (marks.step < 50) return marks;
+    for (const auto& [turn, parts] : kTurns)
+        if (const Ticks out = multiples(turn, range.low, range.high);
+            out.values.size() >= 2 && std::cmp_less_equal(out.values.size(), most))
+            return out;
+    return marks;
 }
 
 }  // namespace
@@ -171,6 +186,7 @@ void AxisMap::add_linear_ticks(const Axis& axis, int most, bool whole) {
     // A single label defines no scale.
     for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8 && !axis.round_ends; ++more)
         marks = render::ticks(ends_.low, ends_.high, more);
+    if (base_unit_ == "°" && factor_ == 0 && offset_ == 0) marks = in_turns(marks, ends_, std::max(2, most));
     if (axis.round_ends) marks = with_round_ends(ends_, marks.step);
     if (whole && marks.step < 1) {
         marks = {.step = 1, .decimals = 0, .values = {}};

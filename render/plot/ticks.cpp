@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 namespace beamcam::render {
 namespace {
@@ -33,20 +34,17 @@ double round_up_125(double value) {
     return value;
 }
 
-Ticks ticks(double low, double high, int most) {
-    Ticks out;
-    out.step = round_up_125((high - low) / most);
-    for (;;) {
-        const double first = std::ceil(low / out.step - kRoundingSlack),
-                     last = std::floor(high / out.step + kRoundingSlack);
-        if (last - first + 1 <= most) {
-            for (int i = 0; first + i <= last; ++i) out.values.push_back((first + i) * out.step + 0.0);
-            break;
-        }
-        out.step = round_up_125(out.step * 1.5);
-    }
-    out.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(out.step) + kRoundingSlack)));
+Ticks multiples(double step, double low, double high) {
+    Ticks out{.step = step, .decimals = 0, .values = {}};
+    const double first = std::ceil(low / step - kRoundingSlack), last = std::floor(high / step + kRoundingSlack);
+    for (int i = 0; first + i <= last; ++i) out.values.push_back((first + i) * step + 0.0);
+    out.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + kRoundingSlack)));
     return out;
+}
+
+Ticks ticks(double low, double high, int most) {
+    for (double step = round_up_125((high - low) / most);; step = round_up_125(step * 1.5))
+        if (Ticks out = multiples(step, low, high); std::cmp_less_equal(out.values.size(), most)) return out;
 }
 
 std::string fixed(double value, int decimals) {

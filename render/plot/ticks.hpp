@@ -21,6 +21,7 @@ struct Ticks {
     std::vector<double> values;
 };
 Ticks ticks(double low, double high, int most);
+Ticks multiples(double step, double low, double high);  // marks at all multiples within [low, high]
 
 struct Range {
     double low = 0, high = 1;

@@ -59,16 +59,24 @@ void check_words(ObjectReader& r, const char* key, const std::string& text) {
 
 // ---- pictures ----------------------------------------------------------------------------------
 
+// The units of the first of these keys that is a text with a unit.
 void infer_units(ObjectReader& r, render::Units& units) {
-    const auto ends_in = [&](const char* object, const char* key, std::initializer_list<std::string_view> names) {
-        const Member* inside = r.node()->find(object);
-        const Member* value = inside ? inside->value.find(key) : nullptr;
-        return value && value->value.kind == Node::Kind::string && std::ranges::any_of(names, [&](auto name) {
-                   return std::string_view(value->value.text).ends_with(name);
-               });
+    using Keys = std::initializer_list<const char*>;
+    const auto first_ends_in = [&](std::initializer_list<Keys> all, std::initializer_list<std::string_view> names) {
+        for (const Keys& keys : all) {
+            const Node* at = r.node();
+            for (const char* key : keys) {
+                const Member* member = at ? at->find(key) : nullptr;
+                at = member ? &member->value : nullptr;
+            }
+            if (at && at->kind == Node::Kind::string)
+                return std::ranges::any_of(names,
+                                           [&](auto name) { return std::string_view(at->text).ends_with(name); });
+        }
+        return false;
     };
-    units.degrees = ends_in("initial", "angle", {"deg", "°"});
-    units.rpm = ends_in("cam", "speed", {"rpm"});
+    units.degrees = first_ends_in({{"initial", "angle"}, {"cam", "phase"}}, {"deg", "°"});
+    units.rpm = first_ends_in({{"cam", "speed"}, {"hub", "drive", "speed"}, {"initial", "angular_velocity"}}, {"rpm"});
 }
 
 static bool needs_cam(const render::Anchor& anchor) {

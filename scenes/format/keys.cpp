@@ -64,9 +64,10 @@ void visit(SceneVisitor& v, Scene& scene) {
         [&scene](sim::Visitor& inside) {
             auto& s = static_cast<SceneVisitor&>(inside);
             s.choice(sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
-                     "Unit of angles; by default that of initial.angle.");
+                     "Unit of angles; by default that of initial.angle or cam.phase, if it is a text with a unit.");
             s.choice(sim::derived("speed"), scene.units.rpm, {{false, "rad/s"}, {true, "rpm"}},
-                     "Unit of angular speeds; by default that of cam.speed.");
+                     "Unit of angular speeds; by default that of cam.speed, the drive or initial.angular_velocity, the "
+                     "first that is a text with a unit.");
         },
         "Units of angles and speeds in films.", nullptr);
     v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });

@@ -41,7 +41,7 @@ std::vector<Group> groups_of(const render::FilmSetup& film) {
 std::string name_of(const Group& g, Lang lang) {
     const bool one = g.first == g.last;
     if (lang == Lang::zh)
-        return one ? fmt::format("第 {} 次碰撞", g.first + 1) : fmt::format("第 {}–{} 次碰撞", g.first + 1, g.last + 1);
+        return one ? fmt::format("第 {} 次冲击", g.first + 1) : fmt::format("第 {}–{} 次冲击", g.first + 1, g.last + 1);
     return one ? fmt::format("Impact {}", g.first + 1) : fmt::format("Impacts {}–{}", g.first + 1, g.last + 1);
 }
 

@@ -171,8 +171,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
         // Rounding at a freeze between frames must not decrease the time.
         previous = std::max(previous, map.instant(film));
         out.frames.push_back(previous);
-        // The hold at the end is not a freeze.
-        out.speeds.push_back(span.hold > 0 && previous >= to ? map.speed_at(to) : map.speed(film));
+        out.speeds.push_back(map.speed(film));
         for (int i = 1; i < steps && out.speeds.back() < 0.5 && out.speeds.back() > 0; ++i)
             fine.push_back(map.instant(film + i / (steps * fps)));
     }

@@ -52,6 +52,8 @@ TEST(FigureText, OneMarkupIsDrawnAndWrittenAsLatexAndPlain) {
 TEST(FigureAxis, TicksAreRoundAndSayTheirDecimals) {
     EXPECT_THAT(labels(axis(0, 0.4, {.tight = true})), ::testing::ElementsAre("0.0", "0.1", "0.2", "0.3", "0.4"));
     EXPECT_THAT(labels(axis(-2, 7)), ::testing::ElementsAre("−2", "0", "2", "4", "6"));
+    EXPECT_THAT(labels(axis(-30, 400, {.label = "$θ$ / °"})), ::testing::ElementsAre("0", "90", "180", "270", "360"));
+    EXPECT_THAT(labels(axis(0, 90, {.label = "$θ$ / °"})), ::testing::ElementsAre("0", "20", "40", "60", "80"));
     EXPECT_DOUBLE_EQ(axis(0, 10, {.tight = true}).place(2.5), 0.25);
 }
 

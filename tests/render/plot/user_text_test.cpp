@@ -68,9 +68,23 @@ TEST_F(Words, LinesBreakBetweenWordsAndBeforeSigns) {
 }
 
 TEST(PlainWords, AreForOtherPrograms) {
-    EXPECT_EQ(plain_text("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^3/2, ω_1 $");
-    EXPECT_EQ(plain_text("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "(λ_1)/L√(EI)");
+    EXPECT_EQ(plain_text("F = $K\\delta^{3/2}$, $\\omega_1$ \\$"), "F = Kδ^(3/2), ω₁ $");
+    EXPECT_EQ(plain_text("$\\frac{\\lambda_1}{L}\\sqrt{EI}$"), "λ₁/L·√(EI)");
+    EXPECT_EQ(plain_text("$1 + \\frac{3(1-c^2)}{4}\\frac{\\dot\\delta}{\\dot\\delta_0}$"), "1 + (3(1−c²))/4·δ̇/δ̇₀");
+    EXPECT_EQ(plain_text("$K\\frac{1}{2L}x_{max}$"), "K·1/(2L)·x_max");
+    EXPECT_EQ(plain_text("$e^{-\\zeta t}$"), "e^(−ζt)");
     EXPECT_EQ(to_latex("$\\frac{λ_1}{L}$"), "$\\frac{\\lambda_{\\mathrm{1}}}{L}$");
+}
+
+TEST(Markup, NamesOfFunctionsAreUpright) {
+    const auto runs = parse_markup("$\\ddot\\theta = -\\frac{3g}{2L}\\cos\\theta$");
+    ASSERT_GE(runs.size(), 3u);
+    EXPECT_EQ(runs[runs.size() - 2].text, "cos\u2009");
+    EXPECT_FALSE(runs[runs.size() - 2].symbol);
+    EXPECT_TRUE(runs.back().symbol);
+    EXPECT_EQ(plain_text("$\\sin(\\omega t)$, $\\cos^2\\theta$"), "sin(ωt), cos²θ");
+    EXPECT_EQ(plain_text("$\\left(x_{\\mathrm{tip}}\\right)$"), "(x_tip)");
+    EXPECT_EQ(to_latex("$\\exp t$"), "exp\\,$t$");
 }
 
 // Letters of one run are shaped together: "=" has another height beside a digit.

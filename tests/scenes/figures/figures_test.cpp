@@ -154,7 +154,7 @@ TEST(Figures, AnyCollisionIsShownInCloseUp) {
         EXPECT_EQ(made.code, 0) << made.err;
         const std::string caption = testing::slurp(folder / fmt::format("c{}.txt", number));
         EXPECT_THAT(caption, HasSubstr(number == 1 ? "The first collision" : "The second collision"));
-        const std::string key = "t_1 = ";
+        const std::string key = "t₁ = ";
         return std::stod(caption.substr(caption.find(key) + key.size()));
     };
     EXPECT_LT(start(1), start(2));

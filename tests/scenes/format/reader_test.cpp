@@ -166,6 +166,9 @@ TEST(Reader, PlatesAreLeftOutOneByOneOrByAPreset) {
 TEST(Reader, PicturesHaveTheUnitsOfTheScene) {
     const auto units = [](const std::string& text) { return read(text).scene->units; };
     EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "cam": {"speed": "-300 rpm"}})"), (render::Units{true, true}));
+    EXPECT_EQ(units(R"({"hub": {"drive": {"type": "prescribed", "law": "constant", "speed": "10 rpm"}},
+                        "cam": {"speed": 2, "phase": "30 deg"}})"),
+              (render::Units{true, true}));
     EXPECT_EQ(units(R"({"initial": {"angle": 1}, "cam": {"speed": "2 rad/s"}})"), render::Units{});
     EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "units": {"angle": "rad"}})"), render::Units{});
     const std::string written = to_json(*read(R"({"initial": {"angle": "60 deg"}})").scene);

@@ -470,7 +470,8 @@ TEST(Films, HoldTheirLastPictureAtTheVeryEnd) {
     const FilmTimes held = times_in(R"("hold": 0.5, "poster": "last")");
     ASSERT_EQ(held.frames.size(), 45u);
     for (std::size_t k = 30; k < 45; ++k) EXPECT_EQ(held.frames[k], 1);
-    EXPECT_EQ(held.speeds.back(), 1);  // nobody has frozen it
+    EXPECT_EQ(held.speeds[29], 1);
+    EXPECT_EQ(held.speeds.back(), 0);  // the picture says that it is frozen
     EXPECT_EQ(held.poster, 30);        // the first of them
     EXPECT_EQ(times_in(R"("poster": "last")").poster, 29);
 }
@@ -495,7 +496,7 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
               "00:00:02.000 --> 00:00:02.500\na &lt; b --&gt; c\n\n"
               "00:00:03.000 --> 00:00:04.000\nImpact 3 · t = 3.0000 s\n\n");
     EXPECT_THAT(subtitle_file(film_track(film, Lang::zh).subtitles, Subtitles::srt),
-                ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次碰撞"));
+                ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次冲击"));
 }
 
 // Empty lines would end a cue, and SubRip has no escapes for markup.
