@@ -127,7 +127,9 @@ class FfmpegDecoder : public Decoder {
             {"dsth", frame_->height}, {"dst_format", AV_PIX_FMT_RGBA}, {"sws_flags", kScaling}};
         for (const auto& [name, value] : options) av_opt_set_int(scaler_, name, value, 0);
         if (from == AV_PIX_FMT_YUV420P) av_opt_set_int(scaler_, "src_v_chr_pos", 128, 0);
-        const int* const matrix = sws_getCoefficients(frame_->colorspace);
+        // Between 16 and 8 bits swscale converts RGB through YUV, which AVCOL_SPC_RGB does not define.
+        const bool rgb = frame_->colorspace == AVCOL_SPC_RGB;
+        const int* const matrix = sws_getCoefficients(rgb ? SWS_CS_DEFAULT : static_cast<int>(frame_->colorspace));
         const bool full = frame_->color_range == AVCOL_RANGE_JPEG;
         sws_setColorspaceDetails(scaler_, matrix, full, matrix, 0, 0, 1 << 16, 1 << 16);
         const int code = sws_init_context(scaler_, nullptr, nullptr);
