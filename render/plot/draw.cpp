@@ -17,6 +17,7 @@ namespace {
 constexpr double kSideBySideFrom = 125;                    // [mm]: wider pages have panels side by side
 constexpr double kNarrowestPage = 20, kWidestPage = 2000;  // [mm]
 constexpr double kPageEdge = 1.5;                          // margin of the page [pt]
+constexpr double kSmaller = 0.85, kSmallestOnSlides = 10;  // step of letters that have no room; their least size [pt]
 
 struct Grid {
     std::size_t rows = 1, columns = 1;
@@ -34,8 +35,8 @@ class FigureLayout {
     FigureLayout(const Figure& figure, const Page& page, PageCanvas& sheet)
         : figure_(figure), page_(page), sheet_(sheet), grid_(grid_of(figure, page.width)) {}
 
-    void draw() {
-        if (figure_.panels.empty()) throw PictureError(fmt::format("figure {}: nothing to draw", figure_.name));
+    // Whether all plots have room; draws nothing.
+    bool arrange() {
         make_drawings();
         // Margins depend on the tick labels, which depend on the plots' sizes: two rounds settle that. A legend without
         // room inside its plot needs another round, and so do labels that are broken into more lines.
@@ -44,6 +45,7 @@ class FigureLayout {
             bool settled = round > 0;
             for (std::size_t i = 0; i < drawings_.size(); ++i) {
                 if (!drawings_[i]) continue;
+                if (lacks_room(i)) return false;
                 if (!drawings_[i]->place(plot(i))) settled = false;
                 // At another height a label may have one more line.
                 const Margins m = drawings_[i]->margins();
@@ -53,6 +55,10 @@ class FigureLayout {
             }
             if (settled) break;
         }
+        return true;
+    }
+
+    void draw() const {
         for (std::size_t i = 0; i < drawings_.size(); ++i) {
             if (drawings_[i])
                 drawings_[i]->draw();
@@ -60,6 +66,9 @@ class FigureLayout {
                 draw_shapes(figure_.panels[i], page_.style, sheet_, cell(i));
         }
     }
+
+    // Why the last arrangement failed: not wide enough, else not high enough.
+    bool is_narrow() const { return narrow_; }
 
   private:
     bool lowest(std::size_t i) const { return !figure_.share_x || grid_.columns > 1 || i + 1 == figure_.panels.size(); }
@@ -127,16 +136,14 @@ class FigureLayout {
     Box plot(std::size_t i) const {
         const Box c = cell(i);
         const Margins& row = margins_[i / grid_.columns];
-        const Box p{c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
-        // Tick labels need room.
-        const double letters = page_.style.letters;
-        const bool narrow = p.w < 4 * letters;
-        if (narrow || p.h < (figure_.panels[i].y.numbered ? 4 : 2) * letters)
-            throw PictureError(
-                fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
-                            "its labels; make it {}",
-                            figure_.name, page_.width, page_.height, narrow ? "wider" : "higher"));
-        return p;
+        return {c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
+    }
+
+    // Tick labels need room.
+    bool lacks_room(std::size_t i) {
+        const double lines = figure_.panels[i].y.numbered ? 4 : 2;
+        narrow_ = plot(i).w < 4 * page_.style.letters;
+        return narrow_ || plot(i).h < lines * page_.style.letters;
     }
 
     const Figure& figure_;
@@ -146,6 +153,7 @@ class FigureLayout {
     std::vector<Margins> margins_;
     double left_ = 0, right_ = 0;
     std::vector<std::unique_ptr<PanelDrawing>> drawings_;
+    bool narrow_ = false;  // the plot that lacked room
 };
 
 void append(std::string& out, double value) {
@@ -246,7 +254,19 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
     return page;
 }
 
-void draw(const Figure& figure, const Page& page, PageCanvas& sheet) { FigureLayout(figure, page, sheet).draw(); }
+void draw(const Figure& figure, const Page& page, PageCanvas& sheet) {
+    if (figure.panels.empty()) throw PictureError(fmt::format("figure {}: nothing to draw", figure.name));
+    // The large letters of a slide become smaller until all panels have room.
+    for (Page fitted = page;; fitted.style = scaled(fitted.style, kSmaller)) {
+        FigureLayout layout(figure, fitted, sheet);
+        if (layout.arrange()) return layout.draw();
+        if (kSmaller * fitted.style.letters < kSmallestOnSlides)
+            throw PictureError(
+                fmt::format("figure {}: a page of {:.4g} × {:.4g} mm leaves no room for the plot beside "
+                            "its labels; make it {}",
+                            figure.name, page.width, page.height, layout.is_narrow() ? "wider" : "higher"));
+    }
+}
 
 std::string data_csv(const Figure& figure) {
     std::string out = "panel,series,x_quantity,x,y_quantity,y,value\n";

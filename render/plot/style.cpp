@@ -92,6 +92,13 @@ PrintStyle style_of(const Column& column) {
     return s;
 }
 
+PrintStyle scaled(PrintStyle style, double factor) {
+    for (double* size : {&style.letters, &style.numbers, &style.line, &style.frame, &style.tick, &style.minor_tick,
+                         &style.gap, &style.marker})
+        *size *= factor;
+    return style;
+}
+
 // After eight colours they repeat with other dashes.
 const LineStyle& look(int k) {
     static const std::vector<LineStyle> kAll = [] {

@@ -39,6 +39,7 @@ struct PrintStyle {
     TextStyle tick_numbers() const { return {.size = numbers, .color = kInk}; }
 };
 PrintStyle style_of(const Column& column);
+PrintStyle scaled(PrintStyle style, double factor);
 
 // The k-th line of a plot: colours of Okabe & Ito (2008), with dashes and markers that distinguish lines in grey.
 enum class Marker { circle, square, triangle, diamond, down, cross };

@@ -144,6 +144,15 @@ TEST(Figures, TheTrialMethodSearchesBesideItsFirstPoints) {
     EXPECT_LE(*std::ranges::min_element(inset.series[0].y), inset.marks[0].y + 0.05);  // [ms]
 }
 
+// The letters of a slide shrink where five curves and their legend have no room beside large ones.
+TEST(Figures, OfEnergyFitOnASlide) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.5}})");
+    const Finished made = shell(folder, "$BEAMCAM figure s.json energy --column slide --theme dark -o e.png");
+    EXPECT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json energy --height 12 -o f.png").code, 3);
+}
+
 TEST(Figures, AnyCollisionIsShownInCloseUp) {
     const Folder folder;
     folder.write("s.json", R"({"beam": {"model": "rigid"}, "time": {"end": 1.2}})");
