@@ -139,10 +139,10 @@ class FigureLayout {
         return {c.x + left_, c.y + row.top, c.w - left_ - right_, c.h - row.top - row.bottom};
     }
 
-    // Tick labels need room.
+    // Tick labels need room, and so does a legend above the plot, which may extend over the right margin.
     bool lacks_room(std::size_t i) {
         const double lines = figure_.panels[i].y.numbered ? 4 : 2;
-        narrow_ = plot(i).w < 4 * page_.style.letters;
+        narrow_ = plot(i).w < std::max(4 * page_.style.letters, drawings_[i]->width_of_legend() - right_);
         return narrow_ || plot(i).h < lines * page_.style.letters;
     }
 

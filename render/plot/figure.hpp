@@ -77,7 +77,8 @@ struct ColorBar {
     std::string label = {};
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};
-    bool hidden = false;  // of an inset: the panel around it shows the bar
+    bool hidden = false;     // of an inset: the panel around it shows the bar
+    bool is_signed = false;  // signed_color, from −to to `to`; else map_color
 };
 
 // Drawn shapes of a panel without axes, in its own plane (Y up); everything must fit, proportions stay true.

@@ -21,6 +21,7 @@ class LegendBox {
     void forget() { box_.reset(); }
     void try_inside_again() { above_ = false; }
     bool is_above() const { return above_; }
+    double width_above() const { return above_ ? entry_ : 0; }  // the least
     double height_above() const { return above_ ? height_ + style_.gap : 0; }
     void draw() const;
 

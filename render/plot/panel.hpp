@@ -17,6 +17,7 @@ class PanelDrawing {
 
     // Room that numbers, labels, colour bar and a legend above need around the plot.
     Margins margins() const;
+    double width_of_legend() const { return legend_.width_above(); }  // the least of one above the plot
     // Sets the plot and places labels and legends. False: the legend finds no room; `margins` includes it from now on,
     // so lay out again.
     bool place(const Box& plot);

@@ -250,7 +250,8 @@ void PlotAxes::draw_color_bar() const {
     if (!bar_ || panel_.color_bar->hidden) return;
     const Box bar{plot_.right() + 2.2 * style_.gap, plot_.y, 0.9 * style_.letters, plot_.h};
     std::vector<Color> colors;
-    for (int k = 0; k <= 32; ++k) colors.push_back(map_color(k / 32.0));
+    for (int k = 0; k <= 32; ++k)
+        colors.push_back(panel_.color_bar->is_signed ? signed_color(k / 16.0 - 1) : map_color(k / 32.0));
     sheet_.gradient(bar, colors);
     draw_ticks(*bar_, bar, Side::right, true, 0.6 * style_.tick, 0.35 * style_.tick);
     sheet_.rectangle(bar);

@@ -138,4 +138,12 @@ Color map_color(double share) {
     return mix(kMap[i], kMap[i + 1], at - static_cast<double>(i));
 }
 
+Color signed_color(double share) {
+    constexpr Color kNeutral = rgb(0xF2F2F2), kNegative = rgb(0x053061), kPaleNegative = rgb(0x4393C3),
+                    kPositive = rgb(0x67001F), kPalePositive = rgb(0xD6604D);
+    const double size = std::min(std::abs(share), 1.0);
+    const Color middle = share < 0 ? kPaleNegative : kPalePositive, far = share < 0 ? kNegative : kPositive;
+    return size < 0.5 ? mix(kNeutral, middle, 2 * size) : mix(middle, far, 2 * size - 1);
+}
+
 }  // namespace beamcam::render::figure

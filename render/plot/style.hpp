@@ -59,5 +59,7 @@ Color on_dark(Color color);
 // Perceptually uniform, dark at 1: viridis (Smith & van der Walt 2015, CC0) from its bright end, without its palest
 // colours, which are invisible on white. `share`: 0…1, clamped.
 Color map_color(double share);
+// Of a signed quantity: blue at −1, light grey at 0, red at 1, clamped.
+Color signed_color(double share);
 
 }  // namespace beamcam::render::figure

@@ -79,12 +79,12 @@ std::string budget(const sim::Accuracy& a, Lang lang) {
     std::string models, text;
     for (const sim::ModelRow& row : a.models)
         if (row.error && row.model != a.best_model)
-            models +=
-                fmt::format("{}{} {} rad", models.empty() ? "" : ", ", sim::name(row.model), number(*row.error, 2));
+            models += fmt::format("{}{} {} rad", models.empty() ? "" : ", ", model_name(row.model, lang),
+                                  number(*row.error, 2));
     if (!models.empty())
-        text +=
-            phrase(lang, " Within {1} s the models of the beam differ from {0} by: {2}.",
-                   "前 {1} s 内各梁模型与 {0} 的差：{2}。", sim::name(a.best_model), number(a.models_until, 3), models);
+        text += phrase(lang, " Within {1} s the models of the beam differ from {0} by: {2}.",
+                       "前 {1} s 内各梁模型与{0}的差：{2}。", model_name(a.best_model, lang), number(a.models_until, 3),
+                       models);
     std::string contact;
     for (const sim::ContactRow& row : a.contact)
         if (row.error)
@@ -106,9 +106,9 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
     const double aspect = panels.size() > 1 ? 1.5 : 0.8;
     const std::string model =
         problem.beam.model == sim::ModelKind::rigid
-            ? sim::name(problem.beam.model)
-            : phrase(lang, "{}, $N$ = {} {} shapes", "{}，{} 阶 {} 模态", sim::name(problem.beam.model),
-                     problem.beam.modes, sim::name(resolved_basis(problem)));
+            ? model_name(problem.beam.model, lang)
+            : phrase(lang, "{}, $N$ = {} {} shapes", "{}，{} 个{}模态", model_name(problem.beam.model, lang),
+                     problem.beam.modes, shapes_name(resolved_basis(problem), lang));
     int repeats = 0;
     double loosest = 0, tightest = 1;
     for (const sim::WorkRow& row : a.work) {
@@ -127,7 +127,7 @@ Figure accuracy_figure(const sim::Accuracy& a, const sim::Problem& problem, Lang
             "with their range, for relative tolerances from {} to {}; the reference is rk8 at 10^{{−13}}. Model {}.{}",
             "{} 在前 {} s 内的最大误差与单核计算时间（至多 {} 次运行的中位数及范围），相对容差 {} 至 {}；参考解为 "
             "rk8，容差 "
-            "10^{{−13}}。模型 {}。{}",
+            "10^{{−13}}。{}。{}",
             angle(a), number(a.until, 4), repeats, number(loosest, 1), number(tightest, 1), model, budget(a, lang)),
         .accuracy = phrase(lang, "The reference is good to about {} rad.", "参考解自身误差约 {} rad。",
                            number(a.reference_error, 1))};

@@ -13,7 +13,7 @@ using sim::Basis;
 constexpr std::size_t kSearchedCollisions = 20;  // for a rebound
 constexpr std::array kModes{1, 2, 3, 4, 5, 6, 8};
 
-constexpr std::array kShapes{Translated{"hub–beam", "轮毂–梁"}, Translated{"cantilever", "悬臂"}};
+constexpr std::array kShapes{Basis::hub_beam, Basis::cantilever};
 
 struct ApexRun {
     Basis basis;
@@ -39,7 +39,7 @@ std::string missing_points(const std::array<std::vector<int>, 2>& missing, Lang 
     std::vector<std::string> lists;
     for (std::size_t k = 0; k < missing.size(); ++k)
         if (!missing[k].empty())
-            lists.push_back(phrase(lang, "{} shapes with $N$ = {}", "{}模态 $N$ = {}", kShapes[k].in(lang),
+            lists.push_back(phrase(lang, "{} shapes with $N$ = {}", "{}模态 $N$ = {}", shapes_name(kShapes[k], lang),
                                    fmt::join(missing[k], ", ")));
     if (lists.empty()) return {};
     return phrase(lang, "No point for {}: there the motion has no rebound, or its integration stops before it. ",
@@ -58,7 +58,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         std::vector<Series> series;  // hub–beam, cantilever
         for (int k = 0; k < 2; ++k)
             series.push_back(
-                {.label = phrase(lang, "{} shapes", "{}模态", kShapes[static_cast<std::size_t>(k)].in(lang)),
+                {.label = phrase(lang, "{} shapes", "{}模态", shapes_name(kShapes[static_cast<std::size_t>(k)], lang)),
                  .look = k,
                  .every_point = true});
         std::array<std::vector<int>, 2> missing;  // numbers of shapes without an apex
@@ -84,7 +84,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
                 .caption = phrase(lang,
                                   "Highest hub angle of the first rebound against the number $N$ of shape functions, "
                                   "model first-order. ",
-                                  "首次回弹的最大转角随形函数个数 $N$ 的变化，模型 first-order。") +
+                                  "首次回弹的最大转角随形函数个数 $N$ 的变化，一阶模型。") +
                            missing_points(missing, lang) + facts(problem, lang, {.model = true, .modes = true}),
                 .accuracy = accuracy(used, lang)};
     };

@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "render/draw/markup.hpp"
+#include "render/plot/lang.hpp"
 #include "render/plot/ticks.hpp"
 #include "sim/beam/drive.hpp"
 
@@ -17,19 +18,30 @@ namespace {
 std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI, digits) + "°"; }
 std::string speed(double value) { return number(value, 4) + " rad s^{−1}"; }
 
+}  // namespace
+
+std::string model_name(sim::ModelKind model, Lang lang) { return render::in(lang, name(model)); }
+
+std::string shapes_name(sim::Basis basis, Lang lang) {
+    return basis == sim::Basis::cantilever ? phrase(lang, "cantilever", "悬臂梁") : phrase(lang, "hub–beam", "轮毂–梁");
+}
+
+namespace {
+
 // The model exact has its own polynomials in every basis.
 std::string shapes_fact(const sim::Problem& p, Lang lang) {
     const int count = p.beam.modes;
     if (p.beam.model == sim::ModelKind::exact)
         return phrase(lang, "{} polynomial{} of the section's angle", "截面转角的 {} 个多项式", count,
                       count == 1 ? "" : "s");
-    return phrase(lang, "{} {} mode{}", "{} 阶 {} 模态", count, name(resolved_basis(p)), count == 1 ? "" : "s");
+    return phrase(lang, "{} {} mode{}", "{} 个{}模态", count, shapes_name(resolved_basis(p), lang),
+                  count == 1 ? "" : "s");
 }
 
 std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, Varied varied) {
     if (p.beam.model == sim::ModelKind::rigid && !varied.model) return {phrase(lang, "rigid beam", "刚性梁")};
     std::vector<std::string> out;
-    if (!varied.model) out.push_back(fmt::format("{} {}", phrase(lang, "model", "模型"), name(p.beam.model)));
+    if (!varied.model) out.push_back(phrase(lang, "model {}", "{}", model_name(p.beam.model, lang)));
     if (!varied.modes) out.push_back(shapes_fact(p, lang));
     const std::vector<double>& ratios = p.beam.damping_ratio;
     if (p.beam.kelvin_voigt) {
@@ -235,7 +247,7 @@ std::string accuracy(const Runs& runs, Lang lang) {
         else if (result->energy_scale > 0)
             closure = std::max(closure, result->energy_residual_max / result->energy_scale);
     }
-    const std::string but = paper ? phrase(lang, ", the model “paper” apart", "（模型 paper 除外）") : "";
+    const std::string but = paper ? phrase(lang, ", the model “paper” apart", "（论文模型除外）") : "";
     if (closure == 0) return phrase(lang, "Relative tolerance {}.", "相对容差 {}。", one_digit(rtol));
     return phrase(lang, "Relative tolerance {}; the energy balance closes to {} of its scale{}.",
                   "相对容差 {}；能量平衡闭合到其尺度的 {}{}。", one_digit(rtol), one_digit(closure), but);

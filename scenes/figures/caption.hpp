@@ -42,6 +42,9 @@ std::string grouped(double value, int decimals);  // "0.369 994": thin spaces be
 
 // ---- facts ----------------------------------------------------------------------------------------
 
+std::string model_name(sim::ModelKind model, Lang lang);  // "first-order", "一阶模型"
+std::string shapes_name(sim::Basis basis, Lang lang);     // "hub–beam", "轮毂–梁"
+
 // Parameters that a figure varies from curve to curve, and that the facts omit.
 struct Varied {
     bool model = false, modes = false, cam_speed = false;

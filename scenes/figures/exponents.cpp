@@ -1,39 +1,74 @@
+#include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "render/base/error.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/command_figures.hpp"
+#include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
 
-render::figure::Figure exponents_figure(const sim::Exponents& e, const sim::Problem& problem, Lang lang) {
-    render::figure::Panel panel{
-        .x = {.label = phrase(lang, "averaged over $t$ / s", "平均时间 $t$ / s"), .tight = true},
-        .y = {.label = "$λ$ / s^{−1}"},
-        .rules = {{.at = 0}},
-        .name = "exponents"};
+namespace {
+
+using render::figure::Panel;
+
+Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
+    Panel panel{.x = {.label = phrase(lang, "averaged over $t$ / s", "平均时间 $t$ / s"), .tight = true},
+                .y = {.label = "$λ$ / s^{−1}"},
+                .rules = {{.at = 0}},
+                .name = "exponents"};
+    for (std::size_t i = 0; i < shown; ++i)
+        if (std::isfinite(e.lambda[i]))
+            panel.series.push_back({.label = fmt::format("$λ$_{{{}}}", i + 1),
+                                    .x = e.time,
+                                    .y = e.history[i],
+                                    .look = static_cast<int>(i)});
+    return panel;
+}
+
+// The first exponents, as many as can be read on one axis with the two largest; the others are far below zero.
+std::size_t count_of_largest(const sim::Exponents& e) {
+    constexpr double kReadable = 20;
+    double size = 0;
+    for (std::size_t i = 0; i < std::min<std::size_t>(2, e.lambda.size()); ++i)
+        if (std::isfinite(e.lambda[i])) size = std::max({size, std::abs(e.lambda[i]), e.error[i]});
+    const auto far = std::ranges::find_if(e.lambda, [&](double each) { return !(each >= -kReadable * size); });
+    return static_cast<std::size_t>(far - e.lambda.begin());
+}
+
+std::string values_text(const sim::Exponents& e) {
     std::string values;
     for (std::size_t i = 0; i < e.lambda.size(); ++i) {
-        const std::string name = fmt::format("$λ$_{{{}}}", i + 1), separator = i > 0 ? ", " : "";
-        if (!std::isfinite(e.lambda[i])) {
-            values += separator + name + " = −∞";
-            continue;
-        }
-        panel.series.push_back({.label = name, .x = e.time, .y = e.history[i], .look = static_cast<int>(i)});
-        values +=
-            fmt::format("{}{} = {} ± {} s^{{−1}}", separator, name, number(e.lambda[i], 4), number(e.error[i], 1));
+        const std::string name = fmt::format("{}$λ$_{{{}}}", i > 0 ? ", " : "", i + 1);
+        values += std::isfinite(e.lambda[i])
+                      ? fmt::format("{} = {} ± {} s^{{−1}}", name, number(e.lambda[i], 4), number(e.error[i], 1))
+                      : name + " = −∞";
     }
-    if (panel.series.empty())
+    return values;
+}
+
+}  // namespace
+
+render::figure::Figure exponents_figure(const sim::Exponents& e, const sim::Problem& problem, Lang lang) {
+    std::vector<Panel> panels{panel_of(e, e.lambda.size(), lang)};
+    if (panels[0].series.empty())
         throw render::PictureError("exponents: all are −∞, because the contact lasts; there is nothing to draw");
+    const std::size_t largest = count_of_largest(e);
+    const bool both = largest > 0 && largest < panels[0].series.size();
+    if (both) panels.insert(panels.begin(), panel_of(e, largest, lang));
     return {.name = "exponents",
             .title = phrase(lang, "Lyapunov exponents", "Lyapunov 指数"),
-            .panels = {std::move(panel)},
+            .panels = lettered(std::move(panels)),
+            .aspect = both ? 1.2 : 0.66,
             .caption = phrase(lang,
                               "Convergence of the Lyapunov exponents after a transient of {} s, over {} s with {} "
-                              "impacts ({} near grazing): {}. {}",
-                              "经 {} s 暂态后，{} s 内（{} 次碰撞，其中 {} 次近擦边）Lyapunov 指数的收敛：{}。{}",
-                              number(e.transient, 4), number(e.duration, 4), e.impacts, e.near_grazing, values,
-                              facts(problem, lang)),
+                              "impacts ({} near grazing){}: {}. {}",
+                              "经 {} s 暂态后，{} s 内（{} 次冲击，其中 {} 次近擦边）Lyapunov 指数的收敛{}：{}。{}",
+                              number(e.transient, 4), number(e.duration, 4), e.impacts, e.near_grazing,
+                              both ? phrase(lang, ", (a) the largest, (b) all", "，(a) 最大者，(b) 全部") : "",
+                              values_text(e), facts(problem, lang)),
             .accuracy = phrase(lang, "Errors are standard errors of block averages.", "误差为分块平均的标准误差。")};
 }
 

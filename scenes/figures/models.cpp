@@ -32,10 +32,6 @@ struct Rung {
     std::size_t study = 0, table = 0;
 };
 
-std::string shapes(Basis basis, Lang lang) {
-    return basis == Basis::cantilever ? phrase(lang, "cantilever", "悬臂") : phrase(lang, "hub–beam", "轮毂–梁");
-}
-
 // The reference first. Models are compared in the same shapes and number of modes; the paper's equation, which only the
 // paper's scenes show, has cantilever shapes only. The effect of other shapes is shown separately.
 std::vector<Rung> rungs(const Scene& scene, Lang lang) {
@@ -46,10 +42,10 @@ std::vector<Rung> rungs(const Scene& scene, Lang lang) {
     std::vector<Rung> all;
     for (const ModelKind model :
          {ModelKind::second_order, ModelKind::first_order, ModelKind::zeroth_order, ModelKind::paper, ModelKind::rigid})
-        if (model != ModelKind::paper || paper) all.push_back({model, own, true, name(model)});
+        if (model != ModelKind::paper || paper) all.push_back({model, own, true, model_name(model, lang)});
     all.push_back({ModelKind::second_order, other, false,
-                   phrase(lang, "second-order, {} shapes", "second-order，{}模态", shapes(other, lang))});
-    all.push_back({ModelKind::exact, Basis::automatic, false, name(ModelKind::exact)});
+                   phrase(lang, "second-order, {} shapes", "二阶模型，{}模态", shapes_name(other, lang))});
+    all.push_back({ModelKind::exact, Basis::automatic, false, model_name(ModelKind::exact, lang)});
     for (Rung& rung : all) {
         rung.problem = problem;
         const sim::Beam& beam = rung.problem.beam;
@@ -94,11 +90,11 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
         "The models of the beam compared: (a) hub angle; (b) largest difference so far from the model "
         "second-order, with {0} {1} modes in all models, so that only the model differs; (c) the same difference "
         "for other shapes: {2} modes, and the polynomials of the model exact (inextensible elastica). ",
-        "各梁模型比较：(a) 转角；(b) 与 second-order 模型之差迄今的最大值，均用 {0} "
-        "阶{1}模态，故仅为模型之差；(c) "
-        "其他形函数的同一差值：{2}模态，以及 exact（不可伸长弹性线）模型的多项式。",
-        reference.problem.beam.modes, shapes(reference.basis, lang),
-        shapes(found(all, ModelKind::second_order, false)->basis, lang));
+        "各梁模型比较：(a) 转角；(b) 与二阶模型之差迄今的最大值，均用 {0} "
+        "个{1}模态，故仅为模型之差；(c) "
+        "其他形函数的同一差值：{2}模态，以及精确模型（不可伸长弹性线）的多项式。",
+        reference.problem.beam.modes, shapes_name(reference.basis, lang),
+        shapes_name(found(all, ModelKind::second_order, false)->basis, lang));
     const auto reference_apex = apex(ModelKind::second_order, true), other_apex = apex(ModelKind::second_order, false),
                first = apex(ModelKind::first_order, true), printed = apex(ModelKind::paper, true);
     if (found(all, ModelKind::paper, true))
@@ -106,10 +102,10 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
             phrase(lang,
                    "The model “paper” is the paper's eq. (4) as printed, with the sign of gravity from its eq. (2); "
                    "it does not conserve energy. ",
-                   "模型 paper 为原文式 (4)，仅重力符号取自式 (2)，其能量不守恒。");
+                   "论文模型为原文式 (4)，仅重力符号取自式 (2)，其能量不守恒。");
     if (first && printed)
         text += phrase(lang, "The apex of the first rebound differs by {} rad between eq. (4) and first-order. ",
-                       "式 (4) 与 first-order 的首次回弹最高点相差 {} rad。", number(std::abs(*first - *printed), 1));
+                       "式 (4) 与一阶模型的首次回弹最高点相差 {} rad。", number(std::abs(*first - *printed), 1));
     if (reference_apex && other_apex)
         text += phrase(lang,
                        "The other shapes change the apex of the first rebound by {} rad; this is an effect of the "

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "scenes/figures/figure_types.hpp"
 
@@ -25,16 +26,19 @@ int rows_of(double period, const std::vector<double>& time) {
     return time.size() < 2 ? 0 : static_cast<int>(std::lround(period / (time[1] - time[0])));
 }
 
-// The mean of `rows` values around each value; of fewer at the ends.
-std::vector<double> mean(const std::vector<double>& values, int rows) {
+// The mean of 2·half + 1 values around each value that has so many.
+std::vector<double> mean(const std::vector<double>& values, std::size_t half) {
     std::vector<double> sums{0}, out;
     for (const double v : values) sums.push_back(sums.back() + v);
-    const auto half = static_cast<std::size_t>(rows / 2), count = values.size();
-    for (std::size_t i = 0; i < count; ++i) {
-        const std::size_t reach = std::min({half, i, count - 1 - i});
-        out.push_back((sums[i + reach + 1] - sums[i - reach]) / static_cast<double>(2 * reach + 1));
-    }
+    for (std::size_t i = half; i + half < values.size(); ++i)
+        out.push_back((sums[i + half + 1] - sums[i - half]) / static_cast<double>(2 * half + 1));
     return out;
+}
+
+// The curve without its vibration; it begins and ends half a period within the motion.
+void average(Series& s, std::size_t half) {
+    s.x = mean(s.x, half), s.y = mean(s.y, half);
+    s.value = {s.value.begin() + static_cast<std::ptrdiff_t>(half), s.value.end() - static_cast<std::ptrdiff_t>(half)};
 }
 
 Series portrait(const sim::Table& table) {
@@ -67,26 +71,26 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
         Panel panel{.x = {.label = "$θ$ / rad"},
                     .y = {.label = "$\\dot{θ}$ / (rad s^{−1})"},
                     .rules = {{.at = 0}},
-                    .color_bar = render::figure::ColorBar{.label = "$t$ / s"},
+                    .color_bar = render::figure::ColorBar{.label = "$t$ / s", .from = 0, .to = end},
                     .legend = Legend::none};
         Series s = portrait(result.tables[table]);
         s.value = column(result.tables[table], ChannelKind::t);
-        const int period = rows_of(first, s.value);
-        if (period > 1) {
-            Series& raw = panel.series.emplace_back(portrait(result.tables[curve]));  // in grey beneath the mean
-            raw.color = render::rgb(0xD2D2D2), raw.weight = 0.35, raw.name = "with vibration";
-            s.name = "mean over a period";
-            s.x = mean(s.x, period);
-            s.y = mean(s.y, period);
-        }
         if (!s.x.empty())
             panel.marks.push_back(
                 {.x = s.x.front(), .y = s.y.front(), .label = phrase(lang, "start", "起点"), .look = 6});
+        const int period = rows_of(first, s.value);
+        const bool averaged = period > 1 && std::cmp_less(2 * period, s.x.size());
+        if (averaged) {
+            Series& raw = panel.series.emplace_back(portrait(result.tables[curve]));  // in grey beneath the mean
+            raw.color = render::rgb(0xD2D2D2), raw.weight = 0.35, raw.name = "with vibration";
+            s.name = "mean over a period";
+            average(s, static_cast<std::size_t>(period / 2));
+        }
         panel.series.push_back(std::move(s));
         const bool has_impacts = !strikes(problem, result.impacts, 0, end).empty();  // the run may be longer
         return {.panels = {std::move(panel)},
                 .aspect = 0.75,
-                .caption = phase_caption(period > 1, has_impacts, lang) + facts(problem, lang),
+                .caption = phase_caption(averaged, has_impacts, lang) + facts(problem, lang),
                 .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }

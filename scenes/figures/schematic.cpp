@@ -228,11 +228,20 @@ class Drawing : private Sketch {
     }
 
     bool is_flexible() const { return p_.beam.model != sim::ModelKind::rigid; }
+    double support_share() const {
+        if (p_.initial.shape != sim::InitialShape::resting || !p_.cam || theta_ != start_angle(p_)) return 0;
+        const Vec2 b = disc_centre(*p_.cam, 0);
+        const double reach = p_.cam->radius + contact_offset(p_);
+        const double along = std::sqrt(std::max(0.0, norm(b) * norm(b) - reach * reach)) - p_.hub.radius;
+        return std::clamp(along / p_.beam.length, 0.0, 0.9);
+    }
     // The deflected centre line: a clamped beam's sag, drawn far larger than it is.
     Vec2 on_beam(double share) const {
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
-        const double s = share, sag = is_flexible() ? -0.085 * size_ * (s * s * (6 - 4 * s + s * s)) / 3 : 0;
-        return (p_.hub.radius + s * p_.beam.length) * i + sag * j;
+        // A beam that rests on the cam touches it where the tangent does, and sags beyond.
+        const double support = support_share(), s = std::max(0.0, (share - support) / (1 - support));
+        const double sag = is_flexible() ? -0.085 * size_ * (1 - support) * (s * s * (6 - 4 * s + s * s)) / 3 : 0;
+        return (p_.hub.radius + share * p_.beam.length) * i + sag * j;
     }
 
     void beam() {
@@ -267,7 +276,8 @@ class Drawing : private Sketch {
             arrow({0, 0}, a * sim::unit(-0.8));
             label(a * sim::unit(-0.8), "$a$", {0.6, -0.5});
         } else {
-            label({0, 0}, "$a$ = 0", {-3.5, -0.9}, kGrey);
+            const std::string radius = a < 0 ? "$a$ < 0" : "$a$ = 0";
+            label({0, 0}, radius.c_str(), {-3.5, -0.9}, kGrey);
         }
         add({.kind = Kind::disc, .centre = {0, 0}, .radius_points = 3, .color = render::rgb(0xFFFFFF)});
         add({.kind = Kind::circle, .centre = {0, 0}, .radius_points = 3, .color = kInk, .width = 0.9});

@@ -27,6 +27,19 @@ struct Spectrogram {
     std::size_t windows() const { return amplitude.size() / lines; }
 };
 
+// Without the straight line that fits best, which would spread over all frequencies.
+std::vector<double> without_trend(std::vector<double> v) {
+    const double middle = 0.5 * (static_cast<double>(v.size()) - 1);
+    double sum = 0, moment = 0, squares = 0;
+    for (std::size_t i = 0; i < v.size(); ++i) {
+        const double x = static_cast<double>(i) - middle;
+        sum += v[i], moment += x * v[i], squares += x * x;
+    }
+    for (std::size_t i = 0; i < v.size(); ++i)
+        v[i] -= sum / static_cast<double>(v.size()) + moment / squares * (static_cast<double>(i) - middle);
+    return v;
+}
+
 // `rows`: equally spaced. The window's length becomes a power of two of samples.
 Spectrogram spectrogram(const sim::Table& rows, double window, double highest) {
     const std::vector<double>&t = rows.values.front(), &v = rows.values.back();
@@ -41,7 +54,8 @@ Spectrogram spectrogram(const sim::Table& rows, double window, double highest) {
     out.lines = (shown + group - 1) / group, out.line = static_cast<double>(group) / out.window;
     for (std::size_t from = 0; from + count <= v.size(); from += hop) {
         const auto begin = v.begin() + static_cast<std::ptrdiff_t>(from);
-        const sim::Spectrum one = sim::amplitude_spectrum({begin, begin + static_cast<std::ptrdiff_t>(count)}, step);
+        const sim::Spectrum one =
+            sim::amplitude_spectrum(without_trend({begin, begin + static_cast<std::ptrdiff_t>(count)}), step);
         for (std::size_t k = 0; k < out.lines; ++k)
             out.amplitude.push_back(*std::max_element(
                 one.amplitude.begin() + static_cast<std::ptrdiff_t>(k * group),
@@ -88,10 +102,10 @@ render::figure::Cells cells_of(const Spectrogram& s, double most, double factor)
 std::string spectrogram_caption(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
     return phrase(
         lang,
-        "{}: amplitude by frequency and time, a Hann window of {} s every {} s ({} samples per second), "
-        "resolution "
-        "{} Hz; amplitudes below a thousandth of the largest are white. ",
-        "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），分辨率 {} Hz；小于最大值千分之一者不显示。",
+        "{}: amplitude by frequency and time, a Hann window of {} s every {} s ({} samples per second), each "
+        "without its linear trend, resolution {} Hz; amplitudes below a thousandth of the largest are white. ",
+        "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），各窗去除线性趋势，分辨率 {} "
+        "Hz；小于最大值千分之一者不显示。",
         series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3), number(s.hop, 2),
         number(rate, 4), number(1.5 / s.window, 2));
 }

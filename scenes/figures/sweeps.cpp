@@ -96,12 +96,21 @@ std::string tolerance_text(const SweptPoints& points) {
 
 constexpr std::uint32_t kValueColors[] = {0x000000, 0xD55E00, 0x0072B2, 0x009E73, 0xCC79A7, 0xE69F00};
 
-// A cloud for each value of one key, if they are few; else one of all.
+bool has_many_values(const SweptPoints& points) {
+    return points.data.axes.size() == 1 && points.axis(0).values.size() > std::size(kValueColors);
+}
+
+// A cloud for each value of one key, in the colours of a map if they are many; of two keys one cloud.
 std::vector<figure::Cloud> clouds_of_values(const SweptPoints& points) {
     const output::SweepAxis& axis = points.axis(0);
-    if (points.data.axes.size() > 1 || axis.values.size() > std::size(kValueColors))
-        return {{"", {}, {}, rgb(0x000000)}};
+    if (points.data.axes.size() > 1) return {{"", {}, {}, rgb(0x000000)}};
     std::vector<figure::Cloud> clouds;
+    if (has_many_values(points)) {
+        const auto [least, most] = std::ranges::minmax(axis.values);
+        for (const double value : axis.values)
+            clouds.push_back({.color = figure::map_color((value - least) / (most - least))});
+        return clouds;
+    }
     for (std::size_t i = 0; i < axis.values.size(); ++i)
         clouds.push_back({value_label(symbol_of(axis.name), axis.values[i], axis.unit), {}, {}, rgb(kValueColors[i])});
     if (clouds.size() == 1) clouds[0].label.clear();
@@ -128,12 +137,17 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
     const auto axis = [&](std::size_t c, const char* en, const char* zh) -> render::Axis {
         return {.label = column_label(points, c) + (next ? phrase(points.lang, en, zh) : "")};
     };
-    return {.panels = {{.x = axis(cx, ", impact $k$", "，第 $k$ 次碰撞"),
-                        .y = axis(cy, ", impact $k$ + 1", "，第 $k$ + 1 次碰撞"),
+    figure::Panel panel{.x = axis(cx, ", impact $k$", "，第 $k$ 次冲击"),
+                        .y = axis(cy, ", impact $k$ + 1", "，第 $k$ + 1 次冲击"),
                         .clouds = std::move(clouds),
                         .legend = figure::Legend::box,
-                        .name = y}},
-            .aspect = 0.9};
+                        .name = y};
+    if (has_many_values(points)) {
+        const auto [least, most] = std::ranges::minmax(points.axis(0).values);
+        panel.color_bar = figure::ColorBar{
+            .label = axis_label(symbol_of(points.axis(0).name), points.axis(0).unit), .from = least, .to = most};
+    }
+    return {.panels = {std::move(panel)}, .aspect = 0.9};
 }
 
 // ---- the figures by name --------------------------------------------------------------------------

@@ -1,6 +1,7 @@
 #include "sim/observe/impacts.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace beamcam::sim {
 namespace {
@@ -97,17 +98,25 @@ void ImpactRecorder::finish(double t, const double* y) {
     result_.collisions.back().energy_lost -= stored;
 }
 
+// θ where the time between collision i and the next one ends.
+static double theta_after(const Result& result, std::size_t i) {
+    if (i + 1 == result.collisions.size()) return result.end_theta;
+    const double next = result.collisions[i + 1].t_start;
+    const auto touch = std::ranges::find(result.impacts, next, &Impact::t_start);
+    return touch != result.impacts.end() && touch->at_touch ? touch->at_touch->theta
+                                                            : -std::numeric_limits<double>::infinity();
+}
+
 std::vector<Apex> rebounds(const Result& result) {
     const std::vector<Collision>& all = result.collisions;
     if (all.empty()) return result.apexes;
     std::vector<Apex> out;
     for (std::size_t i = 0; i < all.size(); ++i) {
-        const bool last = i + 1 == all.size();
-        const double from = all[i].t_start, to = last ? result.end_time : all[i + 1].t_start;
+        const double from = all[i].t_start, to = i + 1 < all.size() ? all[i + 1].t_start : result.end_time;
         std::optional<Apex> highest;
         for (const Apex& apex : result.apexes)
             if (apex.t > from && apex.t < to && (!highest || apex.theta > highest->theta)) highest = apex;
-        if (highest && !(last && result.end_theta > highest->theta)) out.push_back(*highest);
+        if (highest && highest->theta >= theta_after(result, i)) out.push_back(*highest);
     }
     return out;
 }
