@@ -216,10 +216,21 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
     const sim::OrbitRequest request = request_of(args, problem);
     Progress progress(run_options(args.common, "").progress);
-    progress.begin("orbits", range ? 0 : 1, "");
-    const auto goes_on = [](double) { return !output::interrupted(); };
-    table.orbits = sim::find_orbits(problem, request, goes_on);
-    if (range) follow_branches(table, *family, *range, request, args, goes_on);
+    progress.begin("transient", request.transient, "s");
+    table.orbits = sim::find_orbits(problem, request, [&](double t) {
+        progress.reach(std::min(t, request.transient));
+        return !output::interrupted();
+    });
+    if (range) {
+        progress.begin("branches", args.most_points, "points");
+        double last = table.start;
+        long points = 0;
+        follow_branches(table, *family, *range, request, args, [&](double value) {
+            if (value != last) progress.reach(static_cast<double>(++points));
+            last = value;
+            return !output::interrupted();
+        });
+    }
     progress.end();
     return table;
 }

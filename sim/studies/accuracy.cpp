@@ -34,10 +34,12 @@ class Trials {
 
     bool of_tip() const { return angle_.of_tip(); }
 
-    // The completed fraction of the whole before the next trials.
-    void begin(double share) {
+    // The completed fraction of the whole before the next trials, and what these add.
+    void begin(double share, double more) {
         share_ = share;
-        if (!report()) throw Interrupted();
+        more_ = more;
+        runs_ = 0;
+        if (!report(0)) throw Interrupted();
     }
 
     // With samples of the angle if `sampled`. Nothing after `limit` seconds. Throws the exceptions of simulate.
@@ -54,8 +56,8 @@ class Trials {
         bool stopped = false;
         TrialRun run;
         try {
-            run.result = simulate(problem, request, [&](double) {
-                stopped = seconds_since(start) <= limit && !report();
+            run.result = simulate(problem, request, [&](double t) {
+                stopped = seconds_since(start) <= limit && !report(std::min(1.0, t / end));
                 return seconds_since(start) <= limit && !stopped;
             });
         } catch (const Interrupted&) {
@@ -63,6 +65,8 @@ class Trials {
             return std::nullopt;
         }
         run.seconds = seconds_since(start);
+        ++runs_;
+        if (!report(0)) throw Interrupted();
         if (!sampled) return run;
         run.angle = std::move(run.result.tables[0].values[0]);
         for (double& value : run.angle) value *= angle_.scale;
@@ -111,7 +115,9 @@ class Trials {
 
   private:
     static std::string too_long(double limit) { return fmt::format("{}: longer than {:g} s", kLeftOut, limit); }
-    bool report() { return !report_ || report_(share_); }  // false: interrupted by the user
+    // False: interrupted by the user. How many runs follow `runs_` and the part of the present one is not known: the
+    // first half of what they add is shown after one, two thirds after two.
+    bool report(double part) { return !report_ || report_(share_ + more_ * (1 - 1 / (1 + runs_ + part))); }
 
     void compare(AccuracyRow& row, const TrialRun& run, const TrialRun& truth, double end) const {
         double worst = 0;
@@ -137,7 +143,8 @@ class Trials {
     const ComparedAngle angle_;
     const double target_;  // [rad]
     const Report& report_;
-    double share_ = 0;
+    double share_ = 0, more_ = 0;
+    int runs_ = 0;
     Clock::time_point started_ = Clock::now();
 };
 
@@ -177,7 +184,7 @@ class Assessment {
     // The reference is rk8 at the tightest tolerance; its own error is estimated by a tenfold tolerance. All
     // comparisons end where the scene's own settings no longer reproduce the motion.
     void compute_reference() {
-        trials_.begin(0);
+        trials_.begin(0, 0.1);
         const TrialRun mine = simulate_reference(problem_, request_.end_time);
         const TrialRun truth = simulate_reference(with(kReferenceRtol, Method::rk8), request_.end_time);
         double until = request_.end_time;
@@ -214,7 +221,7 @@ class Assessment {
         for (const Method method : request_.methods) {
             bool too_long = false;
             for (const double rtol : request_.rtols) {
-                trials_.begin(0.1 + 0.5 * done++ / all);
+                trials_.begin(0.1 + 0.5 * done++ / all, 0.5 / all);
                 WorkRow row;
                 row.method = method;
                 row.rtol = rtol;
@@ -238,8 +245,9 @@ class Assessment {
         const Row* first = nullptr;
         TrialRun truth;
         for (Row& row : rows) {
-            trials_.begin(share);
-            share += 0.15 / static_cast<double>(rows.size());
+            const double more = 0.15 / static_cast<double>(rows.size());
+            trials_.begin(share, more);
+            share += more;
             const Problem variant = variant_of(row);
             bool affordable = first != nullptr;
             for (double part = 1; !first && !affordable && part >= shortest; part /= 2) {
@@ -297,7 +305,7 @@ class Assessment {
         const double limit = kReferenceRuns * request_.longest_run;
         const TrialRun truth = simulate_reference(problem_, out_.until);
         const auto add = [&](std::string change, const Problem& variant) {
-            trials_.begin(0.92);
+            trials_.begin(0.92 + 0.015 * static_cast<double>(out_.contact.size()), 0.015);
             ContactRow& row = out_.contact.emplace_back();
             row.change = std::move(change);
             trials_.measure(row, variant, truth, out_.until, limit, 1);
@@ -352,7 +360,7 @@ class Assessment {
         if (r.rtol == 0 || r.until <= 0) return;
         Problem chosen = with(r.rtol);
         set_shapes(chosen, chosen.beam.model, chosen.beam.basis, r.modes);
-        trials_.begin(0.97);
+        trials_.begin(0.97, 0.03);
         const double limit = kReferenceRuns * request_.longest_run;
         try {
             const auto timing = trials_.time(chosen, r.until, limit, request_.repeats, limit * request_.repeats);
