@@ -1,5 +1,7 @@
 #include "sim/base/numerics.hpp"
 
+#include <map>
+#include <mutex>
 #include <numbers>
 #include <vector>
 
@@ -11,23 +13,48 @@ void legendre(double z, int count, double* values) {
     for (int j = 1; j + 1 < count; ++j) values[j + 1] = ((2 * j + 1) * z * values[j] - j * values[j - 1]) / (j + 1);
 }
 
+namespace {
+
+// Nodes on [−1, 1], and 2 over their weights, by Newton's method.
+struct GaussRule {
+    explicit GaussRule(int n) {
+        std::vector<double> p(static_cast<std::size_t>(n) + 1);
+        for (int k = 0; k < n; ++k) {
+            double z = -std::cos(std::numbers::pi * (k + 0.75) / (n + 0.5));
+            double slope = 1;
+            for (int iteration = 0; iteration < 20; ++iteration) {
+                legendre(z, n + 1, p.data());
+                const double pn = p[static_cast<std::size_t>(n)], pm = p[static_cast<std::size_t>(n) - 1];
+                slope = n * (pm - z * pn) / (1 - z * z);
+                const double dz = pn / slope;
+                z -= dz;
+                if (std::fabs(dz) < 1e-15) break;
+            }
+            nodes.push_back(z);
+            inverse_weights.push_back((1 - z * z) * slope * slope);
+        }
+    }
+    std::vector<double> nodes, inverse_weights;
+};
+
+// Every model of so many shapes needs the same few rules.
+const GaussRule& gauss_rule(int n) {
+    static std::mutex mutex;
+    static std::map<int, GaussRule> rules;
+    const std::lock_guard lock(mutex);
+    return rules.try_emplace(n, n).first->second;
+}
+
+}  // namespace
+
 Quadrature gauss_legendre(int n, double length) {
     BEAMCAM_ASSERT(n >= 1 && length > 0);
+    const GaussRule& unit = gauss_rule(n);
     Quadrature rule{Eigen::VectorXd(n), Eigen::VectorXd(n)};
-    std::vector<double> p(static_cast<std::size_t>(n) + 1);
     for (int k = 0; k < n; ++k) {
-        double z = -std::cos(std::numbers::pi * (k + 0.75) / (n + 0.5));
-        double slope = 1;
-        for (int iteration = 0; iteration < 20; ++iteration) {
-            legendre(z, n + 1, p.data());
-            const double pn = p[static_cast<std::size_t>(n)], pm = p[static_cast<std::size_t>(n) - 1];
-            slope = n * (pm - z * pn) / (1 - z * z);
-            const double dz = pn / slope;
-            z -= dz;
-            if (std::fabs(dz) < 1e-15) break;
-        }
-        rule.x[k] = 0.5 * length * (1 + z);
-        rule.w[k] = length / ((1 - z * z) * slope * slope);
+        const auto i = static_cast<std::size_t>(k);
+        rule.x[k] = 0.5 * length * (1 + unit.nodes[i]);
+        rule.w[k] = length / unit.inverse_weights[i];
     }
     return rule;
 }
