@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
@@ -181,11 +182,11 @@ ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t
 // Bounds of x = q − f/ω², ẋ and ẍ. It is driven by g = −(f″ + 2γf′)/ω². From a point on, √(x² + (ẋ/ω)²) grows by at
 // most |g|/ω times the time; it is the same in both directions without damping. In two decays r₁ < r₂ the fast one is
 // u = ẋ + r₁x with u̇ = −r₂u + g.                                                                          (S59)
-ExponentialSegment::Swing ExponentialSegment::swing_of(std::size_t i, const ForcingBounds& forcing) const {
+ExponentialSegment::Distance ExponentialSegment::distance_of(std::size_t i, const ForcingBounds& forcing) const {
     const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
     const double driven = (forcing.second[lane] + 2 * o.gamma * forcing.rate[lane]) / (o.omega * o.omega);
-    Swing out;
+    Distance out;
     if (!decays(o)) {
         double square = 0;
         for (std::size_t k = o.gamma > 0 ? 0 : 1; k < kPoints; ++k) {
@@ -196,27 +197,56 @@ ExponentialSegment::Swing ExponentialSegment::swing_of(std::size_t i, const Forc
         out.value = std::sqrt(square) + time * driven / o.omega;
         out.rate = o.omega * out.value;
         out.second = (o.omega * o.omega + 2 * o.gamma * o.omega) * out.value + driven;
-        out.fast = out.value;
-        out.fast_rate = out.rate;
-        out.frequency = o.omega + 2 * o.gamma;
         return out;
     }
     const Decays d = decays_of(o);
-    const double time = 2 * kFarthestFromNode * h;
+    const double time = 2 * kFarthestFromNode * h, memory = std::min(time, 1 / d.fast), lasting = driven * memory;
     double started = 0;  // |u| at a point
     for (std::size_t k = 0; k < kPoints; ++k) {
         out.value = std::max(out.value, std::fabs(forcing.x[k][lane]));
         started = std::max(started, std::fabs(forcing.dx[k][lane] + d.slow * forcing.x[k][lane]));
     }
-    const double memory = std::min(time, 1 / d.fast), lasting = driven * memory, fast = started + lasting;
     out.value += started * memory + lasting * time;
-    out.rate = fast + d.slow * out.value;
-    out.second = d.fast * fast + driven + d.slow * out.rate;
-    const bool resolved = d.slow * h < kResolvedRadians;
-    out.fast = resolved ? fast / d.apart() : out.value;
-    out.fast_rate = resolved ? fast * d.fast / d.apart() : out.rate;
-    out.frequency = d.fast;
+    out.rate = started + lasting + d.slow * out.value;
+    out.second = d.fast * (started + lasting) + driven + d.slow * out.rate;
     return out;
+}
+
+// The response to a forcing that is a polynomial is a polynomial p = Σ c_j f⁽ʲ⁾ and a free vibration, which the state
+// at the start determines. Without damping its amplitude is constant; with less than the critical one √(x² + (ẋ/ω)²) is
+// at most √((1 + ζ)/(1 − ζ)) e^(−γτ) times that at the start. Two decays respond separately (S52a); a slow one may be a
+// polynomial by itself.
+void ExponentialSegment::set_swing(std::size_t i, ModalBounds::Mode& mode) const {
+    const Oscillator& o = form_->oscillators[i];
+    const int lane = static_cast<int>(i % kNodes);
+    const Lanes* derivatives = taylor_.data() + i / kNodes * kNodes;
+    if (!decays(o)) {
+        const double square = o.omega * o.omega;
+        double before = 0, here = 1 / square, p = 0, slope = 0;
+        for (int j = 0; j < kNodes; ++j) {
+            p += here * derivatives[j][lane];
+            if (j + 1 < kNodes) slope += here * derivatives[j + 1][lane];
+            before = std::exchange(here, -(2 * o.gamma * here + before) / square);
+        }
+        const double amplitude = std::min(2 * mode.amplitude, std::hypot(q0[i] - p, (v0[i] - slope) / o.omega));
+        const double ratio = o.gamma / o.omega;
+        mode.swings[0] = {amplitude,
+                          o.omega * amplitude,
+                          (square + 2 * o.gamma * o.omega) * amplitude,
+                          o.omega + 2 * o.gamma,
+                          ratio < 1 ? o.gamma : 0,
+                          ratio < 1 ? std::sqrt((1 + ratio) / (1 - ratio)) : 1};
+        return;
+    }
+    const Decays d = decays_of(o);
+    const auto free_part = [&](double decay, double sign, double start) -> ModalBounds::Mode::Swing {
+        double p = 0, factor = sign / (decay * d.apart());
+        for (int j = 0; j < kNodes; ++j, factor *= -1 / decay) p += factor * derivatives[j][lane];
+        const double value = std::min(2 * mode.amplitude, std::fabs(start - p));
+        return {value, decay * value, decay * decay * value, decay, decay, 1};
+    };
+    mode.swings[0] = free_part(d.fast, -1, -(v0[i] + d.slow * q0[i]) / d.apart());
+    if (!(d.slow * h < kResolvedRadians)) mode.swings[1] = free_part(d.slow, 1, (v0[i] + d.fast * q0[i]) / d.apart());
 }
 
 // q = x + f/ω².
@@ -225,14 +255,13 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const ForcingBo
     const Oscillator& o = form_->oscillators[i];
     const double force = largest_[i].force, square = o.omega * o.omega, force_rate = forcing.rate[lane];
     ModalBounds::Mode mode;
-    mode.amplitude = mode.swing = largest_[i].amplitude;
-    mode.rate = mode.swing_rate = largest_[i].rate;
-    mode.swing_frequency = o.omega;
+    mode.amplitude = largest_[i].amplitude;
+    mode.rate = largest_[i].rate;
     mode.acceleration = square * mode.amplitude + force + 2 * o.gamma * mode.rate;
     mode.low = -mode.amplitude;
     mode.high = mode.amplitude;
     if (o.omega > 0) {
-        const Swing x = swing_of(i, forcing);
+        const Distance x = distance_of(i, forcing);
         const double mean = forcing.mean[lane] / square, range = forcing.range[lane] / square + x.value;
         mode.low = std::max(mode.low, mean - range);
         mode.high = std::min(mode.high, mean + range);
@@ -241,9 +270,7 @@ ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const ForcingBo
         // q̈ + 2γq̇ = −ω²x, or ẍ + f″/ω².
         mode.acceleration = std::min(
             {mode.acceleration, square * x.value + 2 * o.gamma * mode.rate, x.second + forcing.second[lane] / square});
-        mode.swing = std::min(2 * mode.amplitude, x.fast);
-        mode.swing_rate = x.fast_rate;
-        mode.swing_frequency = x.frequency;
+        set_swing(i, mode);
     }
     mode.set_frequencies(square * mode.rate + force_rate + 2 * o.gamma * mode.acceleration);
     return mode;
@@ -271,6 +298,8 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     bounds();
     ModalBounds& b = modal_bounds_;
     b.modes.resize(n_);
+    transpose();
+    expand(0);
     const LegendreDecay torque = legendre_decay(p_dot);
     double missed = largest(theta_dot) * torque.last * (touching ? 1 : torque.ratio);
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {

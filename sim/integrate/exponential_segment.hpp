@@ -73,11 +73,11 @@ class ExponentialSegment final : public StoredSegment {
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     struct ForcingBounds;
-    // `fast`: of the part that is too fast for the nodes.
-    struct Swing {
-        double value = 0, rate = 0, second = 0, fast = 0, fast_rate = 0, frequency = 0;
+    struct Distance {  // of a mode from its forcing: bounds of it and its derivatives
+        double value = 0, rate = 0, second = 0;
     };
-    Swing swing_of(std::size_t mode, const ForcingBounds& forcing) const;
+    Distance distance_of(std::size_t mode, const ForcingBounds& forcing) const;
+    void set_swing(std::size_t mode, ModalBounds::Mode& bounds) const;
     ForcingBounds forcing_bounds(std::size_t group, const Lanes* legendre) const;
     ModalBounds::Mode mode_bounds(std::size_t mode, const ForcingBounds& forcing) const;
     double missed_power(std::size_t group, const Lanes* legendre) const;

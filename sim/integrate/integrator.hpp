@@ -3,6 +3,8 @@
 // events end a segment early.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
@@ -43,8 +45,17 @@ struct ModalBounds {
         double low = 0, high = 0;                          // of q [m]
         double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
         double q_frequency = 0, rate_frequency = 0;        // |q̈| ≤ q_frequency² amplitude, so for q̇ [rad/s]
-        // The part that no polynomial through the nodes follows: bounds of it and its rate, and its frequency or decay.
-        double swing = 0, swing_rate = 0, swing_frequency = 0;
+        // A free vibration or decay since the start of the step, which no polynomial through the nodes follows: bounds
+        // of it and its derivatives there, and its frequency. After the time τ they are at most overshoot·e^(−fading τ)
+        // times as large, and no larger.
+        struct Swing {
+            double value = 0, rate = 0, second = 0, frequency = 0, fading = 0, overshoot = 1;
+            double left(double tau) const {
+                return fading * tau > 0 ? std::min(1.0, overshoot * std::exp(-fading * tau)) : 1;
+            }
+        };
+        static constexpr int kSwings = 2;
+        Swing swings[kSwings];              // the vibration, or both decays
         void set_frequencies(double jerk);  // from the bounds of q, q̇, q̈ and that of q⃛
     };
     std::vector<Mode> modes;

@@ -12,8 +12,8 @@ inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
 // The most intervals that a search halves in one step: these, and these for each radian of the fastest vibration, but
 // no more than the third; and all of a run: so many, and for each of its steps. Many times more than a valid motion
 // needs. A vibration that neither grows nor decays over millions of periods has no end otherwise.
-inline constexpr double kFewestHalvings = 4000, kHalvingsPerRadian = 32, kMostHalvings = 1e6;
-inline constexpr long kHalvingsOfRun = 2'000'000, kHalvingsPerStep = 1000;
+inline constexpr double kFewestHalvings = 20'000, kHalvingsPerRadian = 32, kMostHalvings = 50'000;
+inline constexpr long kHalvingsOfRun = 300'000, kHalvingsPerStep = 100;
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 // A costly channel is evaluated where its bound is this many times the highest so far, so that later steps are excluded
@@ -26,7 +26,10 @@ inline constexpr double kParabolaConverged = 1e-9;  // of the interval: √ of r
 inline constexpr double kSignRounding = 1e-14;      // of the sum of magnitudes: values below it have no sign
 
 // ---- bounds within a step ----
-inline constexpr double kFollowedRadians = 2;   // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
+inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
+// A step in which a vibration decays by more than the first, e⁻⁸ = 3·10⁻⁴, is searched in parts; each is eight times as
+// long as the one before.
+inline constexpr double kFadedRadians = 8, kPartRatio = 0.125;
 inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
 inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
 inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode

@@ -78,8 +78,7 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, std::shared
                             Extremum& e) {
     const ChannelKind kind = channels_[c].kind;
     offer_ends(s, c, e);
-    const auto range = range_within(
-        s, c, [&](const ModalChannels::Range& r) { return is_beaten(r, kind, 1, e) && is_beaten(r, kind, -1, e); });
+    const auto range = range_within(s, c, e);
     if (!range) return;
     for (const double sign : {1.0, -1.0}) {
         if (is_beaten(*range, kind, sign, e)) continue;
@@ -94,7 +93,7 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, std::shared
         if (kept->kind != SegmentKind::none)
             candidates.steps.push_back({high, kept});
         else
-            search(s, channels_[c], sign, step_.sample(s, channels_[c], sampled_), e);
+            search_parts(s, channels_[c], sign, sampled_, e);
     }
 }
 
@@ -108,18 +107,25 @@ void ExtremaFinder::offer_ends(const SegmentInterval& s, std::size_t c, Extremum
     }
 }
 
-// Bounds of the channel, from the cheapest on; nothing as soon as they are `beaten`.
-template <class Beaten>
-std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInterval& s, std::size_t c,
-                                                                Beaten&& beaten) {
+// Bounds of the channel, from the cheapest on; nothing as soon as the best values beat them. Offers the values at the
+// nodes if they are known.
+std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInterval& s, std::size_t c, Extremum& e) {
     const Channel& channel = channels_[c];
     const ModalChannels& modes = step_.modes();
+    const auto beaten = [&](const ModalChannels::Range& r) {
+        return is_beaten(r, channel.kind, 1, e) && is_beaten(r, channel.kind, -1, e);
+    };
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
     if (step_.unlike_law(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
     if (mode && beaten(modes.mode_range(channel))) return std::nullopt;
     const ModalChannels::Range range = modes.range(channel, first_[c], last_[c]);
     if (beaten(range)) return std::nullopt;
+    Lanes nodes;
+    if (modes.known_at_nodes(channel, nodes)) {
+        for (std::size_t k = 1; k <= kNodes; ++k) offer(e, sample_time(s, k), nodes[static_cast<int>(k) - 1]);
+        if (beaten(range)) return std::nullopt;
+    }
     if (step_.polynomial() && !is_separation(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     return mode ? range : modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
 }
@@ -174,13 +180,26 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
             step_.begin(s);
         }
         try {
-            search(s, channels_[c], sign, step_.sample(s, channels_[c], step.sampled), e);
+            search_parts(s, channels_[c], sign, step.sampled, e);
         } catch (const StepFailure&) {  // a run that failed, in the step before
             ++incomplete_;
         }
         if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
     }
     candidates.clear();
+}
+
+void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign,
+                                 StepChannels::SampledStates& sampled, Extremum& e) {
+    const std::vector<SegmentInterval> parts = step_.parts(s);
+    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual)
+        return search(s, channel, sign, step_.sample(s, channel, sampled), e);
+    for (const SegmentInterval& part : parts) {
+        step_.begin(part);
+        StepChannels::SampledStates states;
+        search(part, channel, sign, step_.sample(part, channel, states), e);
+    }
+    step_.begin(s);
 }
 
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples,
@@ -248,7 +267,7 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double
     StepChannels::SampledStates states;
     const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
         if (step_.modes().touch() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
-        search(s, {kind}, sign, step_.sample(s, {kind}, states), e);
+        search_parts(s, {kind}, sign, states, e);
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
     raise(ChannelKind::gap, -1, of_gap);

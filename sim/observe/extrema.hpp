@@ -59,13 +59,14 @@ class ExtremaFinder {
     static bool less_promising(const Candidate& a, const Candidate& b);
 
     void offer_ends(const SegmentInterval& s, std::size_t channel, Extremum& e);
-    template <class Beaten>
-    std::optional<ModalChannels::Range> range_within(const SegmentInterval& s, std::size_t channel, Beaten&& beaten);
+    std::optional<ModalChannels::Range> range_within(const SegmentInterval& s, std::size_t channel, Extremum& e);
     ModalChannels::Range residual_range(const SegmentInterval& s, std::size_t channel);
     void collect(const SegmentInterval& s, std::size_t channel, std::shared_ptr<const KeptStep>& kept, Extremum& e);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void search_kept(std::vector<Extremum>& extrema);
     void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
+    void search_parts(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
+                      Extremum& e);
     void search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples, Extremum& e);
     template <class F>
     void climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);

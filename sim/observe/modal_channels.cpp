@@ -41,6 +41,7 @@ void ModalChannels::set(const Step& step) {
     separation_.reset();
     from_ = step.from;
     to_ = step.to;
+    elapsed_ = step.elapsed;
     whole_ = step.whole;
     sum_modes();
     const DriveLaw& drive = system_.drive();
@@ -53,8 +54,15 @@ void ModalChannels::set(const Step& step) {
     if (touch_) set_contact();
 }
 
+double ModalChannels::fading() const {
+    double fastest = 0;
+    for (const ModalBounds::Mode& b : bounds_->modes)
+        for (const ModalBounds::Mode::Swing& swing : b.swings)
+            if (swing.value > 0) fastest = std::max(fastest, swing.fading);
+    return fastest;
+}
+
 void ModalChannels::sum_modes() {
-    const double h = to_ - from_;
     deflection_ = inclination_ = alpha_ = inertia_root_ = weight_root_ = 0;
     hub_acceleration_ = motion_->theta_ddot;
     for (std::size_t i = 0; i < modes_.size(); ++i) {
@@ -65,8 +73,23 @@ void ModalChannels::sum_modes() {
         inertia_root_ += modes_[i].inertia * b.amplitude;
         weight_root_ += modes_[i].weight * b.amplitude;
         hub_acceleration_ += modes_[i].h * b.acceleration;
-        strays_[i] = {b.amplitude * strays(b.q_frequency * h), b.rate * strays(b.rate_frequency * h),
-                      strays(kProductFrequency * std::max(b.q_frequency, b.rate_frequency) * h), swinging_share(i)};
+        set_strays(i);
+    }
+}
+
+void ModalChannels::set_strays(std::size_t i) {
+    const ModalBounds::Mode& b = bounds_->modes[i];
+    const double h = to_ - from_;
+    Strays& s = strays_[i];
+    s.q = b.amplitude * strays(b.q_frequency * h);
+    s.rate = b.rate * strays(b.rate_frequency * h);
+    s.mixed = strays(kProductFrequency * std::max(b.q_frequency, b.rate_frequency) * h);
+    for (int k = 0; k < ModalBounds::Mode::kSwings; ++k) {
+        const ModalBounds::Mode::Swing& swing = b.swings[k];
+        const double left = swing.left(elapsed_), x = left * swing.value, speed = left * swing.rate;
+        const bool swings = kProductSwing * x < b.amplitude && kProductSwing * speed < b.rate;
+        const double share = swings ? kProductSwing * std::max(x / b.amplitude, speed / b.rate) : 1;
+        s.vibrations[k] = {x, speed, left * swing.second, swing.frequency, share};
     }
 }
 
@@ -91,10 +114,11 @@ void ModalChannels::set_contact() {
         rate = std::max(rate, std::fabs(touch_->gap_rate[k]));
     }
     for (std::size_t i = 0; i < modes_.size(); ++i) {
-        const ModalBounds::Mode& b = bounds_->modes[i];
-        if (!(b.swing_frequency * (to_ - from_) > kFollowedRadians)) continue;
-        depth += modes_[i].shape * b.swing;
-        rate += modes_[i].shape * b.swing_rate + modes_[i].slope * slide_ * b.swing;
+        for (const Vibration& v : strays_[i].vibrations) {
+            if (!(v.frequency * (to_ - from_) > kFollowedRadians)) continue;
+            depth += modes_[i].shape * v.value;
+            rate += modes_[i].shape * v.rate + modes_[i].slope * slide_ * v.value;
+        }
     }
     const double more = kSlopeProbe * depth;
     const auto force = [&](double d, double v) { return system_.normal_law().force(d, v, system_.phase().approach); };
@@ -149,6 +173,19 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
         default:
             return false;
     }
+}
+
+bool ModalChannels::known_at_nodes(Channel channel, Lanes& values) const {
+    if (channel.kind == ChannelKind::q || channel.kind == ChannelKind::theta || channel.kind == ChannelKind::theta_dot)
+        return at_nodes(channel, values);
+    if (!touch_ || touch_->t[0] != from_ || touch_->t[TouchSamples::kCount - 1] != to_) return false;
+    const double* all = channel.kind == ChannelKind::gap             ? touch_->gap
+                        : channel.kind == ChannelKind::contact_force ? touch_->force
+                        : channel.kind == ChannelKind::contact_x     ? touch_->x
+                                                                     : nullptr;
+    if (!all) return false;
+    for (int k = 0; k < kNodes; ++k) values[k] = all[k + 1];
+    return true;
 }
 
 // Of the inertia: a mode vibrates about the shape of the others.
@@ -292,13 +329,6 @@ double ModalChannels::drift(ChannelKind kind) const {
     }
 }
 
-// The vibrating share of products of modes, from that of each mode.
-double ModalChannels::swinging_share(std::size_t i) const {
-    const ModalBounds::Mode& b = bounds_->modes[i];
-    const bool swings = kProductSwing * b.swing < b.amplitude && kProductSwing * b.swing_rate < b.rate;
-    return swings ? kProductSwing * std::max(b.swing / b.amplitude, b.swing_rate / b.rate) : 1;
-}
-
 // Calls add(amplitude, frequency) with every vibration that a polynomial of degree 7 over the part does not resolve.
 template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
@@ -306,12 +336,13 @@ void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
     const double least = kFollowedRadians / (to_ - from_);
     each_mode(channel, [&](const Sensitivity& s, std::size_t i) {
         const ModalBounds::Mode& b = bounds_->modes[i];
-        const double omega = b.swing_frequency;
-        if (omega + s.shift > least) add(s.q * b.swing + s.rate * b.swing_rate, omega + s.shift);
         if (s.shift > least) add(s.q * b.amplitude, s.shift);
-        if (omega > least && s.acceleration != 0) add(s.acceleration * b.acceleration, omega);
-        if (kProductFrequency * omega > least && s.mixed != 0)
-            add(s.mixed * strays_[i].share, kProductFrequency * omega);
+        for (const Vibration& v : strays_[i].vibrations) {
+            if (v.frequency + s.shift > least) add(s.q * v.value + s.rate * v.rate, v.frequency + s.shift);
+            if (v.frequency > least && s.acceleration != 0) add(s.acceleration * v.second, v.frequency);
+            if (kProductFrequency * v.frequency > least && s.mixed != 0)
+                add(s.mixed * v.share, kProductFrequency * v.frequency);
+        }
     });
 }
 
@@ -391,9 +422,8 @@ ModalChannels::Range ModalChannels::separation_range() const {
     for (std::size_t i = 0; i < modes_.size(); ++i) {
         const Mode& m = modes_[i];
         nodes += m.turn * (bounds_->force[i] - m.damping * bounds_->rate[i] - m.omega * m.omega * bounds_->q[i]);
-        const ModalBounds::Mode& b = bounds_->modes[i];
-        if (b.swing_frequency * (to_ - from_) > kFollowedRadians)
-            variation.add(m.h * b.acceleration, b.swing_frequency);
+        for (const Vibration& v : strays_[i].vibrations)
+            if (v.frequency * (to_ - from_) > kFollowedRadians) variation.add(m.h * v.second, v.frequency);
     }
     variation.add_polynomial(nodes, bounds_->h);
     const double stray = kBeyondNodes * variation.strays(kWidestNodeGap * bounds_->h) + motion_->theta_ddot;

@@ -21,13 +21,15 @@ class ModalChannels {
     // What bounds the part [from, to] of a step; they live while it is observed.
     struct Step {
         double from, to;
-        bool whole;  // all of it: the nodes of `modes` are those of the part
+        double elapsed;  // since the start of the step [s]
+        bool whole;      // all of it: the nodes of `modes` are those of the part
         const ModalBounds* modes;
         const MotionBounds* motion;
         const TouchSamples* touch;  // null in flight
     };
     void set(const Step& step);
     const TouchSamples* touch() const { return touch_; }
+    double fading() const;  // the fastest, of vibration that a polynomial over the part does not resolve [1/s]
 
     struct Range {
         double low, high;
@@ -38,6 +40,8 @@ class ModalChannels {
     double hub(ChannelKind kind, const double* y) const;
     // The same at the nodes, or q; false where the part is not the whole step, or the channel is none of these.
     bool at_nodes(Channel channel, Lanes& values) const;
+    // The values of a channel at the nodes that need no evaluation, if there are any.
+    bool known_at_nodes(Channel channel, Lanes& values) const;
     // Of a channel within that part, from its values at the ends.
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.
@@ -53,7 +57,7 @@ class ModalChannels {
         double q = 0, rate = 0, acceleration = 0, mixed = 0, shift = 0;
     };
     using Mode = ModeBasis::Mode;
-    double swinging_share(std::size_t i) const;
+    void set_strays(std::size_t i);
     template <class Add>
     void each_unresolved(Channel channel, Add&& add) const;
     double drift(ChannelKind kind) const;
@@ -75,9 +79,12 @@ class ModalChannels {
 
     System& system_;
     const ModeBasis& basis_;
+    struct Vibration {  // which the nodes do not resolve: of the mode, and its share of products with it
+        double value, rate, second, frequency, share;
+    };
     struct Strays {  // of q, q̇ and products of modes from a line within the step; the last for amplitude 1
         double q, rate, mixed;
-        double share;  // of products that vibrates
+        Vibration vibrations[ModalBounds::Mode::kSwings];
     };
     const std::vector<Mode>& modes_ = basis_.modes;
     std::vector<Strays> strays_;
@@ -88,7 +95,7 @@ class ModalChannels {
     const ModalBounds* bounds_ = nullptr;
     const MotionBounds* motion_ = nullptr;
     const TouchSamples* touch_ = nullptr;
-    double from_ = 0, to_ = 0;
+    double from_ = 0, to_ = 0, elapsed_ = 0;
     bool whole_ = false;
     double deflection_ = 0, inclination_ = 0, alpha_ = 0;  // bounds of |v|, |v′|, |α|
     double inertia_root_ = 0, weight_root_ = 0;            // of √|qᵀBq|, √|qᵀGq|

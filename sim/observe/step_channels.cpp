@@ -67,9 +67,24 @@ void StepChannels::set_phase(const Phase& phase) {
 void StepChannels::begin(const SegmentInterval& s) {
     const Phase& phase = evaluator_.system().phase();
     probing_ = !phase.touching || !(phase.held || evaluator_.system().has_bristle());
-    if (bounded_from_ != s.from) bound(s);
+    if (bounded_from_ != s.from || bounded_to_ != s.to) bound(s);
     bounded_from_ = s.from;
+    bounded_to_ = s.to;
     search_again();
+}
+
+std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s) const {
+    const double length = s.to - s.from, fading = modal_channels_.fading();
+    std::vector<SegmentInterval> out;
+    double to = s.to, share = 1;
+    for (bool first = false; !first; share *= kPartRatio) {
+        first = !(fading * share * length > kFadedRadians) || !(s.from + kPartRatio * share * length > s.from);
+        const double from = first ? s.from : s.from + kPartRatio * share * length;
+        out.push_back({s.segment, from, to, s.last && to == s.to});
+        to = from;
+    }
+    std::ranges::reverse(out);
+    return out;
 }
 
 // Results must not depend on where the contact was searched before.
@@ -85,15 +100,15 @@ void StepChannels::bound(const SegmentInterval& s) {
     polynomial_ = !modes;
     if (modes) {
         const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
-        modal_channels_.set(
-            {s.from, s.to, whole && !system.drive().prescribed(), modes, segment.bounds(), segment.touch()});
+        modal_channels_.set({s.from, s.to, s.from - segment.t0, whole && !system.drive().prescribed(), modes,
+                             segment.bounds(), segment.touch()});
         return;
     }
     for (std::size_t k = 0; k < kSamples; ++k) segment.value(sample_time(s, k), polynomial_states_[k].data());
     polynomial_bounds_.set(system, s.from, s.to, polynomial_states_.data());
     const bool touching = system.has_cam() && system.phase().touching;
     if (touching) sample_touch(s);
-    modal_channels_.set({s.from, s.to, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
+    modal_channels_.set({s.from, s.to, 0, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
                          touching ? &polynomial_touch_ : nullptr});
 }
 

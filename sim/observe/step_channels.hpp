@@ -31,6 +31,8 @@ class StepChannels {
 
     // Every other call on a step follows this one.
     void begin(const SegmentInterval& s);
+    // A step in which vibrations fade, cut into parts that grow in length from its start; every other step is one part.
+    std::vector<SegmentInterval> parts(const SegmentInterval& s) const;
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
@@ -71,8 +73,8 @@ class StepChannels {
     TouchSamples polynomial_touch_;
     std::vector<double> y_;
     bool polynomial_ = false;
-    bool probing_ = false;      // the contact of this phase is evaluated by `probe_`
-    double bounded_from_ = -1;  // the start of the step of `modal_channels_`
+    bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
+    double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };
 
 double sample_time(const SegmentInterval& s, std::size_t k);

@@ -34,8 +34,8 @@ class Variation {
     };
     std::span<const Vibration> vibrations() const { return {vibrations_, count_}; }
 
-    // Four of each mode, and those of a polynomial with what it misses.
-    static constexpr std::size_t kMost = 4 * kMaxModes + kNodes;
+    // Seven of each mode, and those of a polynomial with what it misses.
+    static constexpr std::size_t kMost = 7 * kMaxModes + kNodes;
     std::size_t count_ = 0;
     Vibration vibrations_[kMost];
 };
