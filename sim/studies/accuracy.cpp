@@ -117,7 +117,10 @@ class Trials {
     static std::string too_long(double limit) { return fmt::format("{}: longer than {:g} s", kLeftOut, limit); }
     // False: interrupted by the user. How many runs follow `runs_` and the part of the present one is not known: the
     // first half of what they add is shown after one, two thirds after two.
-    bool report(double part) { return !report_ || report_(share_ + more_ * (1 - 1 / (1 + runs_ + part))); }
+    bool report(double part) {
+        shown_ = std::max(shown_, share_ + more_ * (1 - 1 / (1 + runs_ + part)));  // a run may fail on its way
+        return !report_ || report_(shown_);
+    }
 
     void compare(AccuracyRow& row, const TrialRun& run, const TrialRun& truth, double end) const {
         double worst = 0;
@@ -143,7 +146,7 @@ class Trials {
     const ComparedAngle angle_;
     const double target_;  // [rad]
     const Report& report_;
-    double share_ = 0, more_ = 0;
+    double share_ = 0, more_ = 0, shown_ = 0;
     int runs_ = 0;
     Clock::time_point started_ = Clock::now();
 };
