@@ -146,9 +146,9 @@ void ModalBounds::Mode::set_frequencies(double jerk) {
 }
 
 // Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
-// by those of its Legendre polynomials, and x = q − f/ω² and ẋ at the start and the nodes.
+// by those of its Legendre polynomials; x = q − f/ω² and ẋ at the start and the nodes, and the largest √(x² + (ẋ/ω)²).
 struct ExponentialSegment::ForcingBounds {
-    Lanes mean{}, range{}, rate{}, second{};
+    Lanes mean{}, range{}, rate{}, second{}, vibration{};
     Lanes x[kPoints] = {}, dx[kPoints] = {};
 };
 
@@ -175,7 +175,11 @@ ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t
     for (std::size_t k = 0; k < kPoints; ++k) {
         out.x[k] = lanes_q_[g * kPoints + k] - per_square * value[k];
         out.dx[k] = lanes_v_[g * kPoints + k] - per_step * slope[k];
+        // Undamped vibration reaches back to the start from the first node.
+        if (k > 0 || group.damped)
+            out.vibration = larger(out.vibration, out.x[k] * out.x[k] + out.dx[k] * out.dx[k] / group.square);
     }
+    for (int lane = 0; lane < kNodes; ++lane) out.vibration[lane] = std::sqrt(out.vibration[lane]);
     return out;
 }
 
@@ -188,13 +192,8 @@ ExponentialSegment::Distance ExponentialSegment::distance_of(std::size_t i, cons
     const double driven = (forcing.second[lane] + 2 * o.gamma * forcing.rate[lane]) / (o.omega * o.omega);
     Distance out;
     if (!decays(o)) {
-        double square = 0;
-        for (std::size_t k = o.gamma > 0 ? 0 : 1; k < kPoints; ++k) {
-            const double x = forcing.x[k][lane], dx = forcing.dx[k][lane] / o.omega;
-            square = std::max(square, x * x + dx * dx);
-        }
         const double time = (o.gamma > 0 ? 2 * kFarthestFromNode : kFarthestFromNode) * h;
-        out.value = std::sqrt(square) + time * driven / o.omega;
+        out.value = forcing.vibration[lane] + time * driven / o.omega;
         out.rate = o.omega * out.value;
         out.second = (o.omega * o.omega + 2 * o.gamma * o.omega) * out.value + driven;
         return out;
