@@ -219,6 +219,10 @@ class Captions {
         keep_inside(first);
         std::vector<Box> bodies = taken;  // disc and hub should stay visible, too
         add_bodies(bodies);
+        if (kind_of(callout) == Anchor::Kind::tip || kind_of(callout) == Anchor::Kind::place) {
+            const Vec2 foot = foot_of(*callout.anchor);
+            bodies.push_back(Box{foot.x, foot.y, 0, 0}.inset(-24 * u));
+        }
         std::optional<Box> found = free_plate(first, bodies);
         if (!found) found = free_plate(first, taken);
         return plates[&callout] = found.value_or(first);

@@ -270,6 +270,10 @@ bool Film::exaggeration_reduced() const {
         flexible = flexible || context.motion(m).problem.beam.model != sim::ModelKind::rigid;
     return flexible && context.factor < context.setup->view.exaggeration.value_or(1);
 }
+bool Film::states_exaggeration() const {
+    return prepared_->context.setup->view.show.legend && prepared_->context.places.clock;
+}
+bool Film::has_mechanism() const { return prepared_->context.places.first(PanelKind::mechanism) != nullptr; }
 bool Film::title_truncated() const { return prepared_->title_cut; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->context.counts; }

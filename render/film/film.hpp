@@ -197,6 +197,8 @@ class Film {
     FrameGeometry geometry(int frame);  // of the flat view: loads no OpenGL
     double exaggeration() const;
     bool exaggeration_reduced() const;  // below the requested factor, because the beam would enter the cam
+    bool states_exaggeration() const;
+    bool has_mechanism() const;  // captions are in its panel
     bool title_truncated() const;
     int empty_frames() const;  // frames in which the first mechanism is outside the camera's view
     const DrawingCounts& counts() const;

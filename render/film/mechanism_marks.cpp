@@ -102,7 +102,7 @@ void draw_angle_arc(const MechanismScene& s) {
     const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
     if (radius < s.at.hub() + 22 * s.at.marks) return;
     const Vec2 o = s.at.px({0, 0});
-    if (std::abs(angle) >= 0.02) {
+    if (std::abs(angle) >= kLeastArc) {
         s.arc(o, radius, 0, angle);
         s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     }

@@ -12,6 +12,7 @@ namespace beamcam::render {
 
 inline constexpr double kReadable = 9;  // smallest size of letters in any picture [px]
 
+inline constexpr double kLeastArc = 0.02;  // smaller angles have no arc [rad]
 // Hub angle as its arc shows it, without whole turns [rad].
 double drawn_angle(const sim::Pose& pose);
 void draw_angle_arc(const MechanismScene& s);

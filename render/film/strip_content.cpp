@@ -284,7 +284,8 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
     if (of_contact && c.dots.empty() &&
         std::ranges::none_of(c.curves, [&](const ChartCurve& curve) { return std::ranges::any_of(curve.v, is_value); }))
-        c.instead = context.translate("no contact"), c.unit.clear(), c.value = {0, 1};
+        c.instead = context.translate(c.marks.empty() ? "no contact" : "impulses only"), c.unit.clear(),
+        c.value = {0, 1};
     return c;
 }
 

@@ -42,8 +42,14 @@ int Chart::past_column(double t) const {
 }
 
 void Chart::draw_time_axis(Canvas& canvas, const Range& view) const {
-    const Ticks marks = ticks(view.low / c_.time_unit, view.high / c_.time_unit,
-                              std::clamp(static_cast<int>(plot_.w / (75 * style_.unit)), 2, 7));
+    // As many numbers as are apart.
+    Ticks marks;
+    const double low = view.low / c_.time_unit, high = view.high / c_.time_unit;
+    for (int most = std::clamp(static_cast<int>(plot_.w / (75 * style_.unit)), 2, 7); most >= 2; --most) {
+        marks = ticks(low, high, most);
+        const double wide = canvas.measure(fixed(high, marks.decimals), {.size = style_.numbers}).w + 14 * style_.unit;
+        if (marks.step / (high - low) * plot_.w >= wide) break;
+    }
     std::vector<Tick> numbers;
     for (const double at : marks.values)
         if (!windowed() || at >= c_.time.low / c_.time_unit - 1e-9)  // no numbers before the film

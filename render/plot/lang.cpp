@@ -59,6 +59,7 @@ constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"force", "力"},
     {"peak", "峰值"},
     {"no contact", "无接触"},
+    {"impulses only", "仅有冲量"},
     {"beam", "梁"},
     {"cam", "凸轮"},
     {"root", "根部"},

@@ -364,6 +364,14 @@ TEST(Plates, OwnColoursReplaceTheThemesAndLeaveTheOthers) {
     EXPECT_GT(pixels_of(drawn(film, 47), 0x8844AA), 50);
 }
 
+TEST(Plates, OnlyAPictureWithRoomStatesTheFactor) {
+    const auto states = [](int width, int height) {
+        return Film(test::flat_film({.duration = 0.1}, width, height)).states_exaggeration();
+    };
+    EXPECT_TRUE(states(1280, 720));
+    EXPECT_FALSE(states(90, 60));
+}
+
 // Text is readable on any paper, and pale colours are visible.
 TEST(Plates, ThePaperOfAnyColourKeepsTextReadable) {
     for (const Theme theme : {Theme::light, Theme::dark, Theme::print})
@@ -833,6 +841,33 @@ TEST(CollisionStrip, ShowsTheWholeCollision) {
             return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
         })) << frame;
     }
+}
+
+// Numbers with many decimals stand apart.
+TEST(Strips, NumbersOfAShortWindowStandApart) {
+    FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
+    PanelSpec moving = strip(ChannelKind::theta);
+    moving.window = 2e-4;
+    setup.layout = grid(LayoutNode::Kind::columns, {leaf(moving), leaf(moving), leaf(moving)});
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(17);
+    ASSERT_EQ(g.layout.panels.size(), 3U);
+    const Box box = g.layout.panels.front().box, plot = plot_area(box, g.layout.unit, g.layout.tick);
+    std::vector<Box> numbers;
+    for (const Box& text : g.texts)
+        if (text.y > plot.bottom() && text.bottom() < box.bottom() + 1 && text.x < box.right()) numbers.push_back(text);
+    ASSERT_GE(numbers.size(), 2U);
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+        for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(numbers[i].inset(-3).overlaps(numbers[j].inset(-3)));
+}
+
+// The letter of an angle that has no arc is left out.
+TEST(Labels, NoArcNoLetter) {
+    FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
+    setup.layout = LayoutNode{};
+    const std::size_t usual = Film(setup).geometry(0).labels.size();
+    for (sim::Pose& pose : setup.poses) pose.theta = 0.001;
+    EXPECT_EQ(Film(setup).geometry(0).labels.size() + 1, usual);
 }
 
 // The names of motions are beside the readings only if no mechanism carries them.
