@@ -197,6 +197,8 @@ struct VideoWriter::Impl {
         }
         settings.metadata.assign(options.metadata.begin(), options.metadata.end());
         settings.chapters = options.chapters;
+        settings.subtitles = options.subtitles;
+        settings.subtitle_language = options.subtitle_language;
         return settings;
     }
 

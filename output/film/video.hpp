@@ -49,7 +49,9 @@ struct VideoOptions {
     // the film, it is encoded again.
     bool variable_rate = false;
     std::map<std::string, std::string> metadata;
-    std::vector<Chapter> chapters;  // in increasing order; containers without chapters ignore them
+    std::vector<Chapter> chapters;          // in increasing order; containers without chapters ignore them
+    std::vector<Chapter> subtitles;         // in increasing order, apart; in .mp4, .mov, .mkv and .webm
+    std::string subtitle_language = "eng";  // ISO 639-2
 };
 // All problems of these options, each with a remedy. `ending` with the dot.
 std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");

@@ -52,6 +52,8 @@ struct EncoderSettings {
     std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"
     OptionList metadata;
     std::vector<Chapter> chapters;
+    std::vector<Chapter> subtitles;
+    std::string subtitle_language = "eng";
 };
 
 // The planes of a frame that the caller fills; unused planes are null.

@@ -91,6 +91,26 @@ static std::string cue_text(std::string text, bool vtt) {
     return text;
 }
 
+std::vector<output::Chapter> subtitle_track(const std::vector<Cue>& cues) {
+    std::vector<double> instants;
+    for (const Cue& cue : cues) instants.insert(instants.end(), {cue.from, cue.to});
+    std::ranges::sort(instants);
+    std::vector<output::Chapter> out;
+    for (std::size_t i = 0; i + 1 < instants.size(); ++i) {
+        output::Chapter now{instants[i], instants[i + 1], {}};
+        if (!(now.to - now.from > 1e-3)) continue;
+        for (const Cue& cue : cues)
+            if (cue.from < now.to && cue.to > now.from)
+                now.title += (now.title.empty() ? "" : "\n") + cue_text(cue.text, false);
+        const bool lasts = !out.empty() && out.back().to == now.from && out.back().title == now.title;
+        if (lasts)
+            out.back().to = now.to;
+        else if (!now.title.empty())
+            out.push_back(now);
+    }
+    return out;
+}
+
 std::string subtitle_file(const std::vector<Cue>& cues, Subtitles format) {
     const bool vtt = format == Subtitles::vtt;
     std::string out = vtt ? "WEBVTT\n\n" : "";

@@ -21,6 +21,9 @@ struct FilmTrack {
 // Impacts within half a second of film time share one subtitle.
 FilmTrack film_track(const render::FilmSetup& film, Lang lang);
 
+// The same texts one after the other, for a track of a film: texts at the same time are lines of one.
+std::vector<output::Chapter> subtitle_track(const std::vector<Cue>& cues);
+
 // The content of a WebVTT or SubRip file.
 std::string subtitle_file(const std::vector<Cue>& cues, Subtitles format);
 

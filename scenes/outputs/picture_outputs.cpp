@@ -1,4 +1,5 @@
 // Outputs "video", "frames", "still", "page" and "model": pictures of the mechanism and its charts.
+#include <filesystem>
 #include <numbers>
 
 #include "output/film/video_format.hpp"
@@ -242,9 +243,19 @@ void visit_video(SceneVisitor& v, PictureOutput& video) {
     v.value("poster", instant_format(video.span.poster),
             "The first frame at or after this instant is also written as a picture: fall.png beside fall.mp4. For a "
             "time outside the film the nearest frame.");
-    v.choice(written_if(video.subtitles != Subtitles::none, "subtitles"), video.subtitles,
-             {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}},
-             "A file with the impacts and texts of the film: fall.vtt beside fall.mp4.");
+    v.choice(
+        written_if(video.subtitles != Subtitles::none, "subtitles"), video.subtitles,
+        {{Subtitles::none, "none"}, {Subtitles::vtt, "vtt"}, {Subtitles::srt, "srt"}, {Subtitles::track, "track"}},
+        "Impacts and texts of the film as a file beside it, fall.vtt or fall.srt, or as a track in it that players "
+        "show on demand (.mp4, .mov, .mkv, .webm).");
+    v.check([&video](ObjectReader& r) {
+        const std::string ending = std::filesystem::path(video.file).extension().string();
+        if (video.subtitles == Subtitles::track && (ending == ".gif" || ending == ".apng" || ending == ".webp"))
+            r.fail(r.place("subtitles"), "subtitles",
+                   ending +
+                       " files have no track of subtitles; choose \"vtt\" or \"srt\", or an .mp4, .mov, .mkv or .webm "
+                       "file");
+    });
     v.boolean(written_if(video.chapters, "chapters"), video.chapters,
               "Chapters at the impacts, in .mp4, .mov and .mkv.");
     v.choice(sim::derived("codec"), video.encoding.codec, std::span<const Named<Codec>>(kCodecs),

@@ -32,6 +32,10 @@ output::VideoOptions options_of(const Pictures& p, render::Film& film, const Sin
     options.metadata["beamcam-accuracy"] = to.accuracy;
     if (!p.part.empty()) options.metadata["beamcam-frames"] = p.part;
     if (p.chapters && p.part.empty()) options.chapters = to.track.chapters;
+    if (p.subtitles == Subtitles::track && p.part.empty()) {
+        options.subtitles = subtitle_track(to.track.subtitles);
+        options.subtitle_language = p.view.lang == Lang::zh ? "chi" : "eng";
+    }
     return options;
 }
 

@@ -30,7 +30,7 @@ std::string poster_file(const PictureOutput& video) {
 }
 
 std::string subtitles_file(const PictureOutput& video) {
-    if (video.subtitles == Subtitles::none) return {};
+    if (video.subtitles == Subtitles::none || video.subtitles == Subtitles::track) return {};
     const char* ending = video.subtitles == Subtitles::vtt ? ".vtt" : ".srt";
     return std::filesystem::path(video.file).replace_extension(ending).generic_string();
 }

@@ -157,7 +157,8 @@ struct FrameSpan {
 };
 
 using render::Lang;
-enum class Subtitles { none, vtt, srt };
+// track: in the film itself.
+enum class Subtitles { none, vtt, srt, track };
 
 class Planner;       // plan/planner.hpp
 class SceneVisitor;  // format/keys.hpp

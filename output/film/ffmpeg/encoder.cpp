@@ -146,6 +146,7 @@ class FfmpegEncoder : public Encoder {
         if (code < 0) fail("setting up the film", code);
         for (const auto& [key, value] : settings_.metadata) file_.set_tag(key, value);
         file_.set_chapters(settings_.chapters);
+        file_.set_subtitles(settings_.subtitles, settings_.subtitle_language);
         file_.write_header(settings_.container_options);
     }
 

@@ -8,9 +8,11 @@ extern "C" {
 #include <libswscale/swscale.h>
 }
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cmath>
+#include <cstdint>
 #include <cstdio>
 #include <cstring>
 #include <fstream>
@@ -221,6 +223,37 @@ void OutputFile::set_chapters(const std::vector<Chapter>& chapters) {
     }
 }
 
+namespace {
+
+// The default style of a track of MOV text (3GPP TS 26.245): white letters at the lower edge.
+constexpr std::array<std::uint8_t, 48> kTextStyle{
+    0, 0,  0,    0,    1,    0xFF, 0, 0, 0, 0,  0,   0,   0,   0,   0, 0, 0, 0, 0, 0,   0,   0,   0,   1,
+    0, 18, 0xFF, 0xFF, 0xFF, 0xFF, 0, 0, 0, 18, 'f', 't', 'a', 'b', 0, 1, 0, 1, 5, 'S', 'e', 'r', 'i', 'f'};
+
+AVCodecID subtitle_codec(const std::string& container) {
+    if (container == "matroska") return AV_CODEC_ID_SUBRIP;
+    return container == "webm" ? AV_CODEC_ID_WEBVTT : AV_CODEC_ID_MOV_TEXT;
+}
+
+}  // namespace
+
+void OutputFile::set_subtitles(const std::vector<Chapter>& texts, const std::string& language) {
+    if (texts.empty()) return;
+    texts_ = texts;
+    subtitles_ = avformat_new_stream(format_, nullptr);
+    if (subtitles_ == nullptr) throw std::bad_alloc();
+    subtitles_->time_base = {1, 1000};
+    subtitles_->codecpar->codec_type = AVMEDIA_TYPE_SUBTITLE;
+    subtitles_->codecpar->codec_id = subtitle_codec(format_->oformat->name);
+    av_dict_set(&subtitles_->metadata, "language", language.c_str(), 0);
+    if (subtitles_->codecpar->codec_id != AV_CODEC_ID_MOV_TEXT) return;
+    auto* style = static_cast<std::uint8_t*>(av_mallocz(kTextStyle.size() + AV_INPUT_BUFFER_PADDING_SIZE));
+    if (style == nullptr) throw std::bad_alloc();
+    std::ranges::copy(kTextStyle, style);
+    subtitles_->codecpar->extradata = style;
+    subtitles_->codecpar->extradata_size = static_cast<int>(kTextStyle.size());
+}
+
 void OutputFile::write_header(const OptionList& options) {
     int code = avio_open(&format_->pb, format_->url, AVIO_FLAG_WRITE);
     if (code < 0) fail_to_write(code);
@@ -234,12 +267,37 @@ void OutputFile::write_header(const OptionList& options) {
 }
 
 void OutputFile::write(AVPacket& packet) {
+    write_subtitles(static_cast<double>(packet.dts) * av_q2d(stream_->time_base));
+    write_packet(packet);
+}
+
+void OutputFile::write_subtitles(double until) {
+    for (; next_text_ < texts_.size() && texts_[next_text_].from <= until; ++next_text_) {
+        const Chapter& text = texts_[next_text_];
+        // MOV text begins with its length.
+        std::string bytes = text.title.substr(0, 0xFFFF);
+        if (subtitles_->codecpar->codec_id == AV_CODEC_ID_MOV_TEXT)
+            bytes = std::string{static_cast<char>(bytes.size() >> 8U), static_cast<char>(bytes.size() & 0xFFU)} + bytes;
+        const Owned<AVPacket> packet = owned(av_packet_alloc());
+        if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) throw std::bad_alloc();
+        std::ranges::copy(bytes, packet->data);
+        packet->stream_index = subtitles_->index;
+        packet->pts = packet->dts = std::llround(text.from * 1000);
+        packet->duration = std::llround(text.to * 1000) - packet->pts;
+        packet->flags = AV_PKT_FLAG_KEY;
+        av_packet_rescale_ts(packet.get(), {1, 1000}, subtitles_->time_base);
+        write_packet(*packet);
+    }
+}
+
+void OutputFile::write_packet(AVPacket& packet) {
     int code = av_interleaved_write_frame(format_, &packet);
     if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;
     if (code < 0) fail_to_write(code);
 }
 
 void OutputFile::end() {
+    write_subtitles(std::numeric_limits<double>::infinity());
     int code = av_write_trailer(format_);
     if (code >= 0 && format_->pb->error < 0) code = format_->pb->error;
     const int closed = avio_closep(&format_->pb);

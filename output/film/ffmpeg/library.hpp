@@ -76,7 +76,7 @@ std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file);
 std::int64_t concatenate(const std::vector<std::filesystem::path>& segments, const std::filesystem::path& file,
                          const std::filesystem::path& named, const std::string& container);
 
-// A film that is being written: a container with one stream.
+// A film that is being written: a container with one stream of pictures and, if there are subtitles, one of these.
 class OutputFile {
   public:
     // `named`: its name in messages.
@@ -89,16 +89,21 @@ class OutputFile {
     AVStream& stream() const { return *stream_; }
     void set_tag(const std::string& key, const std::string& value);
     void set_chapters(const std::vector<Chapter>& chapters);
+    void set_subtitles(const std::vector<Chapter>& texts, const std::string& language);  // before the header
     void write_header(const OptionList& options);
-    void write(AVPacket& packet);  // of the stream's time base
+    void write(AVPacket& packet);  // of the stream's time base; after the subtitles that begin until then
     void end();
 
   private:
     [[noreturn]] void fail_to_write(int code) const;
+    void write_packet(AVPacket& packet);
+    void write_subtitles(double until);
 
     std::filesystem::path named_;
     AVFormatContext* format_ = nullptr;
-    AVStream* stream_ = nullptr;
+    AVStream *stream_ = nullptr, *subtitles_ = nullptr;
+    std::vector<Chapter> texts_;  // not yet written ones from next_text_ on
+    std::size_t next_text_ = 0;
 };
 
 // Adds to a dictionary; keys of the form "name:key" are for the encoder of that name alone.

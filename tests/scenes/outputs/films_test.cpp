@@ -499,6 +499,29 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
                 ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次冲击"));
 }
 
+// A track of a film has one text at a time, and the language of the picture.
+TEST(FilmTrack, GoesIntoTheFile) {
+    const std::vector<output::Chapter> texts = subtitle_track({{0, 2, "a"}, {1, 3, "b"}, {5, 6, "c"}});
+    ASSERT_EQ(texts.size(), 4u);
+    EXPECT_EQ(texts[1].title, "a\nb");
+    EXPECT_EQ(texts[2].title, "b");
+    EXPECT_EQ(texts[3].from, 5);
+    const Folder folder;
+    if (shell(folder, "command -v ffmpeg").code != 0) GTEST_SKIP() << "without ffmpeg";
+    for (const std::string ending : {".mp4", ".mov", ".mkv", ".webm"}) {
+        folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "video", "file": "a)" + ending + R"(",
+            "size": [320, 180], "fps": 20, "view": {"style": "flat"}, "subtitles": "track", "lang": "zh",
+            "events": [{"at": 0.1, "text": "falls", "show": 0.2}]}]})");
+        const Finished made = shell(folder, "$BEAMCAM run s.json -q --force");
+        ASSERT_EQ(made.code, 0) << ending << made.err;
+        const std::string read = shell(folder, "ffmpeg -v error -i a" + ending + " -f srt -").out;
+        EXPECT_THAT(read, HasSubstr("00:00:00,100 --> 00:00:00,3")) << ending;
+        EXPECT_THAT(read, HasSubstr("falls")) << ending;
+        EXPECT_THAT(read, HasSubstr("t = 0.2774 s")) << ending;
+        EXPECT_THAT(shell(folder, "ffprobe -v error -show_streams a" + ending).out, HasSubstr("language=")) << ending;
+    }
+}
+
 // Empty lines would end a cue, and SubRip has no escapes for markup.
 TEST(FilmTrack, CuesKeepTheirText) {
     const std::vector<Cue> cues{{0, 1, "one\n\n\ntwo <i>"}};
