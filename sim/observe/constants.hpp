@@ -13,7 +13,7 @@ inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
 // no more than the third; and all of a run: so many, and for each of its steps. Many times more than a valid motion
 // needs. A vibration that neither grows nor decays over millions of periods has no end otherwise.
 inline constexpr double kFewestHalvings = 20'000, kHalvingsPerRadian = 32, kMostHalvings = 50'000;
-inline constexpr long kHalvingsOfRun = 300'000, kHalvingsPerStep = 100;
+inline constexpr long kHalvingsOfRun = 3'000'000, kHalvingsPerStep = 1000;
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 // A costly channel is evaluated where its bound is this many times the highest so far, so that later steps are excluded
