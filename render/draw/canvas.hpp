@@ -24,7 +24,7 @@ namespace beamcam::render {
 class Canvas : public Painter {
   public:
     Canvas(Image& image, const Fonts& fonts);
-    ~Canvas() noexcept(false);  // throws if Cairo failed: a picture is complete, or there is an error
+    ~Canvas() noexcept(false) override;  // throws if Cairo failed: a picture is complete, or there is an error
 
     void rounded(const Box& box, double radius);
     void paint(Color color);

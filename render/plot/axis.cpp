@@ -60,7 +60,7 @@ int minor_parts(double step) {
 Ticks in_turns(const Ticks& marks, const Range& range, int most) {
     if (marks.step < 50) return marks;
     for (const auto& [turn, parts] : kTurns)
-        if (const Ticks out = multiples(turn, range.low, range.high);
+        if (Ticks out = multiples(turn, range.low, range.high);
             out.values.size() >= 2 && std::cmp_less_equal(out.values.size(), most))
             return out;
     return marks;
