@@ -57,6 +57,12 @@ std::string_view next_character(std::string_view text, std::size_t at) {
     return text.substr(at, std::size_t(g_utf8_next_char(&text[at]) - &text[at]));
 }
 
+std::string_view last_character(std::string_view text) {
+    const char* const end = text.data() + text.size();
+    const char* const at = g_utf8_prev_char(end);
+    return {at, static_cast<std::size_t>(end - at)};
+}
+
 // ASCII and Greek letters, which are italic in mathematics.
 bool is_letter(std::string_view c) {
     if (c.size() == 1) return (c[0] >= 'a' && c[0] <= 'z') || (c[0] >= 'A' && c[0] <= 'Z');
@@ -439,8 +445,7 @@ static std::string plain_of(const std::vector<Run>& runs) {
             out += "·";
         out += text;
         if (run.dots > 0) out += run.dots == 1 ? "\u0307" : "\u0308";
-        std::string_view last = text;
-        while (next_character(last, 0).size() < last.size()) last.remove_prefix(next_character(last, 0).size());
+        const std::string_view last = last_character(text);
         after_fraction = fraction;
         after_factor = is_factor(last) && last != "(";
     }

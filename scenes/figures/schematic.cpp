@@ -276,8 +276,7 @@ class Drawing : private Sketch {
             arrow({0, 0}, a * sim::unit(-0.8));
             label(a * sim::unit(-0.8), "$a$", {0.6, -0.5});
         } else {
-            const std::string radius = a < 0 ? "$a$ < 0" : "$a$ = 0";
-            label({0, 0}, radius.c_str(), {-3.5, -0.9}, kGrey);
+            label({0, 0}, a < 0 ? "$a$ < 0" : "$a$ = 0", {-3.5, -0.9}, kGrey);
         }
         add({.kind = Kind::disc, .centre = {0, 0}, .radius_points = 3, .color = render::rgb(0xFFFFFF)});
         add({.kind = Kind::circle, .centre = {0, 0}, .radius_points = 3, .color = kInk, .width = 0.9});

@@ -27,16 +27,16 @@ struct Spectrogram {
     std::size_t windows() const { return amplitude.size() / lines; }
 };
 
-// Without the straight line that fits best, which would spread over all frequencies.
+// Without the slope of the straight line that fits best, which would spread over all frequencies; the spectrum removes
+// the mean.
 std::vector<double> without_trend(std::vector<double> v) {
     const double middle = 0.5 * (static_cast<double>(v.size()) - 1);
-    double sum = 0, moment = 0, squares = 0;
+    double moment = 0, squares = 0;
     for (std::size_t i = 0; i < v.size(); ++i) {
         const double x = static_cast<double>(i) - middle;
-        sum += v[i], moment += x * v[i], squares += x * x;
+        moment += x * v[i], squares += x * x;
     }
-    for (std::size_t i = 0; i < v.size(); ++i)
-        v[i] -= sum / static_cast<double>(v.size()) + moment / squares * (static_cast<double>(i) - middle);
+    for (std::size_t i = 0; i < v.size(); ++i) v[i] -= moment / squares * (static_cast<double>(i) - middle);
     return v;
 }
 

@@ -797,6 +797,14 @@ TEST(ForceStrip, ReadsTheForceWithThePrefixOfItsLabel) {
     EXPECT_GT(reading_width(0.4), 1.8 * reading_width(0));
 }
 
+// The reading is at the right end of the heading's line while the cursor is inside the axes.
+bool has_reading(const FrameGeometry& g) {
+    const Box box = g.layout.first(PanelKind::strip)->box;
+    return std::ranges::any_of(g.texts, [&](const Box& text) {
+        return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
+    });
+}
+
 // A lasting contact that began more than a tenth of a second before the picture.
 TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
     for (const int frames : {1, 30}) {
@@ -813,11 +821,7 @@ TEST(CollisionStrip, AContactThatLastsIsSeenWhereThePictureIs) {
         setup.layout = leaf(by_collision);
         Film film(std::move(setup));
         const FrameGeometry g = film.geometry(frames - 1);
-        const Box box = g.layout.first(PanelKind::strip)->box;
-        // The reading is at the right end of the heading's line while the cursor is inside the axes.
-        EXPECT_TRUE(std::ranges::any_of(g.texts, [&](const Box& text) {
-            return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
-        })) << frames;
+        EXPECT_TRUE(has_reading(g)) << frames;
     }
 }
 
@@ -836,10 +840,7 @@ TEST(CollisionStrip, ShowsTheWholeCollision) {
     Film film(std::move(setup));
     for (const int frame : {19, 28, 37}) {  // within each impact
         const FrameGeometry g = film.geometry(frame);
-        const Box box = g.layout.first(PanelKind::strip)->box;
-        EXPECT_TRUE(std::ranges::any_of(g.texts, [&](const Box& text) {
-            return text.x > box.centre().x && text.bottom() < box.y + 34 * g.layout.unit && text.y > box.y;
-        })) << frame;
+        EXPECT_TRUE(has_reading(g)) << frame;
     }
 }
 
