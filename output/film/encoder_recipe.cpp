@@ -124,7 +124,8 @@ EncoderRecipe encoder_recipe(const VideoOptions& o, const std::string& ending) {
     r.missing += "); install the distribution's full build of libavcodec, or choose another codec";
     if (o.codec == Codec::hevc && o.transparent)
         r.missing =
-            "the FFmpeg libraries on this machine encode no transparent HEVC (libx265 of FFmpeg 7.1 with x265 4 does); "
+            "the FFmpeg libraries on this machine encode no transparent HEVC (FFmpeg 7.1 and a libx265 built with "
+            "alpha do); "
             "name a .mov (prores), .webm (vp9), .mkv (ffv1), .apng or .webp file";
     // faststart: the index comes first, so that players can start before they have the whole file.
     // use_metadata_tags: keeps our own keys.

@@ -3,7 +3,7 @@
 //   .mp4   h264, av1, hevc  talks, the web; no transparency but hevc's, even sides
 //   .webm  vp9, av1         the web; vp9 also with transparency; even sides
 //   .mov   prores, h264, hevc   editing; prores (4444) keeps full colour and transparency; hevc for Apple's players,
-//                               transparent where FFmpeg's libx265 can be (7.1 with x265 4)
+//                               transparent where libx265 was built with alpha
 //   .mkv   ffv1, h264, vp9, av1   ffv1: every bit of every pixel, for archives
 //   .gif   gif              256 colours, at most 50 frames a second
 //   .apng  apng             every pixel, with transparency; large

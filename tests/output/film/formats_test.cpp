@@ -128,7 +128,7 @@ TEST(Formats, TransparentHevcIsMadeOrRefusedWithAnotherFile) {
     }
 }
 
-// Independent of this machine's libx265: the lists are those of x265 3.5 and of x265 4 with alpha.
+// Independent of this machine's libx265: the lists are those of a libx265 without and with alpha.
 TEST(Formats, HevcWithAlphaNeedsAnEncoderOfThesePixels) {
     const FormatCase kind{".mov", Codec::hevc, true, "hevc", 3};
     const EncoderRecipe recipe = encoder_recipe(options_of(kind, 96, 64), ".mov");
@@ -144,7 +144,7 @@ TEST(Formats, HevcWithAlphaNeedsAnEncoderOfThesePixels) {
     EXPECT_EQ(chosen({{"hevc_vaapi", with}, {"libx265", without}}), "none");
     EXPECT_EQ(chosen({{"libx265", with}}), "libx265");
     EXPECT_EQ(chosen({{"libx265", {}}}), "libx265");  // unknown formats: the encoder decides
-    for (const char* word : {"x265 4", ".mov (prores)", ".webm (vp9)", ".mkv (ffv1)"})
+    for (const char* word : {"libx265 built with alpha", ".mov (prores)", ".webm (vp9)", ".mkv (ffv1)"})
         EXPECT_NE(recipe.missing.find(word), std::string::npos) << word;
     const EncoderRecipe opaque = encoder_recipe(options_of({".mov", Codec::hevc, false, "hevc", 3}, 96, 64), ".mov");
     EXPECT_NE(chosen_encoder(opaque.encoders, opaque.pixel_format, {{"libx265", without}}), nullptr);
