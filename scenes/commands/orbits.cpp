@@ -222,7 +222,7 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         return !output::interrupted();
     });
     if (range) {
-        progress.begin("branches", args.most_points, "points");
+        progress.begin("branches", std::nullopt, "points");
         double last = table.start;
         long points = 0;
         follow_branches(table, *family, *range, request, args, [&](double value) {

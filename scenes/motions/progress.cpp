@@ -38,7 +38,7 @@ ProgressStyle resolve(ProgressStyle style) {
     return isatty(STDERR_FILENO) && !dumb && !is_set("CI") ? ProgressStyle::bar : ProgressStyle::plain;
 }
 
-void Progress::begin(std::string stage, double total, std::string unit) {
+void Progress::begin(std::string stage, std::optional<double> total, std::string unit) {
     end();
     const std::lock_guard lock(mutex_);
     stage_ = std::move(stage);
@@ -91,35 +91,50 @@ void Progress::show(double done, bool last) {
     std::fflush(out_);
 }
 
+std::string Progress::amount(double done) const {
+    const std::string of = total_ ? "/" + count_text(*total_, unit_) : "";
+    return count_text(done, unit_) + of + " " + unit_;
+}
+
+std::optional<double> Progress::left(double done, double elapsed) const {
+    if (!total_ || done <= 0) return std::nullopt;
+    return elapsed * std::max(0.0, *total_ - done) / done;
+}
+
 void Progress::show_bar(double done, double elapsed, bool last) {
     constexpr int kCells = 24;
-    const double share = total_ > 0 ? std::clamp(done / total_, 0.0, 1.0) : 1;
-    const int filled = static_cast<int>(share * kCells);
-    std::string line = fmt::format("\r\x1b[K{:<9} [{:=<{}}{:<{}}] {}/{} {}", stage_, "", filled, "", kCells - filled,
-                                   count_text(done, unit_), count_text(total_, unit_), unit_);
+    std::string line = fmt::format("\r\x1b[K{:<9} ", stage_);
+    if (total_) {
+        const double share = *total_ > 0 ? std::clamp(done / *total_, 0.0, 1.0) : 1;
+        const int filled = static_cast<int>(share * kCells);
+        line += fmt::format("[{:=<{}}{:<{}}] ", "", filled, "", kCells - filled);
+    }
+    line += amount(done);
     if (elapsed > 0 && done > 0) line += fmt::format("  {:.3g}/s", done / elapsed);
     if (last)
         line += fmt::format("  in {}", clock_text(elapsed));
-    else if (done > 0)
-        line += fmt::format("  {} left", clock_text(elapsed * (total_ - done) / done));
+    else if (const auto seconds = left(done, elapsed))
+        line += fmt::format("  {} left", clock_text(*seconds));
     std::fputs(line.c_str(), out_);
     line_is_open_ = true;
 }
 
 void Progress::show_plain(double done, double elapsed) {
-    const std::string left = done > 0 ? fmt::format(", {} left", clock_text(elapsed * (total_ - done) / done)) : "";
-    std::fputs(fmt::format("{}: {}/{} {} ({:.3g}/s{})\n", stage_, count_text(done, unit_), count_text(total_, unit_),
-                           unit_, elapsed > 0 ? done / elapsed : 0, left)
+    const auto seconds = left(done, elapsed);
+    std::fputs(fmt::format("{}: {} ({:.3g}/s{})\n", stage_, amount(done), elapsed > 0 ? done / elapsed : 0,
+                           seconds ? fmt::format(", {} left", clock_text(*seconds)) : "")
                    .c_str(),
                out_);
 }
 
 void Progress::show_json(double done, double elapsed, bool last) {
-    const double left = done > 0 ? elapsed * (total_ - done) / done : 0;
+    const auto number = [](const char* form, std::optional<double> value) {
+        return value ? fmt::format(fmt::runtime(form), *value) : "null";
+    };
     std::fputs(
-        fmt::format("{{\"stage\":\"{}\",\"done\":{:g},\"total\":{:g},\"unit\":\"{}\",\"elapsed\":{:.3f},\"left\":{},"
+        fmt::format("{{\"stage\":\"{}\",\"done\":{:g},\"total\":{},\"unit\":\"{}\",\"elapsed\":{:.3f},\"left\":{},"
                     "\"finished\":{}}}\n",
-                    stage_, done, total_, unit_, elapsed, done > 0 ? fmt::format("{:.3f}", left) : "null", last)
+                    stage_, done, number("{:g}", total_), unit_, elapsed, number("{:.3f}", left(done, elapsed)), last)
             .c_str(),
         out_);
 }

@@ -4,6 +4,7 @@
 
 #include <cstdio>
 #include <mutex>
+#include <optional>
 #include <string>
 
 #include "sim/base/clock.hpp"
@@ -34,12 +35,15 @@ class Progress {
     Progress(const Progress&) = delete;
     Progress& operator=(const Progress&) = delete;
 
-    // Begins a stage of `total` units ("frames", "s") and ends the previous one.
-    void begin(std::string stage, double total, std::string unit);
+    // Begins a stage of `total` units ("frames", "s"), or of a number that is not known before, and ends the previous
+    // one.
+    void begin(std::string stage, std::optional<double> total, std::string unit);
     void reach(double done);  // sets the completed units
     void end();               // ends the line on a terminal
 
   private:
+    std::string amount(double done) const;                          // "12/50 frames"
+    std::optional<double> left(double done, double elapsed) const;  // [s]
     void show(double done, bool last);
     void show_bar(double done, double elapsed, bool last);
     void show_plain(double done, double elapsed);
@@ -49,7 +53,8 @@ class Progress {
     std::FILE* out_;
     std::mutex mutex_;
     std::string stage_, unit_;
-    double total_ = 0, done_ = 0;
+    std::optional<double> total_;
+    double done_ = 0;
     bool open_ = false, line_is_open_ = false;
     Clock::time_point started_, shown_;
 };

@@ -50,6 +50,19 @@ TEST(OrbitsCommand, ABranchEndsWithTheRangeOfItsKey) {
         EXPECT_EQ(point["value"], end);
 }
 
+// Nobody knows before how many points the branches will have.
+TEST(OrbitsCommand, CountsThePointsOfBranchesWithoutATotal) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM orbits s.json --over cam.speed=44:46 --transient 0 --progress json >/dev/null");
+    const std::string line = done.err.substr(done.err.rfind("{\"stage\":\"branches\""));
+    const nlohmann::json last = nlohmann::json::parse(line.substr(0, line.find('\n')));
+    EXPECT_GT(last["done"].get<int>(), 2);
+    EXPECT_TRUE(last["total"].is_null());
+    EXPECT_TRUE(last["left"].is_null());
+}
+
 TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     const Folder folder;
     folder.write("s.json", kPressed);
