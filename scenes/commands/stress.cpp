@@ -2,8 +2,6 @@
 // code is 1.
 #include "sim/studies/stress.hpp"
 
-#include <fmt/format.h>
-
 #include <atomic>
 
 #include "output/data/manifest.hpp"
@@ -16,6 +14,7 @@
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -30,6 +29,8 @@ std::vector<sim::StressResult> run_cases(const sim::Campaign& campaign, const Co
     const auto count = static_cast<long>(campaign.cases.size());
     std::vector<sim::StressResult> results(campaign.cases.size());
     std::atomic<long> done = 0;
+    Progress progress(run_options(common, "").progress);
+    progress.begin("stress", static_cast<double>(count), "cases");
     Gate gate;
     fan_out(
         count, thread_count(common.threads),
@@ -38,8 +39,7 @@ std::vector<sim::StressResult> run_cases(const sim::Campaign& campaign, const Co
                 if (output::interrupted()) throw sim::Interrupted();
                 const auto k = static_cast<std::size_t>(i);
                 results[k] = sim::run_case(campaign.cases[k]);
-                const long now = ++done;
-                if (now % 100 == 0 || now == count) inform(common, fmt::format("{} of {} cases", now, count));
+                progress.reach(static_cast<double>(++done));
             };
         },
         gate);
@@ -95,6 +95,7 @@ void add_stress(Grammar& grammar) {
     app.option("-o,--output", &args.files, "FILE", "Write the cases, too: .csv, .json, or a map as .png (repeatable)");
     add_quiet(app, args.common);
     add_jobs(app, args.common, "Largest number of cases at a time");
+    add_progress(app, args.common);
     add_force(app, args.common);
 }
 
