@@ -283,9 +283,7 @@ struct VideoWriter::Impl {
     // Waits until `ready` returns true; calls it under the lock. Throws the error of the encoder.
     template <typename Ready>
     void wait_until(std::unique_lock<std::mutex>& lock, Ready ready) {
-        const Clock::time_point start = Clock::now();
         changed.wait(lock, [&] { return failure || ready(); });
-        cost.wait_seconds += seconds_since(start);
         if (failure) std::rethrow_exception(failure);
     }
 

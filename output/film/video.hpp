@@ -62,7 +62,6 @@ struct VideoStatistics {
     long held = 0;               // not encoded: the previous frame is shown longer
     double convert_seconds = 0;  // colour conversion, summed over the drawing threads
     double encode_seconds = 0;   // encoding, in the writer's thread
-    double wait_seconds = 0;     // waiting for the encoder, summed over the drawing threads
     double idle_seconds = 0;     // of the writer's thread, waiting for pictures
 };
 

@@ -61,8 +61,6 @@ double memory_of(const Picture& picture) {
     return 0;
 }
 
-bool is_picture(const Output& output) { return std::holds_alternative<PictureOutput>(output); }
-
 const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind) {
     const auto* picture = std::get_if<PictureOutput>(&output);
     return picture && picture->kind == kind ? picture : nullptr;

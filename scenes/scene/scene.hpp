@@ -362,7 +362,6 @@ std::string subtitles_file(const PictureOutput& video);     // "fall.vtt"; empty
 std::vector<std::string> written_by(const Output& output);  // its file and its secondary files
 OutputInputs inputs_of(const Output& output);
 bool is_data(const Output& output);
-bool is_picture(const Output& output);
 const PictureOutput* picture_of(const Output& output, PictureOutput::Kind kind);  // null: it is none of this kind
 
 struct Scene {

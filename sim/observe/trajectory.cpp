@@ -78,18 +78,6 @@ class RecordReader {
     std::size_t used_ = 0;        // of the window
 };
 
-class NumbersInMemory final : public NumberSource {
-  public:
-    explicit NumbersInMemory(std::span<const double> numbers) : numbers_(numbers) {}
-    std::uint64_t size() const override { return numbers_.size(); }
-    void read(std::uint64_t from, std::span<double> into) const override {
-        std::ranges::copy(numbers_.subspan(static_cast<std::size_t>(from), into.size()), into.begin());
-    }
-
-  private:
-    std::span<const double> numbers_;
-};
-
 // Hands records to the recorders.
 class Player {
   public:
@@ -230,9 +218,6 @@ void TrajectoryWriter::end(double t) {
 }
 
 // ---- reader --------------------------------------------------------------------------------------
-
-Trajectory::Trajectory(const Problem& problem, std::span<const double> numbers)
-    : Trajectory(problem, std::make_shared<NumbersInMemory>(numbers)) {}
 
 Trajectory::Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers)
     : numbers_(std::move(numbers)) {

@@ -64,7 +64,6 @@ class Trajectory {
   public:
     // Throws std::invalid_argument when the numbers are no complete trajectory of this problem.
     Trajectory(const Problem& problem, std::shared_ptr<const NumberSource> numbers);
-    Trajectory(const Problem& problem, std::span<const double> numbers);  // which must outlive it
     double end() const { return end_; }
     // Replays it until the recorders are done. Throws std::invalid_argument where it ends before. Few of the numbers
     // are in memory at once.

@@ -26,7 +26,6 @@ class CamSurface {
     // f = θ̈_c + k cos θ_c − α [rad/s²], positive where a beam that follows the cam needs a contact force.
     double push(const SurfaceAngle& c) const;
 
-    double period() const { return period_; }  // of one turn; 1 s at rest
     double highest_acceleration() const { return highest_; }
     double lowest_acceleration() const { return lowest_; }
 

@@ -238,11 +238,11 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
         sweep_film || std::holds_alternative<SweepOutput>(any) || (diagram && diagram->figure == "bifurcation");
     if (place.starts_with("/data/"))
         return std::holds_alternative<FigureOutput>(any) || std::holds_alternative<SummaryOutput>(any) ||
-               is_picture(any);
+               std::holds_alternative<PictureOutput>(any);
     if (place == "/$schema") return false;
     if (place.starts_with("/sweep/")) return of_sweep;
     if (place == "/title") return !data;
-    if (place.starts_with("/units/")) return is_picture(any) || sweep_film;
+    if (place.starts_with("/units/")) return std::holds_alternative<PictureOutput>(any) || sweep_film;
     if (place != "/time/end") return true;
     if (of_sweep) return false;
     if (const auto* still = picture_of(any, PictureOutput::Kind::still)) return still->at.kind != Instant::Kind::time;

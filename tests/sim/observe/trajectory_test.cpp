@@ -11,6 +11,23 @@
 namespace beamcam::sim::testing {
 namespace {
 
+// A kept trajectory in memory; the numbers must outlive it.
+class NumbersInMemory final : public NumberSource {
+  public:
+    explicit NumbersInMemory(std::span<const double> numbers) : numbers_(numbers) {}
+    std::uint64_t size() const override { return numbers_.size(); }
+    void read(std::uint64_t from, std::span<double> into) const override {
+        std::ranges::copy(numbers_.subspan(static_cast<std::size_t>(from), into.size()), into.begin());
+    }
+
+  private:
+    std::span<const double> numbers_;
+};
+
+Trajectory trajectory_of(const Problem& problem, std::span<const double> numbers) {
+    return {problem, std::make_shared<NumbersInMemory>(numbers)};
+}
+
 // ---- every number of a result, as bits -----------------------------------------------------------
 
 using Bits = std::vector<std::uint64_t>;
@@ -184,7 +201,7 @@ TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
     const auto& [name, problem, end] = GetParam();
     if (problem.beam.model > ModelKind::paper) SKIP_UNDER_SANITIZERS();
     const Kept kept = keep(problem, end);
-    const Trajectory trajectory(problem, kept.numbers);
+    const Trajectory trajectory = trajectory_of(problem, kept.numbers);
     EXPECT_EQ(trajectory.end(), end);
     for (const double shorter : ends_for(kept, end)) {
         SCOPED_TRACE(::testing::Message() << "until " << shorter);
@@ -233,7 +250,7 @@ TEST(KeptTrajectory, FindsApexesAndZerosThatTheRunDidNotSearch) {
         const Result direct = simulate(problem, request);
         ASSERT_FALSE(direct.apexes.empty());
         ASSERT_FALSE(direct.theta_zero.empty());
-        expect_equal(replay(problem, Trajectory(problem, numbers), {&request, 1}).front(), direct);
+        expect_equal(replay(problem, trajectory_of(problem, numbers), {&request, 1}).front(), direct);
         // Nothing else depends on the search.
         Result bare = direct;
         bare.apexes.clear(), bare.theta_zero.clear();
@@ -257,7 +274,7 @@ TEST(KeptTrajectory, GivesTheHorizonAfterTheRunsThatItIsComparedWith) {
     ASSERT_TRUE(direct.reproducible_until);
     const Kept kept = keep(problem, 0.5);
     Effort effort;
-    const Result replayed = replay(problem, Trajectory(problem, kept.numbers), {&request, 1}, {}, &effort).front();
+    const Result replayed = replay(problem, trajectory_of(problem, kept.numbers), {&request, 1}, {}, &effort).front();
     EXPECT_EQ(replayed.reproducible_until, direct.reproducible_until);
     EXPECT_EQ(effort.integrations, 2);  // the method itself at a tighter tolerance, and another
     effort = {};
@@ -292,7 +309,7 @@ TEST(KeptTrajectory, OfAsManyEventsAsAreEnoughEndsAtTheLastOfThem) {
         if (end < 1.5) {
             EXPECT_LT(found.counters.steps, whole.counters.steps);
         }
-        const Trajectory trajectory(problem, numbers);
+        const Trajectory trajectory = trajectory_of(problem, numbers);
         EXPECT_EQ(replay(problem, trajectory, {&request, 1}).front().end_time, end);
         Request until;  // the whole run that ends there
         until.end_time = end;
@@ -306,18 +323,18 @@ TEST(KeptTrajectory, IsRefusedWhenItIsDamagedForeignOrTooShort) {
     const Kept kept = keep(problem, 0.3);
     Problem other;
     other.beam.modes = 3;
-    EXPECT_THROW(Trajectory(other, kept.numbers), std::invalid_argument);
+    EXPECT_THROW(trajectory_of(other, kept.numbers), std::invalid_argument);
     const std::span<const double> all(kept.numbers);
     for (std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{10}, all.size() / 2, all.size() - 1})
-        EXPECT_THROW(Trajectory(problem, all.first(count)), std::invalid_argument) << count;
+        EXPECT_THROW(trajectory_of(problem, all.first(count)), std::invalid_argument) << count;
     const Request longer = full_request(problem, 0.31);
-    EXPECT_THROW(replay(problem, Trajectory(problem, all), {&longer, 1}), std::invalid_argument);
+    EXPECT_THROW(replay(problem, trajectory_of(problem, all), {&longer, 1}), std::invalid_argument);
     const Request request = full_request(problem, 0.3);
     for (std::size_t at = 1; at < kept.numbers.size(); at += kept.numbers.size() / 37) {
         std::vector<double> bent = kept.numbers;
         bent[at] = -1e300;
         try {
-            replay(problem, Trajectory(problem, bent), {&request, 1});  // an error or a wrong number, never a crash
+            replay(problem, trajectory_of(problem, bent), {&request, 1});  // an error or a wrong number, never a crash
         } catch (const std::invalid_argument&) {
         }
     }

@@ -177,7 +177,7 @@ Problem on_its_orbit(Problem p, double alpha) {
     const double speed = p.cam->speed, half = 0.5 * alpha * cam_period(p), impact = half * 0.5 / 1.5;
     const CamSurface surface(*p.cam, p.cam->radius, 0, -alpha);
     const auto rate = [&](double s) { return surface.rate(surface.at(s)) - impact; };
-    const double turn = surface.period();
+    const double turn = cam_period(p);
     for (int i = 0; i < 2000; ++i) {
         const double from = turn * i / 2000, to = turn * (i + 1) / 2000;
         if (!(rate(from) > 0 && rate(to) <= 0)) continue;
