@@ -6,6 +6,7 @@
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/version.hpp"
 #include "scenes/sweep/parts.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -26,8 +27,8 @@ void act(const CollectArguments& args) {
     output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), to_json(all.scene)};
     output::write_sweep(manifest.target(args.file, std::move(origin)), all.data);
     manifest.save();
-    inform(args.common,
-           fmt::format("wrote {} ({} points of {} parts)", args.file, all.data.points(), args.parts.size()));
+    inform(args.common, fmt::format("wrote {} ({} of {})", args.file, counted(all.data.points(), "point"),
+                                    counted(args.parts.size(), "part")));
 }
 
 }  // namespace

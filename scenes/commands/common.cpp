@@ -120,10 +120,10 @@ void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool 
     for (const Scene& scene : scenes) {
         const Plan planned = plan_for(scene, options);
         if (json) {
-            text += (text.empty() ? "" : ",\n") + to_json(planned, scene);
+            text += (text.empty() ? "" : ",\n") + to_json(planned);
         } else {
             if (scenes.size() > 1) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", scene.name);
-            text += to_text(planned, scene);
+            text += to_text(planned);
         }
     }
     if (json)

@@ -4,6 +4,7 @@
 #include "output/data/manifest.hpp"
 #include "output/film/video.hpp"
 #include "scenes/commands/commands.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -31,7 +32,8 @@ void act(const ConcatArguments& args) {
     manifest.require_replaceable(args.file);
     const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, manifest.target(args.file));
     manifest.save();
-    inform(args.common, fmt::format("wrote {} ({} frames of {} segments)", args.file, frames, args.segments.size()));
+    inform(args.common, fmt::format("wrote {} ({} of {})", args.file, counted(frames, "frame"),
+                                    counted(args.segments.size(), "segment")));
 }
 
 }  // namespace

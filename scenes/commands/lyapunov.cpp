@@ -10,6 +10,7 @@
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/progress.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -37,8 +38,8 @@ const char* verdict(sim::Chaos chaos) {
 }
 
 std::string exponents_text(const sim::Exponents& e) {
-    std::string text = fmt::format("Lyapunov exponents over {:g} s after {:g} s; {} impacts, {} near grazing\n",
-                                   e.duration, e.transient, e.impacts, e.near_grazing);
+    std::string text = fmt::format("Lyapunov exponents over {:g} s after {:g} s; {}, {} near grazing\n", e.duration,
+                                   e.transient, counted(e.impacts, "impact"), e.near_grazing);
     double sum = 0;
     for (std::size_t i = 0; i < e.lambda.size(); ++i) {
         sum += e.lambda[i];
@@ -78,7 +79,8 @@ void act(const LyapunovArguments& args) {
                   [&] { return exponents_figure(found, scene.problem, args.files.lang); }},
                  args.files, scene, args.common, manifest);
     if (std::cmp_greater(args.count, found.lambda.size()))
-        inform(args.common, fmt::format("note: there are {} exponents, not {}", found.lambda.size(), args.count));
+        inform(args.common,
+               fmt::format("note: the motion has {}, not {}", counted(found.lambda.size(), "exponent"), args.count));
     for (const std::string& warning : found.warnings) inform(args.common, "warning: " + warning);
 }
 

@@ -19,6 +19,7 @@
 #include "scenes/plan/output_times.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/version.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -112,7 +113,7 @@ class PaperWriter {
     }
     void finish() {
         manifest_.save();
-        inform(args_.common, fmt::format("wrote {} files to {}", count_, args_.directory));
+        inform(args_.common, fmt::format("wrote {} to {}", counted(count_, "file"), args_.directory));
     }
 
   private:
@@ -126,7 +127,7 @@ std::string plan_text(const std::vector<Study>& studies, const std::vector<std::
     for (const Study& s : studies)
         text +=
             fmt::format("simulate  {} until {:g} s, because of {}{}\n", name(s.problem.beam.model), s.request.end_time,
-                        s.because, s.request.horizon ? ", and again for its reproducible horizon" : "");
+                        s.label, s.request.horizon ? ", and again for its reproducible horizon" : "");
     for (const std::string& file : files) text += fmt::format("write     {}\n", file);
     return text;
 }
@@ -155,7 +156,7 @@ void act(const PaperArguments& args) {
         studies);
     const auto findings = prepare_findings(studies);
     const std::vector<Study> all = studies.take();
-    for (const Study& study : all) motions.request(study.problem, {study.request}, study.because);
+    for (const Study& study : all) motions.request(study.problem, {study.request}, study.label);
     motions.compute();
     std::vector<sim::Result> made;
     for (std::size_t i = 0; i < all.size(); ++i) made.push_back(std::move(motions.take_results(i).front()));

@@ -12,6 +12,7 @@
 #include "scenes/commands/commands.hpp"
 #include "scenes/regression/regression.hpp"
 #include "scenes/regression/report.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -104,12 +105,12 @@ void print_result(const TestArguments& args, const RegressionResult& result, con
     std::map<Verdict, std::size_t> counts;
     for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
     const std::size_t new_renderer = counts[Verdict::new_renderer];
-    inform(args.common, fmt::format("{} entries: {} identical, {} equivalent, {}{} different, {} missing; {} "
-                                    "simulations, {} pictures, {:.2f} s",
-                                    result.entries.size(), counts[Verdict::identical], counts[Verdict::equivalent],
-                                    new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "",
-                                    counts[Verdict::different], counts[Verdict::missing], result.simulations,
-                                    result.pictures, result.seconds));
+    inform(args.common,
+           fmt::format("{}: {} identical, {} equivalent, {}{} different, {} missing; {}, {}, {:.2f} s",
+                       counted(result.entries.size(), "entry"), counts[Verdict::identical], counts[Verdict::equivalent],
+                       new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "",
+                       counts[Verdict::different], counts[Verdict::missing], counted(result.simulations, "simulation"),
+                       counted(result.pictures, "picture"), result.seconds));
     if (result.changed)
         inform(args.common,
                fmt::format("{} was changed: check the pictures and motions that it accepts now before you keep it",

@@ -28,14 +28,14 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time) {
     if (found == keys_.end()) {
         keys_.push_back(physics);
         users_.push_back(0);
-        all_.push_back({.problem = problem, .request = {}, .because = {}});
+        all_.push_back({problem});
     }
     Study& study = all_[index];
     ++users_[index];
     study.request.enough.reset();
-    if (study.because.empty() || end_time > study.request.end_time) {
+    if (study.label.empty() || end_time > study.request.end_time) {
         study.request.end_time = std::max(end_time, study.request.end_time);
-        study.because = figure_;
+        study.label = figure_;
     }
     return index;
 }

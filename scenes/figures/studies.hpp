@@ -15,11 +15,12 @@ namespace beamcam::scenes {
 
 struct Scene;
 
+// A motion that an output needs, and what it requests of it.
 struct Study {
     sim::Problem problem;
-    sim::Request request;
-    std::string because;    // the figure that needs the longest run
-    bool of_scene = false;  // the scene's own physics; for the plan
+    sim::Request request = {};
+    std::string label = {};  // the figure that needs the longest run; of a compared motion its label
+    bool of_scene = false;   // the scene's own physics; for the plan
     // A physics that the figure chose: if it cannot be integrated to the end, its result holds the part that was
     // reached, or nothing, and the figure omits the rest.
     bool may_fail = false;

@@ -134,8 +134,8 @@ void MotionStore::compute(const Group& group, const sim::Progress& progress) {
         if (!reached.empty()) why = why.substr(0, why.find(';'));  // the remedy applies to the scene's own motion only
         const bool nothing = reached.empty();
         if (nothing) reached.resize(requests.size());
-        reached.front().warnings = {fmt::format("{}, {}, {} modes: {}", nothing ? "left out" : "cut short",
-                                                name(first.problem.beam.model), first.problem.beam.modes, why)};
+        reached.front().warnings = {
+            fmt::format("{}, {}: {}", nothing ? "left out" : "cut short", describe(first.problem), why)};
         hand_out(std::move(reached), &MotionRequest::results);
         return true;
     };
@@ -159,10 +159,11 @@ void MotionStore::report(const Group& group) const {
             output::print_message("warning: {}{}{}\n", first.label, first.label.empty() ? "" : ": ", warning);
     if (options_.verbose && run.counters.steps > 0)
         output::print_message(
-            "motion{}{}: {} steps, {} right-hand sides, {} impacts in {} collisions, energy error {:.2e} J of "
+            "motion{}{}: {}, {}, {} in {}, energy error {:.2e} J of "
             "{:.3g} J\n",
-            first.label.empty() ? "" : " of ", first.label, run.counters.steps, run.counters.rhs_evaluations,
-            run.impacts.size(), run.collisions.size(), run.energy_residual_max, run.energy_scale);
+            first.label.empty() ? "" : " of ", first.label, counted(run.counters.steps, "step"),
+            counted(run.counters.rhs_evaluations, "right-hand side"), counted(run.impacts.size(), "impact"),
+            counted(run.collisions.size(), "collision"), run.energy_residual_max, run.energy_scale);
 }
 
 sim::Result MotionStore::find_events(const sim::Problem& problem, const sim::Request& request, double far) {

@@ -9,6 +9,7 @@
 #include "render/plot/user_text.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -36,8 +37,8 @@ class PngSink final : public PictureSink {
     void finish() override {
         if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
         to_.context.progress.end();
-        to_.context.print("wrote {} … {} ({} frames)\n", path_of(0).string(),
-                          numbered_file(p_.file, p_.first_frame + p_.draw.back()), p_.draw.size());
+        to_.context.print("wrote {} … {} ({})\n", path_of(0).string(),
+                          numbered_file(p_.file, p_.first_frame + p_.draw.back()), counted(p_.draw.size(), "frame"));
     }
 
   private:

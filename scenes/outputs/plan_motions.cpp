@@ -29,7 +29,7 @@ void PlanMotions::request_all() {
         std::vector<sim::Request> requests = requests_of(plan_);
         for (const Pictures& p : plan_.pictures)
             results_.poses.push_back(p.compared.empty() ? store_poses(requests.front(), p.of_scene) : StoredPoses{});
-        own_ = motions_.request(problem_, std::move(requests));
+        own_ = motions_.request(plan_.simulation->problem, std::move(requests));
     }
     request_others();
 }

@@ -33,8 +33,7 @@ struct PlanResults {
 class PlanMotions {
   public:
     // The times of the plan are known before the first request; all must outlive this.
-    PlanMotions(const Plan& plan, const sim::Problem& problem, MotionStore& motions)
-        : plan_(plan), problem_(problem), motions_(motions) {}
+    PlanMotions(const Plan& plan, MotionStore& motions) : plan_(plan), motions_(motions) {}
 
     void request_all();     // for all
     void request_others();  // all but the scene's own motion, whose results take_results gets
@@ -45,7 +44,6 @@ class PlanMotions {
 
   private:
     const Plan& plan_;
-    const sim::Problem& problem_;
     MotionStore& motions_;
     std::optional<std::size_t> own_;   // request for the scene's motion
     std::vector<std::size_t> others_;  // requests for others, in the order of take_results

@@ -128,7 +128,7 @@ void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, optio
 void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const RunOptions& options) {
     // 1. Compute what the given results lack: other motions and the sweep.
     RunContext context(options);
-    PlanMotions motions(plan, scene.problem, context.motions);
+    PlanMotions motions(plan, context.motions);
     motions.request_others();
     context.motions.compute();
     PlanResults results = motions.take_results(std::move(callbacks.results));
@@ -161,7 +161,7 @@ Plan plan_for(const Scene& scene, const RunOptions& options) {
                                             cache ? &*cache : nullptr, options.force);
     Plan made = plan(scene, options.selection, found.existing);
     add_omitted_text(made, scene);
-    if (cache) estimate(made, scene, History(cache->directory()), thread_count(options.threads));
+    if (cache) estimate(made, History(cache->directory()), thread_count(options.threads));
     return made;
 }
 

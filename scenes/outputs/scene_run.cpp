@@ -17,6 +17,7 @@
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/plan/estimate.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -42,7 +43,7 @@ SceneRun::SceneRun(const Scene& scene, RunContext& context)
                                    context.cache_or_null(), context.options.force)),
       plan_(scenes::plan(scene, context.options.selection, up_to_date_.existing)),
       files_(scene, up_to_date_.inputs, context),
-      motions_(plan_, scene.problem, context.motions) {}
+      motions_(plan_, context.motions) {}
 
 // ---- before the motions ------------------------------------------------------------------------
 
@@ -61,7 +62,7 @@ void SceneRun::report_up_to_date() {
     }
     for (const auto& [output, frames] : up_to_date_.existing.frames) {
         context_.work.frames_left += static_cast<long>(frames.size());
-        context_.print("kept {} frames of {}: up to date\n", frames.size(),
+        context_.print("kept {} of {}: up to date\n", counted(frames.size(), "frame"),
                        files_.path_of(file_of(scene_.outputs[output])).string());
     }
 }
@@ -115,13 +116,15 @@ void SceneRun::compute_sweep() {
         if (const auto* finished = std::get_if<SweepOutput>(&output);
             finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_end_states)
             sweep_->reuse_points_of(files_.path_of(finished->file));
-    if (sweep_->points_there() > 0) context_.print("{} points exist already\n", sweep_->points_there());
+    if (sweep_->points_there() > 0)
+        context_.print("found {} of an earlier run\n", counted(sweep_->points_there(), "point"));
     try {
         sweep_->make(context_.options.threads, context_.progress);
     } catch (const sim::Interrupted&) {
         context_.progress.end();
         if (!is_stdout(plan_.sweep))
-            context_.print("{} points are stored; the same command continues from there\n", sweep_->points_there());
+            context_.print("stored {}; the same command continues from there\n",
+                           counted(sweep_->points_there(), "point"));
         throw;
     }
     context_.print("{}\n", sweep_->summary());

@@ -8,6 +8,7 @@
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/film_times.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -40,7 +41,7 @@ void ShapesOutput::plan(Planner& planner, std::size_t output) const {
             }
         }
         output::write_table(*from.file, table);
-        return fmt::format("{} rows", table.rows());
+        return counted(table.rows(), "row");
     };
     planner.add(std::move(data));
 }

@@ -22,6 +22,7 @@
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/outputs/sweep_shots.hpp"
 #include "scenes/plan/planner.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -270,9 +271,9 @@ void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
     if (planner.selection().shards > 1)
         return planner.skip(file, "a part of a sweep has no film; join the parts with `beamcam collect` first");
     DataFile film{output, file, "sweep-film", {}};
-    film.content = fmt::format("{} frames of {} × {}", frames_of(*this), size.width, size.height);
+    film.content = fmt::format("{} of {} × {}", counted(frames_of(*this), "frame"), size.width, size.height);
     film.write = [how = *this, scene = planner.scene()](const DataSource& from) {
-        return fmt::format("{} frames", SweepFilm(how, scene, *from.sweep).write(*from.file, from.progress));
+        return counted(SweepFilm(how, scene, *from.sweep).write(*from.file, from.progress), "frame");
     };
     planner.require_sweep(file);
     planner.require_sweep_end_states();

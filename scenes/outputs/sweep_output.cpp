@@ -9,6 +9,7 @@
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/files.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -37,7 +38,7 @@ void SweepOutput::plan(Planner& planner, std::size_t output) const {
             output::write_sweep_csv(std::cout, *from.sweep);
             output::flush_data();
         }
-        return fmt::format("{} rows", from.sweep->rows_in_all());
+        return counted(from.sweep->rows_in_all(), "row");
     };
     planner.require_sweep(data.file);
     planner.add(std::move(data));

@@ -1,6 +1,4 @@
 // Output "trajectory": a table of channels against time, as CSV or NPZ.
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <iostream>
 
@@ -10,6 +8,7 @@
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/film_times.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -30,7 +29,7 @@ std::string write_table(const DataSource& from, const sim::Table& table) {
         output::write_csv(std::cout, table);
         output::flush_data();
     }
-    return fmt::format("{} rows", table.rows());
+    return counted(table.rows(), "row");
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
     planner.simulate_until(*std::ranges::max_element(instants), file);
 
     DataFile data{output, file, "table", {}};
-    data.content = fmt::format("{} rows of {} channels", instants.size(), columns.size());
+    data.content = counted(instants.size(), "row") + " of " + counted(columns.size(), "channel");
     data.numbers = instants.size() * columns.size();
     data.details = object_node(
         {{"rows", integer_node(static_cast<long>(instants.size()))}, {"channels", texts_node(channel_names(columns))}});

@@ -8,6 +8,7 @@
 #include "render/plot/user_text.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/scene/version.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -113,7 +114,7 @@ class VideoSink final : public PictureSink {
         to_.context.times.convert += spent.convert_seconds;
         to_.context.times.encode += spent.encode_seconds;
         to_.context.work.frames_encoded += spent.frames;
-        to_.files.wrote(to_.files.path_of(p_.file), fmt::format("{} frames", p_.draw.size()));
+        to_.files.wrote(to_.files.path_of(p_.file), counted(p_.draw.size(), "frame"));
         if (!p_.subtitles_file.empty() && p_.part.empty()) {
             const std::filesystem::path file = to_.files.path_of(p_.subtitles_file);
             output::write_file(to_.files.target(file, p_.output), subtitle_file(to_.track.subtitles, p_.subtitles));

@@ -31,22 +31,18 @@ std::optional<Cost> cost(const History& history, const std::vector<std::string>&
     return rate ? std::optional(Cost{units * rate->seconds, units * rate->amount}) : std::nullopt;
 }
 
-std::optional<Cost> cost(const History& history, const sim::Problem& problem, const Simulation& s) {
-    return cost(history, motion_work(motion_key(problem), problem, s.from_cache, s.horizon), s.request.end_time);
+std::optional<Cost> cost(const History& history, const Simulation& s) {
+    return cost(history, motion_work(motion_key(s.problem), s.problem, s.from_cache, s.horizon), s.request.end_time);
 }
 
 }  // namespace
 
-void estimate(Plan& plan, const Scene& scene, const History& history, int threads) {
+void estimate(Plan& plan, const History& history, int threads) {
     if (plan.simulation && plan.simulation->until_events.empty())
-        plan.simulation->cost = cost(history, scene.problem, *plan.simulation);
-    for (Variant& v : plan.variants) v.simulation.cost = cost(history, v.problem, v.simulation);
-    for (Pictures& p : plan.pictures) {
-        for (ComparedMotion& each : p.compared)
-            each.cost =
-                cost(history, motion_work(motion_key(each.problem), each.problem, false, false), each.request.end_time);
+        plan.simulation->cost = cost(history, *plan.simulation);
+    for (Simulation& s : plan.others) s.cost = cost(history, s);
+    for (Pictures& p : plan.pictures)
         if (p.times_known) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
-    }
     for (FigureFile& f : plan.figures) f.cost = cost(history, figure_work(f), 1);
     for (DataFile& d : plan.data)
         if (d.numbers > 0) d.cost = cost(history, data_work(d), static_cast<double>(d.numbers));

@@ -15,6 +15,6 @@ std::vector<std::string> figure_work(const FigureFile& figure);                /
 std::vector<std::string> data_work(const DataFile& data);                      // per number
 
 // Fills the costs of the plan.
-void estimate(Plan& plan, const Scene& scene, const History& history, int threads);
+void estimate(Plan& plan, const History& history, int threads);
 
 }  // namespace beamcam::scenes

@@ -40,11 +40,8 @@ std::optional<Cost> Plan::cost() const {
         if (bytes) all->amount += one->amount;
     };
     if (simulation) add(simulation->cost, false);
-    for (const Variant& v : variants) add(v.simulation.cost, false);
-    for (const Pictures& p : pictures) {
-        for (const ComparedMotion& each : p.compared) add(each.cost, false);
-        add(p.cost, true);
-    }
+    for (const Simulation& s : others) add(s.cost, false);
+    for (const Pictures& p : pictures) add(p.cost, true);
     for (const FigureFile& f : figures) add(f.cost, true);
     for (const DataFile& d : data) add(d.cost, true);
     return all;

@@ -35,9 +35,8 @@ struct Selection {
 struct ExistingWork {
     std::set<std::size_t> finished;                // outputs whose files are up to date
     std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the up-to-date frames
-    std::optional<double> kept_until;              // end of the cached trajectory of this motion [s]
     bool keeps = false;                            // trajectories are cached
-    std::map<std::string, double> variants_kept;   // the same for other motions, by Studies::key
+    std::map<std::string, double> kept_until;      // ends of the cached trajectories, by Studies::key [s]
     double until = 0;                              // end of a run for all outputs, up-to-date ones included [s]
 };
 
@@ -49,24 +48,20 @@ struct Cost {
 
 // The simulation of one motion, for all outputs that need it.
 struct Simulation {
-    sim::Request request;
-    std::string until_because;  // the output that needs the latest time: "fall.mp4"
+    sim::Problem problem;
+    sim::Request request = {};       // of the scene's motion; of another, which its outputs request, only the end
+    std::string label = {};          // of a compared motion
+    std::string until_because = {};  // the output that needs the latest time: "fall.mp4"
     // Events with unknown times at which outputs end: "impact 3, for f.pdf".
     std::vector<std::string> until_events = {};
     // Ends of pictures before the end of the run: each reports impacts and energy as if the run ended with it.
-    std::vector<double> ends;  // [s], distinct
-    bool horizon = false;      // the reproducible horizon is needed, by further runs
-    bool from_cache = false;   // the cached trajectory is long enough
-    bool keep = false;         // the trajectory goes into the cache
-    std::optional<Cost> cost;
+    std::vector<double> ends = {};  // [s], distinct
+    bool horizon = false;           // the reproducible horizon is needed, by further runs
+    bool from_cache = false;        // the cached trajectory is long enough
+    bool keep = false;              // the trajectory goes into the cache
+    std::optional<Cost> cost = {};
 
     void simulate_until(double t, const std::string& file);
-};
-
-// A motion with other physics than the scene, for the figures that compare it.
-struct Variant {
-    sim::Problem problem;
-    Simulation simulation;
 };
 
 // What a picture requests of a motion: indices into its request.
@@ -77,13 +72,9 @@ struct PictureRequests {
     std::optional<std::size_t> trace;  // into Request::tables: t, contact_x, contact_s, contact_force; with a cam
 };
 
-// One of the motions that a picture compares: a separate run.
-struct ComparedMotion {
-    std::string label;
-    sim::Problem problem;
-    sim::Request request = {};
+// One of the motions that a picture compares.
+struct ComparedMotion : Study {
     PictureRequests of_picture = {};
-    std::optional<Cost> cost = {};
 };
 
 // An output with pictures of the mechanism, as this run makes it.
@@ -156,12 +147,12 @@ struct Skipped {
 };
 
 struct Plan {
-    std::optional<Simulation> simulation;
+    std::optional<Simulation> simulation;  // of the scene's motion
     // Upper bound of the first run, which finds the events of pictures and figures without known times.
     std::optional<double> events_until;
-    bool all_events = false;  // false: the first run may end at the last event that outputs name
-    std::vector<Variant> variants;
-    std::string sweep;  // the first file that needs the points of the scene's sweep; empty: none
+    bool all_events = false;         // false: the first run may end at the last event that outputs name
+    std::vector<Simulation> others;  // of motions that pictures and figures compare with the scene's or each other
+    std::string sweep;               // the first file that needs the points of the scene's sweep; empty: none
     bool sweep_end_states =
         false;  // a film continues the motions from their end states, which a NetCDF file does not contain
     std::vector<Pictures> pictures;
@@ -210,7 +201,7 @@ const char* kind_name(PictureOutput::Kind kind);
 std::string encoding_text(const Encoding& encoding);  // "H.264, crf 18, veryfast"
 
 // The plan for people and for programs.
-std::string to_text(const Plan& plan, const Scene& scene);
-std::string to_json(const Plan& plan, const Scene& scene);
+std::string to_text(const Plan& plan);
+std::string to_json(const Plan& plan);
 
 }  // namespace beamcam::scenes

@@ -17,17 +17,14 @@ Node file_stage(const char* name, const std::string& file, std::size_t output) {
     return object_node({{"stage", text_node(name)}, {"file", text_node(file)}, {"output", count_node(output)}});
 }
 
-Node motion_stage(const sim::Problem& problem, const sim::Request& request, const std::string& because) {
-    const bool rigid = problem.beam.model == sim::ModelKind::rigid;
-    return object_node({{"stage", text_node("simulate")},
-                        {"model", text_node(name(problem.beam.model))},
-                        {"modes", integer_node(rigid ? 0 : problem.beam.modes)},
-                        {"until", number_node(request.end_time)},
-                        {"because", text_node(because)}});
-}
-
-Node stage_of(const Simulation& simulation, const sim::Problem& problem) {
-    Node stage = motion_stage(problem, simulation.request, simulation.until_because);
+Node stage_of(const Simulation& simulation) {
+    const sim::Beam& beam = simulation.problem.beam;
+    Node stage = object_node({{"stage", text_node("simulate")},
+                              {"model", text_node(name(beam.model))},
+                              {"modes", integer_node(beam.model == sim::ModelKind::rigid ? 0 : beam.modes)},
+                              {"until", number_node(simulation.request.end_time)},
+                              {"because", text_node(simulation.until_because)}});
+    if (!simulation.label.empty()) add(stage, "label", text_node(simulation.label));
     if (!simulation.until_events.empty()) add(stage, "until_events", texts_node(simulation.until_events));
     add(stage, "horizon", boolean_node(simulation.horizon));
     add(stage, "from_cache", boolean_node(simulation.from_cache));
@@ -57,20 +54,14 @@ Node stage_of(const Pictures& p, const std::vector<double>& times) {
     return stage;
 }
 
-Node stages_of(const Plan& plan, const Scene& scene) {
+Node stages_of(const Plan& plan) {
     Node stages = array_node();
     const auto put = [&stages](Node stage) { stages.items.push_back(std::move(stage)); };
     if (plan.events_until)
         put(object_node({{"stage", text_node("impacts")}, {"until", number_node(*plan.events_until)}}));
-    if (plan.simulation) put(stage_of(*plan.simulation, scene.problem));
-    for (const Pictures& p : plan.pictures) {
-        for (const ComparedMotion& motion : p.compared) {
-            put(motion_stage(motion.problem, motion.request, p.file));
-            add(stages.items.back(), "label", text_node(motion.label));
-        }
-        put(stage_of(p, plan.times(p)));
-    }
-    for (const Variant& variant : plan.variants) put(stage_of(variant.simulation, variant.problem));
+    if (plan.simulation) put(stage_of(*plan.simulation));
+    for (const Simulation& other : plan.others) put(stage_of(other));
+    for (const Pictures& p : plan.pictures) put(stage_of(p, plan.times(p)));
     for (const FigureFile& f : plan.figures) {
         put(file_stage("figure", f.file, f.output));
         add(stages.items.back(), "figure", text_node(f.figure));
@@ -86,9 +77,9 @@ Node stages_of(const Plan& plan, const Scene& scene) {
 
 }  // namespace
 
-std::string to_json(const Plan& plan, const Scene& scene) {
+std::string to_json(const Plan& plan) {
     Node out = object_node(), skipped = array_node();
-    add(out, "stages", stages_of(plan, scene));
+    add(out, "stages", stages_of(plan));
     add_cost(out, plan.cost(), "bytes");
     for (const Skipped& each : plan.skipped)
         skipped.items.push_back(object_node({{"what", text_node(each.what)}, {"why", text_node(each.why)}}));

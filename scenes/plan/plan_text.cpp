@@ -63,12 +63,14 @@ std::string file_cost(const std::optional<Cost>& cost) {
     return cost ? fmt::format("; about {} s, {}", about(cost->seconds), size_text(cost->amount)) : "";
 }
 
-std::string simulation_text(const Simulation& simulation, const sim::Problem& problem) {
+std::string simulation_text(const Simulation& simulation) {
     const double end = simulation.request.end_time;
-    std::string text = model_text(problem) + "; ", events = fmt::format("{}", fmt::join(simulation.until_events, ", "));
+    std::string text = model_text(simulation.problem) + "; ",
+                events = fmt::format("{}", fmt::join(simulation.until_events, ", "));
     if (end > 0) text += fmt::format("until {:g} s, needed by {}", end, simulation.until_because);
     if (!events.empty()) text += fmt::format("{}until {}", end > 0 ? ", or, if later, " : "", events);
     if (!(end > 0) && events.empty()) text += "the initial state only, without integration";
+    if (!simulation.label.empty()) text += fmt::format(" for \"{}\"", simulation.label);
     if (simulation.from_cache) text += "; from the cache";
     if (simulation.keep) text += "; added to the cache, unless it is short";
     if (simulation.horizon) text += "; further runs find the reproducible horizon";
@@ -84,9 +86,9 @@ std::string span_text(const Pictures& p, const std::vector<double>& times) {
             !p.span.to_event) {  // only its charts or its poster depend on events
             FrameSpan alone = p.span;
             alone.poster.reset();
-            return fmt::format("{} frames from {:g} s to {:g} s at {:g} per second",
-                               film_times(alone, p.end_time, {}).frames.size(), p.span.from, p.end_time,
-                               p.span.fps.value());
+            return fmt::format("{} from {:g} s to {:g} s at {:g} per second",
+                               counted(film_times(alone, p.end_time, {}).frames.size(), "frame"), p.span.from,
+                               p.end_time, p.span.fps.value());
         }
         const auto bound = [](const std::optional<Instant>& event, double t) {
             return name_of(event.value_or(Instant{.t = t}));
@@ -96,13 +98,13 @@ std::string span_text(const Pictures& p, const std::vector<double>& times) {
                            p.span.fps.value());
     }
     if (still) return fmt::format("one picture at {:g} s", times.front());
-    return fmt::format("{} frames from {:g} s to {:g} s at {:g} per second", p.draw.size(),
+    return fmt::format("{} from {:g} s to {:g} s at {:g} per second", counted(p.draw.size(), "frame"),
                        times[static_cast<std::size_t>(p.draw.front())], times[static_cast<std::size_t>(p.draw.back())],
                        p.span.fps.value());
 }
 
 std::string pace_text(const Speed& speed) {
-    if (!speed.intervals.empty()) return fmt::format(", other speeds in {} intervals", speed.intervals.size());
+    if (!speed.intervals.empty()) return ", other speeds in " + counted(speed.intervals.size(), "interval");
     if (!speed.around) return speed.factor == 1 ? "" : fmt::format(", {:g} times real speed", speed.factor);
     return fmt::format(", {:g} times real speed around impacts", speed.around->factor);
 }
@@ -124,22 +126,16 @@ std::string picture_text(const Pictures& p, const std::vector<double>& times) {
 
 }  // namespace
 
-std::string to_text(const Plan& plan, const Scene& scene) {
+std::string to_text(const Plan& plan) {
     std::string text = "to do\n";
     auto line = [&](std::string_view what, const std::string& how) { text += fmt::format("  {:<9} {}\n", what, how); };
     if (plan.events_until)
         line("events",
              fmt::format("a first run until {:g} s{} finds the events at which outputs begin, end, freeze or slow down",
                          *plan.events_until, plan.all_events ? "" : " at most"));
-    if (plan.simulation) line("simulate", simulation_text(*plan.simulation, scene.problem));
-    for (const Pictures& p : plan.pictures) {
-        for (const ComparedMotion& motion : p.compared)
-            line("simulate", fmt::format("{}; until {:g} s, motion \"{}\" of {}", model_text(motion.problem),
-                                         motion.request.end_time, motion.label, p.file) +
-                                 motion_cost(motion.cost));
-        line(kind_name(p.kind), picture_text(p, plan.times(p)));
-    }
-    for (const Variant& variant : plan.variants) line("simulate", simulation_text(variant.simulation, variant.problem));
+    if (plan.simulation) line("simulate", simulation_text(*plan.simulation));
+    for (const Simulation& other : plan.others) line("simulate", simulation_text(other));
+    for (const Pictures& p : plan.pictures) line(kind_name(p.kind), picture_text(p, plan.times(p)));
     for (const FigureFile& f : plan.figures)
         line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const DataFile& d : plan.data)

@@ -7,6 +7,7 @@
 #include "scenes/motions/motion_store.hpp"
 #include "scenes/plan/output_times.hpp"
 #include "scenes/scene/files.hpp"
+#include "sim/base/counted.hpp"
 #include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
@@ -65,7 +66,7 @@ bool is_shared(const Output& output) {
 }  // namespace
 
 Planner::Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing)
-    : scene_(scene), selection_(selection), existing_(existing) {}
+    : scene_(scene), selection_(selection), existing_(existing), simulation_{scene.problem} {}
 
 Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
@@ -80,11 +81,7 @@ Plan Planner::make() {
         }
     }
     if (needed_) finish_simulation();
-    for (Variant& variant : plan_.variants) {
-        const auto kept = existing_.variants_kept.find(Studies::key(variant.problem));
-        resolve_cache_use(variant.simulation,
-                          kept == existing_.variants_kept.end() ? std::nullopt : std::optional(kept->second));
-    }
+    for (Simulation& other : plan_.others) resolve_cache_use(other);
     // In the order of the types.
     std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
     add_skipped_stages();
@@ -95,14 +92,16 @@ void Planner::finish_simulation() {
     simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
     for (const sim::Request& of_figure : figure_requests_)
         simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
-    resolve_cache_use(simulation_, existing_.kept_until);
+    resolve_cache_use(simulation_);
     plan_.simulation = std::move(simulation_);
     assign_ends(plan_);
 }
 
 // On entry `keep` is true if the motion is worth caching.
-void Planner::resolve_cache_use(Simulation& simulation, std::optional<double> kept_until) const {
-    simulation.from_cache = kept_until && *kept_until >= simulation.request.end_time && simulation.until_events.empty();
+void Planner::resolve_cache_use(Simulation& simulation) const {
+    const auto kept = existing_.kept_until.find(Studies::key(simulation.problem));
+    simulation.from_cache = kept != existing_.kept_until.end() && kept->second >= simulation.request.end_time &&
+                            simulation.until_events.empty();
     simulation.keep = simulation.keep && existing_.keeps && !simulation.from_cache;
 }
 
@@ -164,10 +163,11 @@ void Planner::add_own_motion(Pictures& p, double end) {
 
 void Planner::add_compared(Pictures& p) {
     for (const Compared& each : p.compare) {
-        ComparedMotion& motion = p.compared.emplace_back(ComparedMotion{each.label, each.problem});
+        ComparedMotion& motion = p.compared.emplace_back(ComparedMotion{{each.problem, {}, each.label}});
         motion.request.end_time = p.end_time;
         motion.request.horizon = p.horizon;
         motion.of_picture = add_requests(p, each.problem, motion.request);
+        add_other(motion, p.file).label = each.label;
     }
 }
 
@@ -193,26 +193,26 @@ void Planner::find_events(double until, bool all) {
     plan_.all_events = plan_.all_events || all;
 }
 
-// Studies of the same motion share one run.
 void Planner::add_study(const Study& study, const FigureFile& figure) {
-    if (study.of_scene) {
-        figure.ends_at ? simulate_until(*figure.ends_at, figure.file)
-                       : simulate_until(end_of(study.request), figure.file);
-        figure_requests_.push_back(study.request);
-        simulation_.horizon = simulation_.horizon || study.request.horizon;
+    if (!study.of_scene) {
+        add_other(study, figure.file);
         return;
     }
+    figure.ends_at ? simulate_until(*figure.ends_at, figure.file) : simulate_until(end_of(study.request), figure.file);
+    figure_requests_.push_back(study.request);
+    simulation_.horizon = simulation_.horizon || study.request.horizon;
+}
+
+// Studies of the same motion share one simulation.
+Simulation& Planner::add_other(const Study& study, const std::string& file) {
     const std::string key = Studies::key(study.problem);
-    auto same = std::ranges::find_if(plan_.variants,
-                                     [&](const Variant& variant) { return Studies::key(variant.problem) == key; });
-    if (same == plan_.variants.end()) {
-        plan_.variants.push_back({study.problem, {}});
-        same = plan_.variants.end() - 1;
-    }
-    Simulation& all = same->simulation;
-    all.simulate_until(end_of(study.request), figure.file);
-    all.horizon = all.horizon || study.request.horizon;
-    all.keep = all.keep || worth_keeping(study.problem, study.request);
+    auto same =
+        std::ranges::find_if(plan_.others, [&](const Simulation& other) { return Studies::key(other.problem) == key; });
+    if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem});
+    same->simulate_until(end_of(study.request), file);
+    same->horizon = same->horizon || study.request.horizon;
+    same->keep = same->keep || worth_keeping(study.problem, study.request);
+    return *same;
 }
 
 // ---- what is skipped ---------------------------------------------------------------------------
@@ -221,12 +221,12 @@ void Planner::add_skipped_frames(const Pictures& p, std::size_t count) {
     if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.existing.size() < count))
         skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.existing.size(), count, p.file),
              p.selection.frames ? "outside the selected frames" : "other shards draw them");
-    if (!p.existing.empty()) skip(fmt::format("{} frames of {}", p.existing.size(), p.file), "up to date");
+    if (!p.existing.empty()) skip(fmt::format("{} of {}", counted(p.existing.size(), "frame"), p.file), "up to date");
 }
 
 void Planner::add_skipped_stages() {
     const bool compares = std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
-    if (!needed_ && !compares && !plan_.variants.empty())
+    if (!needed_ && !compares && !plan_.others.empty())
         return skip("simulation of the scene itself", "its figures show only variants of it");
     if (!needed_)
         return skip(compares || !plan_.sweep.empty() ? "simulation of the scene itself" : "simulation",

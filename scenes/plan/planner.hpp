@@ -39,8 +39,9 @@ class Planner {
 
   private:
     void finish_simulation();
-    void resolve_cache_use(Simulation& simulation, std::optional<double> kept_until) const;
+    void resolve_cache_use(Simulation& simulation) const;
     void add_study(const Study& study, const FigureFile& figure);
+    Simulation& add_other(const Study& study, const std::string& file);
     void add_own_motion(Pictures& p, double end);
     void add_compared(Pictures& p);
     PictureRequests add_requests(const Pictures& p, const sim::Problem& problem, sim::Request& request) const;

@@ -32,10 +32,11 @@ class UpToDateCheck {
 
   private:
     void check_cache(const Cache& cache) {
-        found_.existing.kept_until = cache.reach(found_.motion);
-        for (const Variant& variant : whole_.variants)
-            if (const auto until = cache.reach(motion_key(variant.problem)))
-                found_.existing.variants_kept[Studies::key(variant.problem)] = *until;
+        const auto check = [&](const sim::Problem& problem, const std::string& key) {
+            if (const auto until = cache.reach(key)) found_.existing.kept_until[Studies::key(problem)] = *until;
+        };
+        check(scene_.problem, found_.motion);
+        for (const Simulation& other : whole_.others) check(other.problem, motion_key(other.problem));
     }
 
     std::string part_of(std::size_t output) const {

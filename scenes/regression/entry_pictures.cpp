@@ -10,6 +10,7 @@
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "output/image/png_reader.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 
@@ -201,7 +202,7 @@ void EntryPictures::conclude() {
     } else if (const std::size_t count = test_.entry.accepted.front().sha256.size();
                count != test_.result.frames.size()) {
         test_.result.picture_lines = {
-            fmt::format("{} pictures were expected, {} were drawn", count, test_.result.frames.size())};
+            fmt::format("{} drawn, {} expected", counted(test_.result.frames.size(), "picture"), count)};
         verdict = Verdict::different;
     } else if (!changed.empty()) {
         test_.result.picture_lines = {message(changed)};

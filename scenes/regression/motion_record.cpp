@@ -11,6 +11,7 @@
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "scenes/format/tree.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -100,8 +101,9 @@ class Comparer {
         identical_ = false;
         if (!whole.same_shape())
             add(INFINITY,
-                fmt::format("the recorded table has {} rows and {} columns, expected {} and {}", actual_.table.rows(),
-                            actual_.table.names.size(), expected_.table.rows(), expected_.table.names.size()));
+                fmt::format("the recorded table has {} and {}, expected {} and {}",
+                            counted(actual_.table.rows(), "row"), counted(actual_.table.names.size(), "column"),
+                            expected_.table.rows(), expected_.table.names.size()));
         for (const output::ColumnDifference& c : output::difference(expected_.table, actual_.table, horizon_).columns) {
             if (c.undefined > 0) add(INFINITY, fmt::format("{}: {} values appeared or vanished", c.name, c.undefined));
             if (c.largest == 0) continue;

@@ -9,6 +9,7 @@
 #include <map>
 #include <span>
 
+#include "sim/base/counted.hpp"
 #include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
@@ -190,8 +191,8 @@ class SweepComparer {
 
     std::string another_sweep() const {
         if (a_.values() != b_.values() || a_.points().size() != b_.points().size())
-            return fmt::format("{} points of {} columns, expected {} of {}", b_.points().size(), b_.values().size(),
-                               a_.points().size(), a_.values().size());
+            return fmt::format("{} of {}, expected {} of {}", counted(b_.points().size(), "point"),
+                               counted(b_.values().size(), "column"), a_.points().size(), a_.values().size());
         for (std::size_t k = 0; k < a_.points().size(); ++k)
             if (const std::string was = a_.place(a_.points()[k]), is = b_.place(b_.points()[k]); was != is)
                 return fmt::format("{} is where {} was", is, was);

@@ -39,9 +39,9 @@ std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& fi
     }
     std::string text = "sweep\n";
     for (const output::SweepAxis& axis : grid.axes())
-        text += fmt::format("  {}: {} values, {:.10g} to {:.10g}{}\n", axis.name, axis.values.size(),
+        text += fmt::format("  {}: {}, {:.10g} to {:.10g}{}\n", axis.name, counted(axis.values.size(), "value"),
                             axis.values.front(), axis.values.back(), axis.unit == "1" ? "" : " " + axis.unit);
-    text += fmt::format("  {} points, samples: {}\n", grid.points(), text_of_sample(grid.sampling()));
+    text += fmt::format("  {}, samples: {}\n", counted(grid.points(), "point"), text_of_sample(grid.sampling()));
     text += fmt::format("  about {:.2g} s on {}\n", seconds, counted(used, "thread"));
     text += fmt::format("  about {:.2g} rows: {:.2g} MB of CSV, {:.2g} MB of NPZ\n", rows,
                         1e-6 * rows * columns * kTextOfNumber, 1e-6 * rows * columns * kNumber);

@@ -8,6 +8,7 @@
 
 #include "output/data/netcdf_library.hpp"
 #include "sim/base/clock.hpp"
+#include "sim/base/counted.hpp"
 #include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
@@ -62,7 +63,7 @@ std::string SweepRun::summary() const {
         ++count;
         if (!point.failure.empty() && failed++ == 0) why = point.failure;
     }
-    std::string text = fmt::format("{} points in {:.1f} s{}", count, seconds_, count > 0 ? ":" : "");
+    std::string text = fmt::format("{} in {:.1f} s{}", counted(count, "point"), seconds_, count > 0 ? ":" : "");
     for (const auto& [kind, n] : kinds)
         text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
                             name(static_cast<sim::AttractorClass>(kind)));

@@ -1,4 +1,4 @@
-// A count with its noun: "1 impact", "2 impacts".
+// A count with its noun: "1 impact", "2 impacts", "3 entries".
 #pragma once
 
 #include <string>
@@ -7,7 +7,10 @@
 namespace beamcam {
 
 inline std::string counted(long long n, std::string_view noun) {
-    return std::to_string(n) + ' ' + std::string(noun) + (n == 1 ? "" : "s");
+    std::string text = std::to_string(n) + ' ' + std::string(noun);
+    if (n == 1) return text;
+    if (text.ends_with('y')) text.replace(text.size() - 1, 1, "ie");
+    return text + 's';
 }
 
 }  // namespace beamcam

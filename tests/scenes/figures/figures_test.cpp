@@ -53,7 +53,7 @@ TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
     const Plan p = plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "schematic"},
                                               {"type": "figure", "figure": "deflection"}]})"));
     EXPECT_FALSE(p.simulation);
-    EXPECT_TRUE(p.variants.empty());
+    EXPECT_TRUE(p.others.empty());
     EXPECT_FALSE(p.needs_gl());
     EXPECT_EQ(p.figures.size(), 2u);
 }
@@ -63,7 +63,7 @@ TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
         plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "phase"},
         {"type": "figure", "figure": "angle"}, {"type": "trajectory"}]})"));
     ASSERT_TRUE(p.simulation);
-    EXPECT_TRUE(p.variants.empty());
+    EXPECT_TRUE(p.others.empty());
     EXPECT_TRUE(p.simulation->horizon);
 }
 

@@ -182,7 +182,7 @@ TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
 TEST(Stretch, ThePlanNamesTheEventAtWhichItEnds) {
     const auto words = [](const std::string& outputs) {
         const Reading reading = testing::read(R"({"time": {"end": 2}, "outputs": [)" + outputs + "]}");
-        return to_text(plan(*reading.scene), *reading.scene);
+        return to_text(plan(*reading.scene));
     };
     const std::string alone = words(R"({"type": "video", "file": "a.mp4", "to": "impact:3"})");
     EXPECT_THAT(alone, HasSubstr("a first run until 2 s at most finds"));

@@ -28,7 +28,7 @@ Plan plan_of(const std::string& outputs, const std::string& physics = "") {
 
 std::string text_of(const std::string& scene_text) {
     const Scene scene = scene_of(scene_text);
-    return to_text(plan(scene), scene);
+    return to_text(plan(scene));
 }
 
 TEST(Plan, WithoutOutputsNothingIsDone) {
@@ -125,7 +125,7 @@ TEST(PlanText, ATableOfTheRigidBeamWithoutACam) {
             R"({"cam": null, "beam": {"model": "rigid"}, "outputs": [{"type": "trajectory", "channels": ["theta"], "times": [0.37]}]})"),
         R"(to do
   simulate  rigid, no contact; until 0.37 s, needed by scene.csv
-  table     scene.csv: 1 rows of 2 channels
+  table     scene.csv: 1 row of 2 channels
 skipped
   simulation from 0.37 s to 1.5 s: no output needs it
   contact: the scene has no cam
@@ -157,7 +157,7 @@ TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
         R"({"title": "Fall", "outputs": [{"type": "still", "file": "a.png", "at": 0, "size": [320, 180]}, {"type": "still", "file": "b.png", "at": 0}]})");
     Plan p = plan(scene);
     add_omitted_text(p, scene);
-    EXPECT_THAT(to_text(p, scene),
+    EXPECT_THAT(to_text(p),
                 HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10⁸ N m^−1.5, c = 0.7; "
                           "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
                           "  simulation from 0 s"));
@@ -186,7 +186,24 @@ constexpr const char* kTwo = R"({"outputs": [
 
 std::string text_with(const ExistingWork& existing, const Selection& selection = {}) {
     const Scene scene = scene_of(kTwo);
-    return to_text(plan(scene, selection, existing), scene);
+    return to_text(plan(scene, selection, existing));
+}
+
+TEST(PlanText, AMotionThatTwoPicturesCompareIsSimulatedOnceAndMayBeCached) {
+    const Scene scene = scene_of(R"({"outputs": [
+        {"type": "still", "file": "a.png", "at": 0.3, "view": {"style": "flat"},
+         "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]},
+        {"type": "still", "file": "b.png", "at": 0.4, "view": {"style": "flat"},
+         "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]}]})");
+    ExistingWork existing;
+    existing.keeps = true;
+    existing.kept_until[Studies::key(scene.problem)] = 0.4;
+    const Plan p = plan(scene, {}, existing);
+    EXPECT_FALSE(p.simulation);
+    ASSERT_EQ(p.others.size(), 2u);
+    const std::string text = to_text(p), how = "until 0.4 s, needed by b.png for ";
+    EXPECT_THAT(text, HasSubstr(how + "\"slow\"; from the cache\n"));
+    EXPECT_THAT(text, HasSubstr(how + "\"fast\"; added to the cache, unless it is short\n"));
 }
 
 TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
@@ -194,7 +211,8 @@ TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
     existing.finished = {1};
     existing.frames[0] = {0, 1, 2, 7};
     existing.keeps = true;
-    existing.kept_until = 0.6;
+    double& kept_until = existing.kept_until[Studies::key(scene_of(kTwo).problem)];
+    kept_until = 0.6;
     EXPECT_EQ(text_with(existing), R"(to do
   simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, needed by f-##.png; from the cache
   frames    f-##.png: 6 frames from 0.15 s to 0.45 s at 20 per second, 320 × 180, flat
@@ -209,7 +227,7 @@ skipped
   extrema and zero crossings: no output is a summary
   further runs for the reproducible horizon: no output needs it
 )");
-    existing.kept_until = 0.4;  // too short
+    kept_until = 0.4;  // too short
     EXPECT_THAT(text_with(existing), HasSubstr("needed by f-##.png; added to the cache, unless it is short\n"));
     existing.finished = {0, 1};
     EXPECT_EQ(text_with(existing), R"(to do

@@ -89,7 +89,7 @@ TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
     EXPECT_THAT(again.out, HasSubstr("angle   picture identical | motion identical"));
     EXPECT_THAT(again.out, HasSubstr("fall    picture identical | motion identical"));
     EXPECT_THAT(again.out, HasSubstr("sketch  picture identical\n"));
-    EXPECT_THAT(again.err, HasSubstr("1 simulations, 3 pictures"));
+    EXPECT_THAT(again.err, HasSubstr("1 simulation, 3 pictures"));
     EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("font LiberationSans-Regular.ttf"));
     // The same pixels as the file that the command makes.
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.png --dpi 60 -q").code, 0);

@@ -98,8 +98,7 @@ TEST(Foreign, PicturesOfAnotherToolAreJudgedByDigestOrTolerance) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance ssim=0.9").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance ssim=1").code, 7);
     shell(folder, "rm t-0005.png");
-    EXPECT_THAT(shell(folder, "$BEAMCAM test f.json --only all").out,
-                HasSubstr("5 pictures were expected, 4 were drawn"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM test f.json --only all").out, HasSubstr("4 pictures drawn, 5 expected"));
     shell(folder, "rm t-*.png");
     EXPECT_EQ(shell(folder, "$BEAMCAM test f.json").code, 6);
 }

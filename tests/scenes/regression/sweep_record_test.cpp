@@ -128,7 +128,7 @@ TEST(SweepRecord, OtherValuesAndDamageAreReported) {
     a.point(1, kPeriodic, 1, kNone, kNone, {{0, 1}});
     b.point(2, kPeriodic, 1, kNone, kNone, {{0, 1}});
     EXPECT_THAT(judge(a, b).lines, ElementsAre("it is another sweep: a = 2, seed 0 is where a = 1, seed 0 was"));
-    EXPECT_THAT(judge(a, Table()).lines, ElementsAre(HasSubstr("0 points of 1 columns, expected 1 of 1")));
+    EXPECT_THAT(judge(a, Table()).lines, ElementsAre(HasSubstr("0 points of 1 column, expected 1 of 1")));
     for (const double kind : {-1.0, 8.0, kNone}) {
         b.columns[2][0] = kind;
         EXPECT_THROW(judge(a, b), output::IoError) << kind;

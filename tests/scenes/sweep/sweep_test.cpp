@@ -128,7 +128,7 @@ TEST(SweepCommand, TakesThePointsOfAFinishedFileForItsDiagram) {
     const std::string sweep = "$BEAMCAM sweep s.json --seed carry-up,same ";
     ASSERT_EQ(shell(folder, sweep + "-o a.nc -q && " + sweep + "--diagram fresh.svg -q").code, 0);
     const Finished drawn = shell(folder, sweep + "-o a.nc --diagram d.svg");
-    EXPECT_THAT(drawn.err, AllOf(HasSubstr("62 points exist already"), HasSubstr("kept a.nc: up to date")));
+    EXPECT_THAT(drawn.err, AllOf(HasSubstr("found 62 points of an earlier run"), HasSubstr("kept a.nc: up to date")));
     EXPECT_EQ(slurp(folder / "d.svg"), slurp(folder / "fresh.svg"));
     // Not those of another sweep, nor with --force.
     EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg").err, Not(HasSubstr("exist already")));
