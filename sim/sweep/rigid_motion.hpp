@@ -28,6 +28,7 @@ class RigidMotion {
     // Turns and impacts between two lifts at the same phase, and therefore in the same state: the period (S89b).
     struct Return {
         long turns = 0, impacts = 0;
+        bool operator==(const Return&) const = default;
     };
     const std::optional<Return>& returned() const { return returned_; }
 

@@ -60,6 +60,17 @@ Attractor returning(const RigidMotion::Return& period) {
     return out;
 }
 
+// Differences may grow so much between two returns that only rounding closes the orbit. A period must survive a small
+// change of the cam's speed.                                                                                 (S89b)
+bool survives(const RigidMotion::Return& period, const Problem& problem, const Sampling& sampling,
+              const InitialState& end, const Progress& progress) {
+    Problem nearby = problem;
+    nearby.cam->speed *= 1 + kNearbySpeed;
+    RigidMotion motion(nearby, later(nearby, sampling), &end);
+    motion.follow(progress, true);
+    return motion.returned() == period;
+}
+
 SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& sampling, const InitialState* start,
                                  const Progress& progress) {
     SweepPoint point;
@@ -70,15 +81,21 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
     if (!chaotic && point.attractor.kind != AttractorClass::unsettled) return point;
     if (!chaotic && !motion.rested()) return point;
     std::optional<RigidMotion::Return> period = motion.returned();
+    InitialState end = point.motion.end;
     if (!period) {
         const Sampling as_long_again = later(problem, sampling);
         RigidMotion rest(problem, as_long_again, &point.motion.end);
-        const SampledMotion after = rest.follow(progress, true);
+        const SampledMotion after = rest.follow(progress);
         period = rest.returned();
+        end = after.end;
         if (!period && chaotic && (rest.rested() || !stays_chaotic(problem, after)))
             point.attractor.kind = AttractorClass::unsettled;
     }
-    if (period) point.attractor = returning(*period);
+    if (!period) return point;
+    if (survives(*period, problem, sampling, end, progress))
+        point.attractor = returning(*period);
+    else
+        point.attractor.kind = AttractorClass::unsettled;
     return point;
 }
 
