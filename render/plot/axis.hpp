@@ -17,7 +17,7 @@ enum class Scale { linear, logarithmic };
 
 // The requested axis.
 struct Axis {
-    std::string label = {};  // markup, "$θ$ / rad"; "$w$ / mm" may become "$w$ / nm"
+    std::string label = {};  // markup, "$θ$ / rad"; "$v$ / mm" may become "$v$ / nm"
     Scale scale = Scale::linear;
     std::optional<double> from = {}, to = {};  // limits at the start and the end of the axis; may be reversed
     bool tight = false;                        // exactly the range of the data, without a margin

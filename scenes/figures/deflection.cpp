@@ -46,25 +46,28 @@ constexpr std::array kCurves{Curves{Printing::corrected, {"along the rod", "沿�
 
 // Deflection [mm] and slope [10⁻³] over both spans; the slope's jump at the support.
 struct DeflectionCurves {
-    Series w, slope;
+    Series v, slope;
     double jump = 0;
 };
-DeflectionCurves shape_of(const sim::Problem& problem, double angle, double support, std::size_t i, const Curves& c) {
+DeflectionCurves shape_of(const sim::Problem& problem, double angle, double support, std::size_t i, const Curves& c,
+                          Lang lang) {
     const double reach = problem.beam.length * std::cos(angle);
     const bool first = c.printing == Printing::corrected;
     DeflectionCurves out;
-    out.w = {.look = c.look,
+    const std::string at = "$l_{1}$ = " + length_text(support);
+    out.v = {.name = at + phrase(lang, ", ", "，") + c.label.in(lang),
+             .look = c.look,
              .solid = first,
              .weight = first ? 1 : 0.9,
              .color = render::figure::look(static_cast<int>(i)).color};
-    out.slope = out.w;
-    if (first) out.w.label = "$l_{1}$ = " + length_text(support);
+    out.slope = out.v;
+    if (first) out.v.label = at;
     for (const bool overhang : {false, true}) {
         const double from = overhang ? support : 0, to = overhang ? reach : support;
         for (int k = 0; k < kPerSpan; ++k) {
             const double x = from + (to - from) * k / (kPerSpan - 1);
             const sim::StaticDeflection s = sim::supported_beam(problem, angle, support, x, c.printing, overhang);
-            out.w.add(x, s.w * 1e3);
+            out.v.add(x, s.v * 1e3);
             out.slope.add(x, s.slope * 1e3);
         }
     }
@@ -76,9 +79,9 @@ std::string deflection_caption(const sim::Problem& problem, const Inclination& a
     const std::string angle = number(at.angle * 180 / M_PI, 4);
     std::string text = phrase(
         lang,
-        "Static deflection $w$ (a) and slope (b) of the beam inclined by {}°{}, hinged at $O$ and supported at the "
+        "Static deflection $v$ (a) and slope (b) of the beam inclined by {}°{}, hinged at $O$ and supported at the "
         "horizontal distance $l_{{1}}$. ",
-        "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $w$ (a) 与斜率 (b)。", angle,
+        "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $v$ (a) 与斜率 (b)。", angle,
         at.tangent ? phrase(lang, " (tangent to the disc as if it were centred)", "（与视为对心的圆盘相切）") : "");
     if (is_of_the_paper(problem))
         text += phrase(
@@ -100,20 +103,20 @@ Figure deflection_figure(const sim::Problem& problem, Lang lang) {
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
     const bool several = curves.size() > 1;
     Panel shape{.x = {.label = "$x$ / m", .tight = true},
-                .y = {.label = "$w$ / mm"},
+                .y = {.label = "$v$ / mm"},
                 .rules = {{.at = 0}},
                 .legend = Legend::box},
         slope{.x = shape.x,
-              .y = {.label = "d$w$/d$x$ / 10^{−3}"},
+              .y = {.label = "d$v$/d$x$ / 10^{−3}"},
               .rules = {{.at = 0}},
               .legend = several ? Legend::box : Legend::none};
     double largest_jump = 0;  // of the slope, as printed
     for (std::size_t i = 0; i < kSupports.size(); ++i) {
         const double support = kSupports[i] * reach;
         for (const Curves& c : curves) {
-            DeflectionCurves s = shape_of(problem, at.angle, support, i, c);
+            DeflectionCurves s = shape_of(problem, at.angle, support, i, c, lang);
             if (c.printing == Printing::printed) largest_jump = std::max(largest_jump, s.jump);
-            shape.series.push_back(std::move(s.w));
+            shape.series.push_back(std::move(s.v));
             slope.series.push_back(std::move(s.slope));
         }
         shape.marks.push_back({.x = support, .y = 0, .look = static_cast<int>(i)});

@@ -62,7 +62,7 @@ struct SupportedBeam {
     double jump(Printing printing) const {
         return std::abs(at(support, printing, true).slope - at(support, printing, false).slope);
     }
-    double tip(Printing printing) const { return at(p.beam.length * std::cos(angle), printing, true).w; }
+    double tip(Printing printing) const { return at(p.beam.length * std::cos(angle), printing, true).v; }
 };
 
 // First flapwise frequency of the beam turning at Ω = 4, both in √(EI/(ρAL⁴)).

@@ -6,8 +6,8 @@
 
 namespace beamcam::sim {
 
-// EI w₁ = q l x³/(6c) − q l² x³/(12 l₁ c) − q x⁴/(24c) + C₁x,   0 ≤ x ≤ l₁
-// EI w₂ = −q (l − x)⁴/(24c) + C₂x + D₂,                          l₁ ≤ x ≤ l,   c = cos θ        (S47)
+// EI v₁ = q l x³/(6c) − q l² x³/(12 l₁ c) − q x⁴/(24c) + C₁x,   0 ≤ x ≤ l₁
+// EI v₂ = −q (l − x)⁴/(24c) + C₂x + D₂,                          l₁ ≤ x ≤ l,   c = cos θ        (S47)
 StaticDeflection supported_beam(const Problem& problem, double angle, double support, double x, Printing printing,
                                 bool overhang) {
     const double c = std::cos(angle), l = problem.beam.length * c, l1 = support, l2 = l - l1;

@@ -12,10 +12,10 @@ namespace beamcam::sim {
 // lengths measured along the inclined beam (S48).
 enum class Printing { printed, completed, corrected };
 
-// Deflection w [m] and slope w′ [–] of eq. (5): the beam, inclined by `angle`, is supported at the hinge and at the
+// Deflection v [m] and slope v′ [–] of eq. (5): the beam, inclined by `angle`, is supported at the hinge and at the
 // horizontal distance `support` in (0, L cos θ).
 struct StaticDeflection {
-    double w = 0, slope = 0;
+    double v = 0, slope = 0;
 };
 // At the horizontal distance `x` in [0, L cos θ] from the hinge. `overhang`: use the expression of the overhanging span
 // (at the support both apply).

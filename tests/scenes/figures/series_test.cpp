@@ -36,7 +36,7 @@ TEST(Series, HasAPanelForEachUnit) {
     ASSERT_EQ(figure.panels.size(), 3u);
     EXPECT_EQ(figure.panels[0].y.label, "$θ$ / rad");
     EXPECT_EQ(figure.panels[1].y.label, "$F$ / N");
-    EXPECT_EQ(figure.panels[2].y.label, "$w$, $q_{1}$ / mm");
+    EXPECT_EQ(figure.panels[2].y.label, "$v$, $q_{1}$ / mm");
     EXPECT_EQ(figure.panels[2].series.size(), 2u);
     EXPECT_EQ(figure.panels[2].x.label, "$t$ / s");
     for (const auto& panel : figure.panels) EXPECT_NO_THROW(render::parse_markup(panel.y.label));

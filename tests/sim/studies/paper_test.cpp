@@ -28,13 +28,13 @@ TEST(Paper, DeflectionAsPrintedJumpsInSlopeAndTheCorrectedOneDoesNot) {
         };
         const StaticDeflection left = at(Printing::corrected, support, false),
                                right = at(Printing::corrected, support, true);
-        EXPECT_NEAR(left.w, 0, 1e-18);
-        EXPECT_NEAR(right.w, 0, 1e-18);
+        EXPECT_NEAR(left.v, 0, 1e-18);
+        EXPECT_NEAR(right.v, 0, 1e-18);
         EXPECT_NEAR(left.slope, right.slope, 1e-15);
         const double jump = at(Printing::printed, support, false).slope - at(Printing::printed, support, true).slope;
         const double q = problem.beam.line_density() * problem.gravity, c = std::cos(angle);
         EXPECT_NEAR(jump, q * std::pow(support, 3) / (24 * c) / problem.beam.bending_stiffness(), 1e-15);
-        EXPECT_EQ(at(Printing::corrected, 0, false).w, 0);  // hinged at O
+        EXPECT_EQ(at(Printing::corrected, 0, false).v, 0);  // hinged at O
     }
 }
 
@@ -47,7 +47,7 @@ TEST(Paper, MissingTermsOfTheDeflectionAreSmall) {
         return supported_beam(problem, angle, support, x, printing, overhang);
     };
     const double end = problem.beam.length * std::cos(angle);
-    const auto tip = [&](Printing printing) { return at(end, printing, true).w; };
+    const auto tip = [&](Printing printing) { return at(end, printing, true).v; };
     EXPECT_NEAR(tip(Printing::completed) / tip(Printing::printed) - 1, -0.009, 0.001);
     EXPECT_NEAR(tip(Printing::corrected) / tip(Printing::completed), 1 / std::pow(std::cos(angle), 2), 1e-12);
     EXPECT_NEAR(at(support, Printing::completed, false).slope, at(support, Printing::completed, true).slope, 1e-15);
