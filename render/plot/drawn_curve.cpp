@@ -127,13 +127,12 @@ void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
     }
 }
 
-void DrawnCurve::draw(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
-    if (!value_.empty()) return draw_tones(plot, style, sheet);
-    if (series_->line) draw_line(style, sheet);
-    draw_markers(plot, style, sheet);
+void DrawnCurve::draw(const PrintStyle& style, PageCanvas& sheet) const {
+    if (!series_->line) return;
+    value_.empty() ? draw_line(style, sheet) : draw_tones(style, sheet);
 }
 
-void DrawnCurve::draw_tones(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
+void DrawnCurve::draw_tones(const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
     // One stroke for each colour; 48 steps look continuous.
@@ -144,7 +143,7 @@ void DrawnCurve::draw_tones(const Box& plot, const PrintStyle& style, PageCanvas
     };
     pen.dash.clear();
     const double apart = 2 * sheet.grain();
-    for (std::size_t i = 0; s.line && i + 1 < points_.size();) {
+    for (std::size_t i = 0; i + 1 < points_.size();) {
         const int tone = step(i);
         std::vector<Vec2> piece{points_[i]};
         std::size_t k = i + 1;
@@ -161,10 +160,6 @@ void DrawnCurve::draw_tones(const Box& plot, const PrintStyle& style, PageCanvas
         }
         i = k;
     }
-    const std::vector<bool> seen = s.every_point ? not_covered(points_, 0.15 * style.marker) : std::vector<bool>();
-    for (std::size_t i = 0; s.every_point && i < points_.size(); ++i)
-        if (seen[i] && step(i) >= 0 && inside(plot, points_[i], style.marker))
-            draw_marker(sheet, style, look(s.look).marker, points_[i], 0.8 * style.marker, map_color(value_[i]), false);
 }
 
 void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
@@ -189,11 +184,18 @@ void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
 
 void DrawnCurve::draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
-    const Pen pen = curve_pen(s, style);
-    if (s.every_point)
-        for (const Vec2 p : points_)
-            if (std::isfinite(p.x + p.y) && inside(plot, p, style.marker))
-                draw_marker(sheet, style, look(s.look).marker, p, style.marker, pen.color, s.look % 2 == 1);
+    if (!s.every_point) return;
+    const bool toned = !value_.empty();
+    const std::vector<bool> seen =
+        toned ? not_covered(points_, 0.15 * style.marker) : std::vector<bool>(points_.size(), true);
+    for (std::size_t i = 0; i < points_.size(); ++i) {
+        const Vec2 p = points_[i];
+        if (!seen[i] || !std::isfinite(p.x + p.y) || !inside(plot, p, 0.5)) continue;
+        if (!toned)
+            draw_marker(sheet, style, look(s.look).marker, p, style.marker, curve_pen(s, style).color, s.look % 2 == 1);
+        else if (std::isfinite(value_[i]))
+            draw_marker(sheet, style, look(s.look).marker, p, 0.8 * style.marker, map_color(value_[i]), false);
+    }
 }
 
 }  // namespace beamcam::render::figure

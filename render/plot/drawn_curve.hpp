@@ -13,14 +13,15 @@ class DrawnCurve {
 
     const Series& series() const { return *series_; }
     const std::vector<Vec2>& points() const { return points_; }  // on the sheet
-    void draw(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
+    void draw(const PrintStyle& style, PageCanvas& sheet) const;
+    // Those in the plot; at its edge they extend over the frame.
+    void draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
 
   private:
     void lighten(double grain);
     void thin_out_tones(const std::vector<std::size_t>& kept);
-    void draw_tones(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_tones(const PrintStyle& style, PageCanvas& sheet) const;
     void draw_line(const PrintStyle& style, PageCanvas& sheet) const;
-    void draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
 
     const Series* series_;
     std::vector<Vec2> points_;

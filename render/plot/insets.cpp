@@ -72,33 +72,39 @@ double PanelDrawing::place_insets() {
     return cost;
 }
 
-void PanelDrawing::draw_insets() {
+PanelDrawing PanelDrawing::inset(std::size_t i) const {
+    const auto& [outer, width, height] = *insets_[i];
+    PanelDrawing inner(panel_.insets[i].panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
+    if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
+    return inner;
+}
+
+// Below the curves, which may reach into the empty edge of an inset.
+void PanelDrawing::draw_inset_backgrounds() const {
     for (std::size_t i = 0; i < panel_.insets.size(); ++i) {
         if (!insets_[i]) continue;
-        const Inset& inset = panel_.insets[i];
-        const auto& [outer, width, height] = *insets_[i];
+        const Box outer = insets_[i]->outer, plot = inset(i).plot_;
         sheet_.rectangle(outer);
         sheet_.fill(kWhite);
-        PanelDrawing inner(inset.panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
-        if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
-        if (inset.source) {
-            const Box from = shown_enlarged(*inset.source);
+        if (const auto& source = panel_.insets[i].source) {
+            const Box from = shown_enlarged(*source);
             const Pen thin{kMuted, 0.75 * style_.frame, {}, Cap::butt};
             sheet_.rectangle(from);
             sheet_.stroke(thin);
-            for (const auto& [start, end] : connectors(from, inner.plot_)) {
-                sheet_.line(start, end, thin);
-            }
+            for (const auto& [start, end] : connectors(from, plot)) sheet_.line(start, end, thin);
         }
         // Its numbers and labels, left and below, interrupt the connectors.
-        const Box& plot = inner.plot_;
         for (const Box& beside : {Box{outer.x, outer.y, plot.x - outer.x, outer.h},
                                   Box{outer.x, plot.bottom(), outer.w, outer.bottom() - plot.bottom()}}) {
             sheet_.rectangle(beside);
             sheet_.fill(kWhite);
         }
-        inner.draw();
     }
+}
+
+void PanelDrawing::draw_insets() const {
+    for (std::size_t i = 0; i < panel_.insets.size(); ++i)
+        if (insets_[i]) inset(i).draw();
 }
 
 }  // namespace beamcam::render::figure

@@ -12,8 +12,8 @@
 namespace beamcam::render::figure {
 namespace {
 
-constexpr double kCellSide = 1.5;     // of the grid of what is covered: resolves letters [pt]
-constexpr double kBeyondPlot = 1e5;   // cost of a box that leaves the plot
+constexpr double kCellSide = 1.5;             // of the grid of what is covered: resolves letters [pt]
+constexpr double kBeyondPlot = 1e5;           // cost of a box that leaves the plot
 constexpr std::size_t kMostDirectLabels = 4;  // more labels are easier to distinguish in a box
 
 }  // namespace
@@ -260,11 +260,13 @@ bool PanelDrawing::place_direct() {
 
 void PanelDrawing::draw() {
     sheet_.clip(plot_, [&] { draw_backgrounds(); });
+    draw_inset_backgrounds();
     sheet_.clip(plot_, [&] {
         for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
-        for (const DrawnCurve& curve : curves_) curve.draw(plot_, style_, sheet_);
+        for (const DrawnCurve& curve : curves_) curve.draw(style_, sheet_);
     });
     axes_.draw_frame();
+    for (const DrawnCurve& curve : curves_) curve.draw_markers(plot_, style_, sheet_);
     for (const Mark& m : panel_.marks) {
         const Vec2 p = at(m.x, m.y, m.right);
         if (!inside(plot_, p, 1)) continue;

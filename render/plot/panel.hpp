@@ -46,7 +46,9 @@ class PanelDrawing {
     double crowding(const Box& box, const DrawnCurve& own) const;
 
     void draw_backgrounds();
-    void draw_insets();
+    PanelDrawing inset(std::size_t i) const;
+    void draw_inset_backgrounds() const;
+    void draw_insets() const;
 
     const Panel& panel_;
     const PrintStyle& style_;

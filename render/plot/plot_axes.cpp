@@ -217,7 +217,10 @@ std::vector<std::string> PlotAxes::title_lines() const {
     return lines_of(panel_.title, width_ - indent, style_.words(), sheet_);
 }
 std::vector<std::string> PlotAxes::label_lines(const AxisMap& axis) const {
-    return lines_of(axis.label(), &axis == &*x_ ? 1.1 * width_ : 1.05 * height_, style_.words(), sheet_);
+    std::string label = axis.label();
+    if (const std::size_t unit = label.rfind(" / "); unit != std::string::npos)
+        label.replace(unit + 2, 1, "\u00A0");  // not broken after the stroke
+    return lines_of(label, &axis == &*x_ ? 1.1 * width_ : 1.05 * height_, style_.words(), sheet_);
 }
 double PlotAxes::label_height(const AxisMap& axis) const {
     const std::size_t lines = label_lines(axis).size();

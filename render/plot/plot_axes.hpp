@@ -34,6 +34,7 @@ class PlotAxes {
     // Room that numbers, labels and colour bar need around the plot.
     Margins margins() const;
     double drop() const;
+    std::vector<std::string> label_lines(const AxisMap& axis) const;
     double titles_height() const;  // of letter and title above the plot; 0: none
     void draw_frame() const;
     // `top`: baseline of letter and title; they are directly above the plot if nothing else is.
@@ -42,7 +43,6 @@ class PlotAxes {
 
   private:
     std::vector<std::string> title_lines() const;
-    std::vector<std::string> label_lines(const AxisMap& axis) const;
     double label_height(const AxisMap& axis) const;           // of the lines beside the first
     double widest(const std::optional<AxisMap>& axis) const;  // of its numbers
     // Ticks point inwards.

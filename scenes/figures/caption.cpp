@@ -279,7 +279,7 @@ std::string supported(const Estimate& e) {
     // The last digit is uncertain by one at most.
     const int last = e.error > 0 ? static_cast<int>(std::ceil(std::log10(e.error) - 1e-9)) : -kMostDigits;
     const int digits = std::clamp(leading - last + 1, 1, kMostDigits);
-    const bool plain = leading >= -3 && leading < digits;
+    const bool plain = leading >= -4 && leading < digits;
     return plain ? grouped(e.value, digits - 1 - leading) : number(e.value, digits);
 }
 

@@ -102,6 +102,8 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const Results&
         panel.marks.push_back({.x = (*zero - exact) * 1e6, .y = 0, .look = fall.look});
         slope = std::abs(results[fall.study]->theta_zero.front().theta_dot);
     }
+    constexpr double kDistinct = 0.2;  // [µs]: closer crossings coincide in the inset
+    if (std::abs(panel.marks.front().x - panel.marks.back().x) < kDistinct) return std::nullopt;
     return render::figure::Inset{
         .panel = {std::move(panel)},
         .width = 0.36,

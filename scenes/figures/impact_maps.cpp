@@ -44,7 +44,7 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& proble
                                                       double from, double to, Lang lang) {
     const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(lang) + which, "m/s"); };
     Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution", "恢复系数")),
-          next = map_panel(speed(" $k$"), speed(" $k$ + 1")), phase = map_panel(phase_label(lang), speed("")),
+          next = map_panel(speed(" $k$"), speed(" $k$\u00A0+\u00A01")), phase = map_panel(phase_label(lang), speed("")),
           hub = map_panel(phase_label(lang), "$\\dot{θ}$ / (rad s^{−1})");
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
         if (hit.restitution) loss.series[0].add(std::abs(hit.v_n_before), *hit.restitution);
@@ -95,17 +95,15 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
     };
 }
 
-// Counts the values in equal intervals from 0 to `end`, which the last one includes.
+// Counts the values in intervals of a round width from 0 to `end`, which the last one includes.
 Panel histogram(std::string label, const std::vector<double>& values, double end, Lang lang) {
-    const auto bins =
-        static_cast<std::size_t>(std::clamp(std::ceil(std::sqrt(static_cast<double>(values.size()))), 6.0, 36.0));
+    const double width = render::round_down_125(end / std::clamp(std::sqrt(double(values.size())), 6.0, 36.0));
+    const auto bins = static_cast<std::size_t>(std::ceil(end / width - 1e-9));
     std::vector<double> counts(bins, 0);
-    for (const double v : values)
-        ++counts[std::min(bins - 1, static_cast<std::size_t>(v / end * static_cast<double>(bins)))];
+    for (const double v : values) ++counts[std::min(bins - 1, static_cast<std::size_t>(v / width))];
     Series steps;
     for (std::size_t k = 0; k < bins; ++k)
-        for (const std::size_t edge : {k, k + 1})
-            steps.add(end * static_cast<double>(edge) / static_cast<double>(bins), counts[k]);
+        for (const std::size_t edge : {k, k + 1}) steps.add(width * static_cast<double>(edge), counts[k]);
     return {.x = {.label = std::move(label), .tight = true},
             .y = {.label = phrase(lang, "impacts", "冲击次数"), .with_zero = true, .counts = true},
             .series = {steps},
@@ -129,14 +127,13 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
         std::vector<Panel> panels = lettered(
             {histogram(axis_label(kApproachSpeed.in(lang), "m/s"), speeds, *std::ranges::max_element(speeds), lang),
              histogram(phase_label(lang), phases, 1, lang)});
-        const std::vector<double>& edges = panels[0].series[0].x;
-        const double bins = static_cast<double>(edges.size()) / 2;
+        const auto width = [&](std::size_t panel) { return number(panels[panel].series[0].x[1], 2); };
         const std::string caption = phrase(
             lang,
             "Histograms of the {} impacts from {} s to {} s: (a) approach speed, in intervals of {} m s^{{−1}}; (b) "
             "phase of the cam, in intervals of {}. ",
             "{} 次冲击（{} s 至 {} s）：(a) 接近速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
-            speeds.size(), number(from, 4), number(to, 4), number(edges.back() / bins, 2), number(1 / bins, 2));
+            speeds.size(), number(from, 4), number(to, 4), width(0), width(1));
         return {.panels = std::move(panels),
                 .aspect = 1.2,
                 .caption = caption + facts(problem, lang),

@@ -3,7 +3,9 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
 #include <utility>
+#include <variant>
 
 #include "scenes/figures/figure_types.hpp"
 #include "sim/problem/problem.hpp"
@@ -75,6 +77,9 @@ double room(const sim::Cam& cam, const DiscSymbols& s, double letter) {
         for (double share = 0.2; a > 0 && share < 1; share += 0.1)
             least = std::min(least, norm(labels[a] - share * s.radius) + 0.3 * letter);
     }
+    for (const Vec2 foot : {c, Vec2{0, 0}})  // the lines of the dimension e
+        for (double share = 0.1; share < 0.4; share += 0.1)
+            least = std::min(least, norm(labels[0] - foot - share * across) + 0.3 * letter);
     return least;
 }
 
@@ -134,11 +139,24 @@ void draw_disc_symbols(const sim::Cam& cam, Vec2 b, double zoom, double letter, 
 // ---- the system -------------------------------------------------------------------------------------
 
 // A beam that rests on the cam lies along the tangent from the hub's axis; it sags by much less than a line is wide.
-double start_angle(const sim::Problem& p) {
-    if (p.initial.shape != sim::InitialShape::resting || !p.cam) return p.initial.angle;
+struct Tangent {
+    double angle, length;  // [rad, m]
+};
+std::optional<Tangent> resting_tangent(const sim::Problem& p) {
+    if (p.initial.shape != sim::InitialShape::resting || !p.cam) return std::nullopt;
     const Vec2 b = disc_centre(*p.cam, 0);
-    const double reach = (p.cam->radius + contact_offset(p)) / norm(b);
-    return reach < 1 ? std::atan2(b.y, b.x) + std::asin(reach) : p.initial.angle;
+    const double distance = norm(b), reach = p.cam->radius + contact_offset(p);
+    if (!(reach < distance)) return std::nullopt;
+    return Tangent{std::atan2(b.y, b.x) + std::asin(reach / distance), std::sqrt(distance * distance - reach * reach)};
+}
+
+double start_angle(const sim::Problem& p) {
+    const auto tangent = resting_tangent(p);
+    return tangent ? tangent->angle : p.initial.angle;
+}
+
+bool has_torque(const sim::Drive& drive) {
+    return !std::holds_alternative<sim::FreeDrive>(drive) && !is_prescribed(drive);
 }
 
 // At other angles the symbols of beam and frames would overlap.
@@ -161,6 +179,7 @@ class Drawing : private Sketch {
         frames();
         beam();
         hub();
+        if (has_torque(p_.hub.drive)) torque();
         angle();
         if (p_.gravity != 0) gravity();
         return take();
@@ -183,9 +202,13 @@ class Drawing : private Sketch {
         disc(b, cam.radius);
         dot(c);
         const double near = c.x < 0 ? 0.7 : 1;  // the drawing is wider then, and the disc smaller on paper
-        const Vec2 beside = near * Vec2{-0.75, c.y > 0 ? 0.8 : -0.8};  // clear of the axis X
-        // Within the disc, or on the magnified one alone.
-        if (norm(c + letter_height() * beside - b) + 0.3 * letter_height() < cam.radius) label(c, "$C$", beside);
+        // Within the disc and clear of the axis X, or on the magnified one alone.
+        for (const double side : {-0.75, 0.75}) {
+            const Vec2 beside = near * Vec2{side, c.y > 0 ? 0.8 : -0.8};
+            if (norm(c + letter_height() * beside - b) + 0.3 * letter_height() > cam.radius) continue;
+            label(c, "$C$", beside);
+            break;
+        }
         const double low =  // below disc and hub
             std::min(std::min(b.y, c.y) - cam.radius - 0.13 * unit_, -p_.hub.radius - 0.1 * unit_);
         line({0, -0.02 * unit_}, {0, low - 0.02 * unit_}, kGrey);
@@ -212,14 +235,17 @@ class Drawing : private Sketch {
         const double reach =
             std::max(1.12 * size_ * std::cos(theta_), p_.cam ? p_.cam->centre.x + 1.5 * p_.cam->radius : 0.0);
         arrow({-0.06 * unit_, 0}, {reach, 0});
-        label({reach, 0}, "$X$", {0.2, -0.9});
+        label({reach, 0}, "$X$", {0.2, theta_ < 0.6 ? -0.9 : 0.8});  // clear of beam and magnified disc
         arrow({0, -0.06 * unit_}, {0, 0.42 * unit_});
         // Beside the arrow, or above it for a steep beam unless the dimension of the beam passes there.
         const double height = 0.46 * unit_, line = height / std::tan(theta_) - kDimension * size_ / std::sin(theta_);
         Vec2 beside{-0.9, -0.2};
         if (theta_ > 1.1) beside = std::abs(line) > 0.03 * unit_ ? Vec2{0, 0.75} : Vec2{line > 0 ? -0.9 : 0.9, -0.2};
         label({0, 0.42 * unit_}, "$Y$", beside);
-        label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
+        if (p_.hub.radius < 0)  // the root is on the left
+            label({0, 0}, "$O$", {0.9, -0.9});
+        else
+            label(-0.71 * p_.hub.radius * Vec2{1, 1}, "$O$", {-0.9, -0.9});
         const Vec2 i = sim::unit(theta_), j = sim::perp(i);
         arrow({0, 0}, 1.16 * size_ * i, kGrey);
         label(1.16 * size_ * i, "$x$′", {0.8, 0.0}, kGrey);
@@ -228,12 +254,11 @@ class Drawing : private Sketch {
     }
 
     bool is_flexible() const { return p_.beam.model != sim::ModelKind::rigid; }
+    // Of the beam's length, from its root to the cam.
     double support_share() const {
-        if (p_.initial.shape != sim::InitialShape::resting || !p_.cam || theta_ != start_angle(p_)) return 0;
-        const Vec2 b = disc_centre(*p_.cam, 0);
-        const double reach = p_.cam->radius + contact_offset(p_);
-        const double along = std::sqrt(std::max(0.0, norm(b) * norm(b) - reach * reach)) - p_.hub.radius;
-        return std::clamp(along / p_.beam.length, 0.0, 0.9);
+        const auto tangent = resting_tangent(p_);
+        if (!tangent || theta_ != tangent->angle) return 0;
+        return std::clamp((tangent->length - p_.hub.radius) / p_.beam.length, 0.0, 0.9);
     }
     // The deflected centre line: a clamped beam's sag, drawn far larger than it is.
     Vec2 on_beam(double share) const {
@@ -283,6 +308,17 @@ class Drawing : private Sketch {
         dot({0, 0}, kInk, 1);
     }
 
+    void torque() {
+        const double r = std::max(0.1 * unit_, 1.3 * p_.hub.radius), middle = -2.2;  // between O and the dimension D
+        add({.kind = Kind::turn,
+             .centre = {0, 0},
+             .radius = r,
+             .from = middle - 0.35,
+             .to = middle + 0.35,
+             .color = kInk});
+        label(r * sim::unit(middle), "$τ$", 0.75 * sim::unit(middle));
+    }
+
     void angle() {
         const double r = std::max(0.115 * unit_, 1.2 * p_.hub.radius);
         add({.kind = Kind::turn, .centre = {0, 0}, .radius = r, .from = 0, .to = theta_, .color = kInk, .width = 0.8});
@@ -299,7 +335,8 @@ class Drawing : private Sketch {
         if (theta_ > 0 && theta_ < 0.7) low = std::max(low, line + 0.05 * unit_);
         const Vec2 from{x, low + length}, to{x, low};
         arrow(from, to, kInk, 0.9);
-        label(0.5 * (from + to), "$g$", {0.8, 0});
+        // On the other side than the dimension, if that is close.
+        label(0.5 * (from + to), "$g$", {theta_ > 0.7 && low > line ? -0.8 : 0.8, 0});
     }
 
     const sim::Problem& p_;

@@ -69,14 +69,14 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<
 }
 
 // Beyond the tip, where no other beam is drawn.
-void add_instant(const sim::Pose& pose, std::vector<Shape>& out) {
+void add_instant(const sim::Pose& pose, std::string instant, std::vector<Shape>& out) {
     const Vec2 along = sim::unit(pose.theta);
     const bool level = std::abs(along.x) > 0.5;
     using render::VAlign;
     out.push_back({.kind = Shape::Kind::label,
                    .points = {pose.centreline.back()},
                    .color = render::rgb(0x000000),
-                   .markup = number(pose.t, 3) + " s",
+                   .markup = std::move(instant),
                    .shift = along * 0.5,
                    .align = !level         ? render::HAlign::centre
                             : along.x >= 0 ? render::HAlign::left
@@ -101,10 +101,12 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     if (problem.cam)
         panel.shapes.push_back(
             {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
-    // First and last, unless they would overlap.
-    add_instant(poses.front(), panel.shapes);
+    // First and last, in one label where two would overlap.
+    const std::string first = number(poses.front().t, 3) + " s", last = number(poses.back().t, 3) + " s";
     constexpr double kApart = 0.12;  // [rad]
-    if (std::abs(poses.back().theta - poses.front().theta) > kApart) add_instant(poses.back(), panel.shapes);
+    const bool apart = std::abs(poses.back().theta - poses.front().theta) > kApart;
+    add_instant(poses.front(), one || apart ? first : first + ", " + last, panel.shapes);
+    if (apart) add_instant(poses.back(), last, panel.shapes);
     return panel;
 }
 

@@ -629,6 +629,36 @@ TEST(Figure, DotsOfFewPlacesAreSeenHoweverManyFallOnEach) {
     EXPECT_EQ(red(), few);
 }
 
+// At the edge of the plot, too.
+TEST(Figure, MarkersAreWhole) {
+    Figure figure;
+    figure.panels.emplace_back();
+    Panel& panel = figure.panels[0];
+    panel.x.from = panel.y.from = 0, panel.x.to = panel.y.to = 1;
+    panel.series.push_back({.line = false, .every_point = true, .color = rgb(0xFF0000)});
+    const auto red = [&](double x) {
+        panel.series[0].x = {x}, panel.series[0].y = {0.55};
+        const Image image = draw_png(figure, "elsevier", 300).image;
+        return std::ranges::count_if(image.pixels, [](std::uint32_t p) { return (p & 0xFFFFFF) == 0xFF0000; });
+    };
+    EXPECT_NEAR(static_cast<double>(red(0)), static_cast<double>(red(0.45)), 10);
+    EXPECT_EQ(red(-0.1), 0);
+}
+
+TEST(Figure, LabelsAreBrokenBeforeTheUnit) {
+    Panel panel;
+    panel.series.push_back({.x = {0, 1}, .y = {0, 1}});
+    const PrintStyle style = style_of(*column_named("elsevier"));
+    const Fonts fonts(false, Typefaces::print);
+    PageCanvas sheet(Medium::pdf, {300, 300}, fonts);
+    PlotAxes axes(panel, style, sheet, true, "test");
+    const AxisMap speed = axis(0, 1, {.label = "approach speed of the beam / (m s^{−1})"});
+    for (const double height : {40.0, 70.0, 100.0, 130.0}) {
+        axes.fit(200, height);
+        EXPECT_THAT(axes.label_lines(speed).back(), ::testing::EndsWith("/\u00A0(m s^{−1})")) << height;
+    }
+}
+
 TEST(FigureStyle, TheColourMapDarkensEvenly) {
     // Lightness L* from linear sRGB luminance; equal steps of the map differ in L* by nearly the same.
     const auto lightness = [](Color c) {

@@ -267,6 +267,40 @@ TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
     }
 }
 
+TEST(Figures, EachStaticDeflectionHasItsNameInTheData) {
+    const auto figure = figure_of(scene_from("{}"), "deflection");
+    for (const auto& panel : figure.panels) {
+        std::set<std::string> names;
+        for (std::size_t k = 0; k < 9; ++k) {
+            const auto& series = panel.series[k];
+            names.insert(series.label.empty() ? series.name : series.label);
+        }
+        EXPECT_EQ(names.size(), 9U);
+    }
+}
+
+// The times of a very short beam differ by nanoseconds, which an inset of microseconds does not show.
+TEST(Figures, FreeFallHasAnInsetOnlyForDifferentTimes) {
+    const auto insets = [](const char* beam) {
+        return figure_of(scene_from(beam), "free-fall").panels[0].insets.size();
+    };
+    EXPECT_EQ(insets("{}"), 1U);
+    EXPECT_EQ(insets(R"({"beam": {"length": "1 mm", "area": "500 um^2", "second_moment": "1e-21 m^4", "density": 2330,
+        "youngs_modulus": "160 GPa"}, "cam": {"centre": ["300 um", 0], "radius": "100 um", "eccentricity": "20 um"},
+        "time": {"end": "50 ms"}})"),
+              0U);
+}
+
+TEST(Figures, SchematicHasTheTorqueOnTheHub) {
+    const auto torques = [](const char* scene) {
+        return std::ranges::count(figure_of(scene_from(scene), "schematic").panels[0].shapes, "$τ$",
+                                  &render::figure::Shape::markup);
+    };
+    EXPECT_EQ(torques(R"({"hub": {"drive": {"type": "torque", "value": "1.5 N m"}}})"), 1);
+    EXPECT_EQ(torques("{}"), 0);
+    EXPECT_EQ(torques(R"({"hub": {"drive": {"type": "prescribed", "law": "constant", "speed": 1}}})"), 0);
+}
+
 TEST(Figures, BeyondTheHorizonIsPaleAndStated) {
     const auto figure = figure_of(scene_from(R"({"time": {"end": 2.2}})"), "angle");
     ASSERT_EQ(figure.panels[0].series.size(), 2u);

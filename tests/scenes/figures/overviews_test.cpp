@@ -9,6 +9,7 @@
 #include <sstream>
 
 #include "output/data/tables.hpp"
+#include "render/plot/ticks.hpp"
 #include "scenes/plan/plan.hpp"
 #include "sim/beam/modes.hpp"
 #include "tests/scenes/figures/simulated.hpp"
@@ -264,8 +265,21 @@ TEST(Overviews, HistogramsCountEachImpactOnce) {
         double sum = 0;
         for (std::size_t k = 0; k < panel.series[0].y.size(); k += 2) sum += panel.series[0].y[k];
         EXPECT_EQ(sum, static_cast<double>(impacts));
+        const double width = panel.series[0].x[1];
+        EXPECT_EQ(width, render::round_down_125(width));
     }
     EXPECT_THROW(overview_of("impact-histograms", ""), render::PictureError);  // one impact
+}
+
+TEST(Overviews, AStrobeNamesItsFirstAndItsLastInstant) {
+    const auto labels = [](const char* keys) {
+        std::vector<std::string> out;
+        for (const auto& shape : overview_of("strobe", keys).panels[0].shapes)
+            if (!shape.markup.empty()) out.push_back(shape.markup);
+        return out;
+    };
+    EXPECT_THAT(labels(R"(, "to": 0.25)"), ::testing::ElementsAre("0 s", "0.25 s"));
+    EXPECT_THAT(labels(R"(, "to": 0.05)"), ::testing::ElementsAre("0 s, 0.05 s"));
 }
 
 TEST(Overviews, AStrobeShowsTheMechanismAtSeveralInstantsOrAtOne) {
