@@ -256,15 +256,18 @@ class CloseUpPanel final : public FilmPanel {
         if (after == all.begin()) return {};
         const sim::Impact& last = *(after - 1);
         int of = 0, number = 0;
-        double end = t;
+        double end = t;  // of the last impact
         for (const sim::Impact& i : all) {
             if (i.collision != last.collision) continue;
             ++of;
             if (i.t_start <= last.t_start) ++number;
-            end = i.t_end.value_or(t);
+            end = i.t_end.value_or(std::numeric_limits<double>::infinity());
         }
-        if (t > end + sim::collision_gap(motion().problem)) return {};
-        return context_.translate(fmt::format("collision {} · impact {} of {}", last.collision + 1, number, of));
+        const double over = end + sim::collision_gap(motion().problem);
+        if (t > over) return {};
+        const std::string counted = fmt::format("collision {} · impact {}", last.collision + 1, number);
+        // The collision may go on after the end of the motion.
+        return context_.translate(over <= motion().end ? fmt::format("{} of {}", counted, of) : counted);
     }
 
     const FilmContext& context_;

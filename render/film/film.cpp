@@ -225,21 +225,29 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         pills.push_back({context.translate(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)),
                          widest_speed, context.palette->contact});
     const bool clear = setup.view.transparent;  // unknown background: opaque pills
+    double letters = 20 * u;
     const auto style_of = [&](const Pill& p) {
-        return TextStyle{.size = 20 * u,
+        return TextStyle{.size = letters,
                          .color = clear ? context.palette->paper : readable(*context.palette, p.color),
                          .weight = Weight::medium,
                          .align = HAlign::centre};
     };
     const auto width = [&](const Pill& p) {
         const TextStyle style = style_of(p);
-        return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 34 * u;
+        return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 1.7 * letters;
     };
     const double first = b.x + (setup.view.show.clock ? widest + 36 * u : 0), gap = 14 * u;
-    double all = first - gap;  // the same for all frames
-    for (const Pill& p : pills) all += gap + 38 * u + canvas.measure(p.widest, style_of(p)).w;
-    if (all > b.right())
+    const auto fit = [&] {
+        double all = first - gap;  // the same for all frames
+        for (const Pill& p : pills) all += gap + 1.9 * letters + canvas.measure(p.widest, style_of(p)).w;
+        return all <= b.right();
+    };
+    // Smaller letters rather than numbers without words.
+    if (!fit()) letters *= 0.8;
+    if (!fit()) {
+        letters = 20 * u;
         for (Pill& p : pills) p.words = short_form(p.words), p.widest = short_form(p.widest);
+    }
     double x = first;
     for (const Pill& p : pills) {
         const Box box{x, b.y + 6 * u, width(p), 36 * u};
@@ -247,7 +255,7 @@ void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
         if (p.words.empty() || box.right() > b.right()) continue;
         canvas.rounded(box, 18 * u);
         canvas.fill(clear ? p.color : p.color.faded(0.14));
-        canvas.text({box.x + box.w / 2, b.y + 31 * u}, p.words, style_of(p));
+        canvas.text({box.x + box.w / 2, b.y + 24 * u + 0.35 * letters}, p.words, style_of(p));
     }
 }
 

@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <string>
@@ -79,6 +80,7 @@ struct Motion {
     sim::Table chart;  // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;
+    double end = std::numeric_limits<double>::infinity();  // later impacts are not among them [s]
     std::vector<Range> unreliable;  // intervals in which θ is not reproducible; curves are paler there [s]
 
     bool is_reliable(double t) const {

@@ -66,7 +66,8 @@ void draw_ghost_outlines(const MechanismScene& s) {
             s.canvas.stroke({color.faded(0.8), 2 * s.at.unit, {8 * s.at.unit, 6 * s.at.unit}, Cap::butt});
         }
         s.canvas.polyline(ghost_outline(s, other).edge);
-        s.canvas.stroke({color, 2.2 * s.at.unit});
+        const std::vector<double> dash = dashes(FilmContext::dash_of(static_cast<std::size_t>(m)), s.at.unit);
+        s.canvas.stroke({color, 2.2 * s.at.unit, dash, dash.empty() ? Cap::round : Cap::butt});
     }
 }
 

@@ -120,7 +120,8 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
     if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
-    lit_box_ = lit_box(seen.box(), at_.box, at_.unit);
+    // Shadows fade out in the gap around the panel.
+    lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);
     return needs;
 }
 

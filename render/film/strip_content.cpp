@@ -93,13 +93,26 @@ ChartCurve curve_of(const FilmContext& context, int member, Channel channel) {
     return curve;
 }
 
-Range range_of(const FilmContext& context, const std::vector<ChartCurve>& curves, Channel channel) {
+// The rows from the last one before the interval to the first one after it.
+std::span<const double> rows_within(const ChartCurve& curve, Range time) {
+    const auto first = std::ranges::upper_bound(curve.t, time.low), last = std::ranges::lower_bound(curve.t, time.high);
+    const auto from = std::max<std::ptrdiff_t>(first - curve.t.begin() - 1, 0),
+               to = std::min(last - curve.t.begin() + 1, std::ssize(curve.v));
+    return std::span(curve.v).subspan(static_cast<std::size_t>(from),
+                                      static_cast<std::size_t>(std::max(to - from, 0L)));
+}
+
+// The axis of a film is that of all its windows.
+Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vector<ChartCurve>& curves) {
     Extent all;
+    const Channel channel = spec.channels.front();
     const auto see = [&](double v) { all.add({&v, 1}); };
-    for (const ChartCurve& curve : curves) all.add(curve.v);
+    const bool still = context.frames() == 1;  // a still shows only its past, which the chart contains
+    for (const ChartCurve& curve : curves)
+        all.add(still && spec.window ? rows_within(curve, window_around(context.at(0, 0), *spec.window))
+                                     : std::span<const double>(curve.v));
     for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
         const Motion& one = context.motion(m);
-        const bool still = context.frames() == 1;  // a still shows only its past, which the chart contains
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
             see(context.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
     }
@@ -265,7 +278,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             curve.color = alone && contact ? p.contact : curve_color(context, spec.channels[i], i, m);
             curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(curve.color, 0.25);
             if (context.members() > 1 && !context.names_in_panels())
-                curve.label = context.labels[static_cast<std::size_t>(m)] + ":";  // "ω = 0: 12"
+                curve.label = context.labels[static_cast<std::size_t>(m)] + ":", c.names_first = true;  // "ω = 0: 12"
             else if (context.members() == 1 && !single)
                 curve.label = symbol_of(spec.channels[i]);
             if (!is_force(first))
@@ -277,7 +290,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     }
     c.filled = single && is_force(first) && context.members() == 1;
     if (is_force(first)) c.reading_unit = c.unit;
-    c.value = range_of(context, c.curves, first);
+    c.value = range_of(context, spec, c.curves);
     if (single && dotted) add_places(context, c);
     add_data(context, spec, c);
     const bool of_contact = is_force(first) || first.kind == ChannelKind::contact_x;

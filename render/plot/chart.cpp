@@ -11,7 +11,6 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kWindowAhead = 0.25;               // share of a moving window that shows the future
 constexpr double kPastLine = 2.2, kFutureLine = 2;  // widths, and radii of dots [design px]
 constexpr double kPastDot = 2.6, kFutureDot = 2.2;
 constexpr double kBetweenReadings = 18;
@@ -29,7 +28,11 @@ Chart::Chart(ChartContent content, const Box& box, const Box& plot, const ChartS
 
 // ---- the time axis -----------------------------------------------------------------------------
 
-Range Chart::around(double t) const { return {t - (1 - kWindowAhead) * *c_.window, t + kWindowAhead * *c_.window}; }
+Range window_around(double t, double length) {
+    constexpr double kAhead = 0.25;  // share that shows the future
+    return {t - (1 - kAhead) * length, t + kAhead * length};
+}
+
 double Chart::x(const Range& view, double t) const {
     return plot_.x + plot_.w * (t - view.low) / (view.high - view.low);
 }
@@ -200,7 +203,7 @@ Image Chart::past(const Fonts& fonts) const {
 
 void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readings) const {
     const auto& [p, u, size] = style_;
-    const Range view = windowed() ? around(t) : whole();
+    const Range view = windowed() ? window_around(t, *c_.window) : whole();
     // Past and future meet at the cursor: each is drawn within its own part of the plot.
     const double cut = cursor_column(view, t) + 1, box = plot_.y - 8;
     double from = plot_.x;
@@ -272,11 +275,30 @@ double Chart::reading_width(Canvas& canvas, bool named) const {
     return all;
 }
 
+// The names of the curves alone, without the colon before a reading.
+bool Chart::draw_names(Canvas& canvas, double room) const {
+    double all = 0;
+    std::vector<std::string> names;
+    for (const ChartCurve& curve : c_.curves) {
+        names.push_back(curve.label.substr(0, curve.label.rfind(':')));
+        all += canvas.measure(names.back(), reading_style({})).w + kBetweenReadings * style_.unit;
+    }
+    if (all > room) return false;
+    double right = plot_.right() + 8 * style_.unit;
+    for (std::size_t i = names.size(); i-- > 0;) {
+        const TextStyle style = reading_style(readable(style_.palette, c_.curves[i].color));
+        canvas.text({right, box_.y + 26 * style_.unit}, names[i], style);
+        right -= canvas.measure(names[i], style).w + kBetweenReadings * style_.unit;
+    }
+    return true;
+}
+
 // At the right end, that of the last curve outermost; without names if there is no room for them.
 void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) const {
     const auto& [p, u, size] = style_;
     const double room = plot_.w - canvas.measure(axis_.name(), heading_style()).w, baseline = box_.y + 26 * u;
     const bool named = reading_width(canvas, true) <= room;
+    if (!named && c_.names_first && draw_names(canvas, room)) return;
     if (!named && readings.size() > 1 && reading_width(canvas, false) > room) return;
     const double widest = widest_reading(canvas);
     double right = plot_.right() + 8 * u;

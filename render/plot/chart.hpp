@@ -42,6 +42,8 @@ struct ChartBand {
     Color color;
 };
 
+Range window_around(double t, double length);  // the time that a moving window shows [s]
+
 struct ChartContent {
     std::string words;             // before the symbol, if there is space: "Contact point on the beam "
     std::string short_words = {};  // otherwise these, if there is space: "Contact point "
@@ -56,6 +58,7 @@ struct ChartContent {
     std::string reading_unit = {};
     std::string time_label;    // markup, "t / s"
     std::string instead = {};  // text that replaces the axis if there are no values: "no contact"
+    bool names_first = false;  // rather the names of the curves than their readings, if only one of them has room
     std::vector<ChartCurve> curves;
     std::vector<double> band_times;  // [s]
     std::vector<ChartBand> bands;
@@ -82,7 +85,6 @@ class Chart {
 
   private:
     Range whole() const { return c_.time; }
-    Range around(double t) const;  // the time that a window shows
     double x(const Range& view, double t) const;
     double y(double v) const { return plot_.bottom() - plot_.h * axis_.place(v); }
     int cursor_column(const Range& view, double t) const;
@@ -106,7 +108,8 @@ class Chart {
     TextStyle reading_style(Color color) const;
     void draw_heading(Canvas& canvas) const;
     std::string reading_text(double value) const;
-    double widest_reading(Canvas& canvas) const;  // [px]
+    double widest_reading(Canvas& canvas) const;         // [px]
+    bool draw_names(Canvas& canvas, double room) const;  // false: no room
     void draw_readings(Canvas& canvas, std::span<const double> readings) const;
     double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
 

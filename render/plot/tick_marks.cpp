@@ -73,6 +73,7 @@ void draw_numbers_below(Canvas& canvas, const ChartStyle& style, const Box& plot
     TextStyle text{.size = size, .color = p.muted, .align = HAlign::centre};
     std::vector<Number> numbers;
     for (Tick& tick : ticks) {
+        if (tick.label.empty()) continue;
         const double x = plot.x + plot.w * tick.at, at = moves ? x : middle_of_pixel(x);
         const double half = canvas.measure(tick.label, text).w / 2;
         numbers.push_back({at - half, at + half, &tick.label});

@@ -35,6 +35,7 @@ render::Motion motion_of(const Pictures& p, const sim::Problem& problem, const P
     motion.chart = std::move(result.tables[at.chart]);
     if (at.trace) motion.trace = std::move(result.tables[*at.trace]);
     motion.impacts = result.impacts;
+    motion.end = result.end_time;
     motion.stored = poses.frames;
     motion.survey = poses.survey;
     motion.exposures = p.view.poses();
@@ -130,6 +131,7 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     static_cast<render::Motion&>(setup) = motion_of(p, scene.problem, p.of_scene, poses, results.run);
     setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p)) + paler_note(setup);
     setup.impacts = results.seen_by(p).impacts;
+    setup.end = results.seen_by(p).end_time;
     return setup;
 }
 

@@ -11,6 +11,7 @@
 #include "render/draw/dirty_tiles.hpp"
 #include "render/film/film.hpp"
 #include "render/film/mechanism_view.hpp"
+#include "render/film/strip_content.hpp"
 #include "render/gl/solid.hpp"
 #include "render/plot/labels.hpp"
 #include "tests/render/drawing.hpp"
@@ -887,6 +888,52 @@ TEST(Comparisons, NameEachMotionOnce) {
     EXPECT_EQ(texts_of_heading(leaf(strip(ChannelKind::theta))), 3 + 2);  // … and their names
 }
 
+// Where readings with names have no room, a picture without mechanism shows the names.
+TEST(Comparisons, NamesComeBeforeReadings) {
+    FilmSetup setup = compared(Comparison::panels);
+    setup.label = setup.others.front().label = "ω = 10 rad/s";
+    while (setup.others.size() < 7) setup.others.push_back(setup.others.front());
+    setup.layout = leaf(strip(ChannelKind::theta));
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(20);
+    const Box box = g.layout.panels.front().box;
+    const auto named = std::ranges::count_if(g.texts, [&](const Box& text) {
+        return text.y > box.y && text.bottom() < box.y + 34 * g.layout.unit && text.w > 60;  // longer than "0.785"
+    });
+    EXPECT_EQ(named, 8);
+}
+
+// Exaggeration and speed are bare numbers only where words have no room in smaller letters.
+TEST(Clock, SmallPicturesStateDeflectionAndSpeedInWords) {
+    FilmSetup setup = test::flat_film({.duration = 0.1}, 640, 360);
+    setup.view.exaggeration = 5;
+    setup.speeds.assign(setup.frames(), 0.37);
+    Film film(std::move(setup));
+    const FrameGeometry g = film.geometry(0);
+    ASSERT_TRUE(g.layout.clock);
+    std::vector<double> wide;
+    for (const Box& text : g.texts)
+        if (g.layout.clock->contains(text)) wide.push_back(text.w);
+    ASSERT_EQ(wide.size(), 3U);  // clock, deflection, speed
+    EXPECT_GT(wide[1], 40);      // "×5" has 10 pixels
+    EXPECT_GT(wide[2], 40);      // "0.37×" has 25 pixels
+}
+
+// The axis of a still suits the window that it shows; that of a film suits all its windows.
+TEST(Strips, AWindowInAStillHasItsOwnRange) {
+    const auto range = [](std::size_t frames, std::optional<double> window) {
+        FilmSetup setup = test::flat_film({.duration = 0.5}, 1280, 720);
+        setup.poses.erase(setup.poses.begin(), setup.poses.end() - static_cast<std::ptrdiff_t>(frames));
+        PanelSpec spec = strip(ChannelKind::theta);
+        spec.window = window;
+        const FilmContext context(std::make_shared<const FilmSetup>(std::move(setup)));
+        const ChartContent c = strip_content(context, spec);
+        return c.value.high - c.value.low;
+    };
+    EXPECT_LT(range(1, 0.02), 0.3 * range(1, {}));
+    EXPECT_EQ(range(20, 0.02), range(20, {}));
+}
+
 // Arrows are proportional to the force, in the mechanism and in the close-up.
 TEST(ForceArrows, AreInProportionToTheForce) {
     for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
@@ -1023,6 +1070,25 @@ TEST(Layout, ColumnsOfATallPictureStandBelowEachOther) {
 
 // In the middle of the close-up the height of the face above the rim equals the gap. The plot extends from 1.35 of the
 // largest penetration below the rim to 1.9 above.
+// Further impacts of a collision that the motion does not outlast are unknown.
+TEST(CloseUp, CountsTheImpactsOfFinishedCollisionsOnly) {
+    const auto inked = [](double end) {
+        FilmSetup setup = test::flat_film({.duration = 0.4}, 960, 720);
+        sim::Impact impact;
+        impact.t_start = 0.1, impact.t_end = 0.3;
+        setup.impacts = {impact};
+        setup.end = end;
+        setup.layout = leaf({.kind = PanelKind::close_up});
+        Film film(std::move(setup));
+        double wide = 0;
+        for (const Box& text : film.geometry(12).texts) wide += text.w;
+        return wide;
+    };
+    const double gap = *test::flat_film({.duration = 0.4}, 960, 720).problem.contact.collision_gap;
+    EXPECT_EQ(inked(0.3 + 1.01 * gap), inked(10));       // "collision 1 · impact 1 of 1"
+    EXPECT_LT(inked(0.3 + 0.99 * gap), inked(10) - 20);  // "collision 1 · impact 1"
+}
+
 TEST(CloseUp, TheDrawnGapIsTheSampledGap) {
     constexpr double kDeepest = 4e-5;  // [m]
     FilmSetup setup = test::flat_film({.duration = 0.4}, 960, 1080);

@@ -91,6 +91,7 @@ TEST(Ticks, TheNameOfTheAxisLeavesTheLastNumber) {
         const Box plot{50, 10, width, 50};
         std::vector<Tick> ticks;
         for (int i = 0; i <= 4; ++i) ticks.push_back({i / 4.0, fixed(i * 0.25, 2)});
+        ticks.push_back({0.9, "", false});  // a minor one
         draw_numbers_below(canvas, {p, 1, 17}, plot, ticks, "$t$ / s", false);
         ASSERT_EQ(texts.size(), written);
         for (std::size_t i = 0; i < texts.size(); ++i)
