@@ -13,9 +13,9 @@ enum class AttractorClass {
     periodic,        // (n, m): n turns of the cam, m impacts
     quasi_periodic,  // no period, and a largest exponent of zero within its error
     chaotic,         // a largest exponent that is positive beyond its error
-    aperiodic,       // no period within the samples, and an unknown or doubtful exponent
+    aperiodic,       // no period, or one that depends on rounding, and an unknown or doubtful exponent
     over_the_top,    // the beam leaves the half plane of the cam
-    unsettled        // the transient is not over, the period depends on rounding, or the integration failed
+    unsettled        // the transient is not over, or the integration failed
 };
 inline std::span<const Named<AttractorClass>> names(AttractorClass) {
     using enum AttractorClass;

@@ -95,7 +95,7 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
     if (survives(*period, problem, sampling, end, progress))
         point.attractor = returning(*period);
     else
-        point.attractor.kind = AttractorClass::unsettled;
+        point.attractor.kind = AttractorClass::aperiodic, point.attractor.exponent = {};
     return point;
 }
 

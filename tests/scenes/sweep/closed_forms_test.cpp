@@ -195,8 +195,8 @@ bool repeats(const std::vector<double>& theta, std::size_t turns) {
 }
 
 // Above 50.5 rad/s this beam chatters to rest now and then, after hundreds of turns that look chaotic; lasting contact
-// brings it back to the same state. Sixty turns show that neither; what they are called must hold for the next
-// thousand.
+// brings it back to the same state, but where differences grow by ten decades in between, only because of rounding.
+// Sixty turns show none of that; what they are called must hold for the next thousand.
 TEST(LongSweepClosedForms, TransientsAndLongPeriodsAreNotCalledChaos) {
     const std::string scene = R"({
         "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
@@ -205,21 +205,22 @@ TEST(LongSweepClosedForms, TransientsAndLongPeriodsAreNotCalledChaos) {
     const auto late = sections(scene, "--transient 3000 --keep 1000");
     ASSERT_EQ(late.size(), 201u);
     for (const char* transient : {"20", "100", "500"}) {
-        int periodic = 0, seldom = 0, chaotic = 0;
+        int periodic = 0, aperiodic = 0, chaotic = 0;
         for (const auto& [speed, point] : classes(scene, std::string("--transient ") + transient)) {
             const std::vector<double>& theta = late.at(speed);
             if (point.name == "periodic") {
                 const auto turns = static_cast<std::size_t>(std::stoi(point.period));
                 ++periodic;
-                if (turns > 60) ++seldom;
                 EXPECT_TRUE(repeats(theta, turns)) << transient << " " << speed << " " << turns;
             }
+            if (point.name == "aperiodic")
+                ++aperiodic;  // returns that depend on rounding, up to hundreds of turns long
             if (point.name != "chaotic") continue;
             ++chaotic;
             for (std::size_t turns = 1; turns < 500; ++turns) EXPECT_FALSE(repeats(theta, turns)) << speed;
         }
-        EXPECT_GT(periodic, 190) << transient;
-        EXPECT_GT(seldom, 10) << transient;
+        EXPECT_GT(periodic, 140) << transient;
+        EXPECT_GT(aperiodic, 10) << transient;
         EXPECT_GT(chaotic, 0) << transient;
     }
 }
