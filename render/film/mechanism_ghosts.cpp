@@ -81,24 +81,28 @@ void draw_ghost_bodies(const MechanismScene& s) {
     }
 }
 
-// A straight beam at the hub's angle.
+std::optional<DrawnBeam> measured_beam(const MechanismView& at, std::size_t data, sim::Pose pose,
+                                       const DrawnBeam& like) {
+    const double angle = at.context.measured_angle(data, pose.t);
+    if (std::isnan(angle)) return std::nullopt;
+    pose.theta = angle;
+    pose.nearest.reset();
+    const sim::Problem& problem = at.problem();
+    const std::size_t last = pose.centreline.size() - 1;
+    for (std::size_t i = 0; i <= last; ++i)
+        pose.centreline[i] = sim::unit(angle) * (problem.hub.radius + problem.beam.length * static_cast<double>(i) /
+                                                                          static_cast<double>(last));
+    DrawnBeam beam = drawn_beam(problem, pose, 1, at.look.depth);
+    beam.side = like.side, beam.low = like.low, beam.high = like.high;  // placed as the beam's section
+    return beam;
+}
+
 void draw_measured_beams(const MechanismScene& s) {
-    for (std::size_t k = 0; k < s.at.context.setup->data.size(); ++k) {
-        const double angle = s.at.context.measured_angle(k, s.pose.t);
-        if (std::isnan(angle)) continue;
-        sim::Pose pose = s.pose;
-        pose.theta = angle;
-        pose.nearest.reset();
-        const sim::Problem& problem = s.at.problem();
-        const std::size_t last = pose.centreline.size() - 1;
-        for (std::size_t i = 0; i <= last; ++i)
-            pose.centreline[i] = sim::unit(angle) * (problem.hub.radius + problem.beam.length * static_cast<double>(i) /
-                                                                              static_cast<double>(last));
-        DrawnBeam beam = drawn_beam(problem, pose, 1, s.at.look.depth);
-        beam.side = s.beam.side, beam.low = s.beam.low, beam.high = s.beam.high;  // placed as the beam's section
-        s.canvas.polyline(ghost_outline(s, beam).edge);
-        s.canvas.stroke({s.at.context.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
-    }
+    for (std::size_t k = 0; k < s.at.context.setup->data.size(); ++k)
+        if (const auto beam = measured_beam(s.at, k, s.pose, s.beam)) {
+            s.canvas.polyline(ghost_outline(s, *beam).edge);
+            s.canvas.stroke({s.at.context.data_color(k), 2.2 * s.at.unit, {9 * s.at.unit, 5 * s.at.unit}, Cap::butt});
+        }
 }
 
 }  // namespace beamcam::render

@@ -42,6 +42,9 @@ void draw_captions(const MechanismScene& s);
 // colours show bending, outlines over it.
 void draw_ghost_bodies(const MechanismScene& s);
 void draw_ghost_outlines(const MechanismScene& s);
-void draw_measured_beams(const MechanismScene& s);  // straight beams at measured angles
+void draw_measured_beams(const MechanismScene& s);
+// The straight beam at the angle of a data set at the instant of the pose; none outside of the data.
+std::optional<DrawnBeam> measured_beam(const MechanismView& at, std::size_t data, sim::Pose pose,
+                                       const DrawnBeam& like);
 
 }  // namespace beamcam::render

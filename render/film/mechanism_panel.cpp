@@ -81,6 +81,16 @@ void MechanismPanel::add_survey(SweptRegion& swept) const {
         swept.add_arrow({arrow.foot, arrow.normal, arrow.share * at_.context.arrow_scale});
 }
 
+static void add_measured(const MechanismView& at, const Pose& pose, const DrawnBeam& drawn, SweptRegion& swept) {
+    for (std::size_t k = 0; k < at.context.setup->data.size(); ++k) {
+        const auto beam = measured_beam(at, k, pose, drawn);
+        std::vector<Vec2> face, back;
+        for (std::size_t i = 0; beam && i < beam->line.size(); ++i)
+            face.push_back(at.px(beam->face(i))), back.push_back(at.px(beam->back(i)));
+        swept.add_beam(face, back);
+    }
+}
+
 LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact) {
     LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}};
     Bounds seen;
@@ -103,6 +113,7 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
             each->add_motion(before, shape.face);
             if (arrow) each->add_arrow(*arrow);
         }
+        if (at_.member == 0) add_measured(at_, pose, drawn, swept);
         if (arrow) needs.arrows.push_back(*arrow);
         before = shape.face;
         if (at_.problem().cam) {

@@ -35,7 +35,7 @@ constexpr LabelRow kLabels[] = {
     {ChannelKind::loss_friction, {"Lost to friction", "摩擦耗散", "D", "f"}},
     {ChannelKind::work_cam, {"Work of the cam", "凸轮做功", "W", "c"}},
     {ChannelKind::work_drive, {"Work of the drive", "驱动做功", "W", "d"}},
-    {ChannelKind::energy_residual, {"Ledger residual", "能量残差", "ΔE"}},
+    {ChannelKind::energy_residual, {"Energy residual", "能量残差", "ΔE"}},
     {ChannelKind::separation, {"Separation", "分离量", "a", "n"}},
     {ChannelKind::separation_paper, {"Separation, printed form", "分离量（印刷式）", "a", "p"}},
 };

@@ -244,7 +244,7 @@ TextStyle Chart::reading_style(Color color) const {
 // The readings are beside it.
 void Chart::draw_heading(Canvas& canvas) const {
     const std::string name = axis_.name();
-    const double room = plot_.w - reading_width(canvas, true);
+    const double room = plot_.w - reading_width(canvas, true, true);
     canvas.text({plot_.x, box_.y + 26 * style_.unit},
                 first_that_fits(canvas, {c_.words + name, c_.short_words + name, name}, heading_style(), room),
                 heading_style());
@@ -264,49 +264,41 @@ double Chart::widest_reading(Canvas& canvas) const {
                     canvas.measure(fixed(axis_.ends().low, digits_), style).w);
 }
 
+// The name before a reading, or alone without its colon.
+static std::string name_of(const ChartCurve& curve, bool with_reading) {
+    if (curve.label.empty()) return {};
+    return with_reading ? curve.label + "\u2002" : curve.label.substr(0, curve.label.rfind(':'));
+}
+
 // Room for the widest value, so that the readings do not move.
-double Chart::reading_width(Canvas& canvas, bool named) const {
-    const double widest = widest_reading(canvas);
+double Chart::reading_width(Canvas& canvas, bool names, bool values) const {
+    const double widest = values ? widest_reading(canvas) : 0;
     double all = 0;
     for (const ChartCurve& curve : c_.curves) {
         all += widest + kBetweenReadings * style_.unit;
-        if (named && !curve.label.empty()) all += canvas.measure(curve.label + "\u2002", reading_style({})).w;
+        if (names) all += canvas.measure(name_of(curve, values), reading_style({})).w;
     }
     return all;
 }
 
-// The names of the curves alone, without the colon before a reading.
-bool Chart::draw_names(Canvas& canvas, double room) const {
-    double all = 0;
-    std::vector<std::string> names;
-    for (const ChartCurve& curve : c_.curves) {
-        names.push_back(curve.label.substr(0, curve.label.rfind(':')));
-        all += canvas.measure(names.back(), reading_style({})).w + kBetweenReadings * style_.unit;
-    }
-    if (all > room) return false;
-    double right = plot_.right() + 8 * style_.unit;
-    for (std::size_t i = names.size(); i-- > 0;) {
-        const TextStyle style = reading_style(readable(style_.palette, c_.curves[i].color));
-        canvas.text({right, box_.y + 26 * style_.unit}, names[i], style);
-        right -= canvas.measure(names[i], style).w + kBetweenReadings * style_.unit;
-    }
-    return true;
-}
-
-// At the right end, that of the last curve outermost; without names if there is no room for them.
+// At the right end, that of the last curve outermost; without names, or names alone, if there is no room for both.
 void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) const {
     const auto& [p, u, size] = style_;
     const double room = plot_.w - canvas.measure(axis_.name(), heading_style()).w, baseline = box_.y + 26 * u;
-    const bool named = reading_width(canvas, true) <= room;
-    if (!named && c_.names_first && draw_names(canvas, room)) return;
-    if (!named && readings.size() > 1 && reading_width(canvas, false) > room) return;
+    const bool named = reading_width(canvas, true, true) <= room;
+    const bool names_only = !named && c_.names_first && reading_width(canvas, true, false) <= room;
+    if (!named && !names_only && readings.size() > 1 && reading_width(canvas, false, true) > room) return;
     const double widest = widest_reading(canvas);
     double right = plot_.right() + 8 * u;
     for (std::size_t i = readings.size(); i-- > 0;) {
         const double v = readings[i];
-        const std::string label = named && i < c_.curves.size() ? c_.curves[i].label : std::string();
+        const std::string label =
+            (named || names_only) && i < c_.curves.size() ? name_of(c_.curves[i], named) : std::string();
         const TextStyle style = reading_style(readable(p, i < c_.curves.size() ? c_.curves[i].color : p.contact));
-        if (label.empty()) {
+        if (names_only) {
+            canvas.text({right, baseline}, label, style);
+            right -= canvas.measure(label, style).w;
+        } else if (label.empty()) {
             if (!std::isnan(v)) canvas.text({right, baseline}, reading_text(v), style);
             right -= widest;
         } else {
@@ -317,8 +309,8 @@ void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) cons
             const std::string number = std::isnan(v) ? "–" : reading_text(v);
             right -= std::max(0.0, canvas.measure(number, beside).w - widest);
             canvas.text({right, baseline}, number, beside);
-            canvas.text({right, baseline}, label + "\u2002", style);
-            right -= canvas.measure(label + "\u2002", style).w;
+            canvas.text({right, baseline}, label, style);
+            right -= canvas.measure(label, style).w;
         }
         right -= kBetweenReadings * u;
     }

@@ -108,10 +108,9 @@ class Chart {
     TextStyle reading_style(Color color) const;
     void draw_heading(Canvas& canvas) const;
     std::string reading_text(double value) const;
-    double widest_reading(Canvas& canvas) const;         // [px]
-    bool draw_names(Canvas& canvas, double room) const;  // false: no room
+    double widest_reading(Canvas& canvas) const;  // [px]
     void draw_readings(Canvas& canvas, std::span<const double> readings) const;
-    double reading_width(Canvas& canvas, bool named) const;  // of all readings together [px]
+    double reading_width(Canvas& canvas, bool names, bool values) const;  // of all readings together [px]
 
     ChartContent c_;
     Box box_, plot_;

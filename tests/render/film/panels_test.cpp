@@ -863,6 +863,20 @@ TEST(Strips, NumbersOfAShortWindowStandApart) {
         for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(numbers[i].inset(-3).overlaps(numbers[j].inset(-3)));
 }
 
+TEST(Labels, KeepClearOfMeasuredBeams) {
+    FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
+    setup.layout = LayoutNode{};
+    setup.poses.resize(1);
+    const FrameGeometry bare = Film(setup).geometry(0);
+    ASSERT_FALSE(bare.labels.empty());
+    const Vec2 letter = bare.camera.to_world(bare.labels.front().centre());  // θ
+    const double angle = std::atan2(letter.y, letter.x), t = setup.poses[0].t;
+    setup.data = {{"rig", true, {t - 1, t + 1}, {{{ChannelKind::theta, 0}, {angle, angle}}}}};
+    const FrameGeometry with = Film(setup).geometry(0);
+    const Vec2 on_beam = with.camera.to_pixels(letter);
+    for (const Box& label : with.labels) EXPECT_FALSE(label.contains({on_beam.x, on_beam.y, 0, 0}));
+}
+
 // The letter of an angle that has no arc is left out.
 TEST(Labels, NoArcNoLetter) {
     FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
