@@ -92,10 +92,12 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
             point.attractor.kind = AttractorClass::unsettled;
     }
     if (!period) return point;
-    if (survives(*period, problem, sampling, end, progress))
+    if (survives(*period, problem, sampling, end, progress)) {
         point.attractor = returning(*period);
-    else
-        point.attractor.kind = AttractorClass::aperiodic, point.attractor.exponent = {};
+    } else {
+        point.attractor.kind = AttractorClass::aperiodic;
+        point.attractor.exponent = {};
+    }
     return point;
 }
 
