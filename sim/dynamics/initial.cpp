@@ -12,6 +12,15 @@
 namespace beamcam::sim {
 namespace {
 
+// Half the difference of f between x + step and x − step.
+template <class F>
+Eigen::VectorXd central_difference(F&& f, const Eigen::VectorXd& x, const Eigen::VectorXd& step) {
+    Eigen::VectorXd plus(x.size()), minus(x.size());
+    f(x + step, plus);
+    f(x - step, minus);
+    return 0.5 * (plus - minus);
+}
+
 // Newton's method with a Jacobian by finite differences. scale[i] and size[i] are the natural magnitudes of unknown i
 // and of residual i, which make quantities of different units comparable; `difference` is a share of the scale.
 template <class F>
@@ -27,14 +36,8 @@ bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, cons
     residual(x, f);
     for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
         for (Eigen::Index j = 0; j < n; ++j) {
-            const double kept = x[j];
-            x[j] = kept + difference * scale[j];
-            residual(x, g);
-            jacobian.col(j) = g;
-            x[j] = kept - difference * scale[j];
-            residual(x, g);
-            jacobian.col(j) = (jacobian.col(j) - g) / (2 * difference);
-            x[j] = kept;
+            const Eigen::VectorXd step = difference * scale[j] * Eigen::VectorXd::Unit(n, j);
+            jacobian.col(j) = central_difference(residual, x, step) / difference;
         }
         const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
         if (!dx.allFinite()) return false;
@@ -125,16 +128,13 @@ bool clamped_equilibrium(System& system, double angle, Eigen::VectorXd& xi) {
 bool is_stable(Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& scale) {
     const Eigen::Index n = model.size();
     const Eigen::Map<const Eigen::VectorXd> hub(model.hub_row(), n);
-    Eigen::VectorXd plus(n), minus(n);
+    const auto force = [&](const Eigen::VectorXd& at, Eigen::VectorXd& f) { static_force(model, at, f); };
     Eigen::MatrixXd variation(n - 1, n - 1);
     for (Eigen::Index j = 1; j < n; ++j) {
         const double step = kNewtonDifference * scale[j];
-        Eigen::VectorXd aside = Eigen::VectorXd::Zero(n);
-        aside[j] = step;
+        Eigen::VectorXd aside = step * Eigen::VectorXd::Unit(n, j);
         aside[0] = -step * hub[j] / hub[0];
-        static_force(model, xi + aside, plus);
-        static_force(model, xi - aside, minus);
-        const Eigen::VectorXd change = (plus - minus) / (2 * step);
+        const Eigen::VectorXd change = central_difference(force, xi, aside) / step;
         variation.col(j - 1) = -(change.tail(n - 1) - hub.tail(n - 1) * (change[0] / hub[0]));
     }
     return Eigen::LLT<Eigen::MatrixXd>(0.5 * (variation + variation.transpose())).info() == Eigen::Success;
