@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/observe/constants.hpp"
+#include "sim/run/chatter.hpp"
 #include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
@@ -124,12 +124,8 @@ void Transitions::impact() {
     };
     ImpactResult impact = resolve(problem().contact.restitution);
     if (sum_up_chatter(c, impact, resolve(0))) return;
-    // Chatter has also ended when rounding of the gap keeps the bounces from becoming lower, and when the integrator
-    // cannot separate a rebound from the next touch.
-    const double pull = pull_on_cam();
-    const bool low = pull > 0 && impact.v_n * impact.v_n < 2 * pull * kLowestBounce * problem().beam.length;
-    const bool chatter =
-        impact.v_n < kChatterShare * problem().contact.approach_floor.value || (low && impact.v_n >= last_rebound_);
+    // Chatter has also ended when the integrator cannot separate a rebound from the next touch.
+    const bool chatter = Bounce{approach, impact.v_n}.ends_chatter(pull_on_cam(), last_rebound_, problem());
     const bool slow = chatter || state_.idle_events > kMaxInstantEvents;
     last_rebound_ = impact.v_n;
     state_.phase_start = state_.t;
@@ -168,14 +164,12 @@ void Transitions::hold() {
 // first moment in time, so the run continues with it; the contact counts as sustained after T.      (S57)
 // False if the conditions do not hold and the bounces must be integrated.
 bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impact, const ImpactResult& plastic) {
-    const double approach = -c.gap_rate, rebound = impact.v_n;
-    const bool plastic_impact = !(rebound > kPlastic * approach);
-    if (plastic_impact || rebound >= approach || rebound >= kSummedShare * problem().contact.approach_floor.value)
-        return false;
+    const Bounce bounce{-c.gap_rate, impact.v_n};
+    if (!bounce.is_summable(problem().contact)) return false;
     std::vector<double> settled = state_.y;
     system_.apply_impact(state_.t, settled.data(), c, plastic);
     const double pull = -system_.free_gap_acceleration(state_.t, settled.data());
-    const double lasts = 2 * rebound / (pull * (1 - rebound / approach));
+    const double lasts = bounce.chatter_time(pull);
     const double turns = std::fabs(system_.model().hub_rate()) + std::fabs(problem().cam->speed);
     if (!(pull > 0 && lasts * (system_.highest_frequency() + turns) < kBriefChatter)) return false;
 
@@ -185,7 +179,7 @@ bool Transitions::sum_up_chatter(const ContactState& c, const ImpactResult& impa
     system_.rhs(state_.t, settled.data(), rates.data());
     for (std::size_t i = 0; i < rates.size(); ++i) rates[i] = settled[i] + lasts * rates[i];
     const double later = -system_.free_gap_acceleration(state_.t + lasts, rates.data());
-    if (!(std::fabs(later - pull) < kSteadyPull * pull)) {
+    if (!is_steady(pull, later)) {
         state_.phase = flight;
         enter_phase();
         return false;

@@ -67,7 +67,6 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
       surface_(mirrored_.cam, problem.cam->radius + contact_offset(problem), mirrored_.k, mirrored_.alpha),
       series_(mirrored_.k, mirrored_.alpha),
       reach_(problem.cam->radius),
-      floor_(problem.contact.approach_floor.value),
       centre_direction_(std::atan2(mirrored_.cam.centre.y, mirrored_.cam.centre.x)),
       section_phase_(section_phase(problem, sampling.level)) {
     motion_.accuracy = kRigidAccuracy;
@@ -198,7 +197,8 @@ double RigidMotion::falling(double t, double latest, double h) {
 void RigidMotion::impact() {
     const SurfaceAngle c = surface_at(s_);
     const double w = swing_.rate - surface_.rate(c), approach = -c.lever * w;
-    const double rebound = problem_.contact.restitution * approach, pull = c.lever * surface_.push(c);
+    const Bounce bounce{approach, problem_.contact.restitution * approach};
+    const double pull = c.lever * surface_.push(c);
     swing_.theta = c.angle;
     touched_ = true;
     if (!(approach > 0)) {  // the beam reaches the surface without approach speed
@@ -206,13 +206,12 @@ void RigidMotion::impact() {
         return lift_after_impact();
     }
     ++motion_.impacts;
-    if (sums_up_chatter(c, approach, rebound)) {
-        sample_impact(c, surface_.rate(c) + rebound / c.lever);
+    if (sums_up_chatter(c, bounce)) {
+        sample_impact(c, surface_.rate(c) + bounce.rebound / c.lever);
         return rest_on(c);
     }
-    const bool low = pull > 0 && rebound * rebound < 2 * pull * kLowestBounce * problem_.beam.length;
-    const bool slow = rebound < kChatterShare * floor_ || (low && rebound >= last_rebound_);
-    last_rebound_ = rebound;
+    const bool slow = bounce.ends_chatter(pull, last_rebound_, problem_);
+    last_rebound_ = bounce.rebound;
     const double kept = slow ? 0 : problem_.contact.restitution, after = surface_.rate(c) - kept * w;
     if (slow && pull > 0) {
         sample_impact(c, kNan);
@@ -228,13 +227,13 @@ void RigidMotion::impact() {
 }
 
 // The conditions of Transitions::sum_up_chatter (S57).
-bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const {
-    if (!(rebound > kPlastic * approach && rebound < approach && rebound < kSummedShare * floor_)) return false;
-    const double pull = c.lever * surface_.push(c), lasts = 2 * rebound / (pull * (1 - rebound / approach));
+bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) const {
+    if (!bounce.is_summable(problem_.contact)) return false;
+    const double pull = c.lever * surface_.push(c), lasts = bounce.chatter_time(pull);
     const double turns = std::fabs(surface_.rate(c)) + std::fabs(problem_.cam->speed);
     if (!(pull > 0 && lasts * turns < kBriefChatter)) return false;
     const SurfaceAngle last = surface_.at(s_ + lasts);
-    return std::fabs(last.lever * surface_.push(last) - pull) < kSteadyPull * pull;
+    return is_steady(pull, last.lever * surface_.push(last));
 }
 
 // Sustained contact begins, which annihilates the tangent.

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "sim/run/chatter.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/sweep/cam_surface.hpp"
 #include "sim/sweep/sampling.hpp"
@@ -49,7 +50,7 @@ class RigidMotion {
     double falling(double t, double latest, double h);
     bool leaves(double dt) const;
     void impact();
-    bool sums_up_chatter(const SurfaceAngle& c, double approach, double rebound) const;
+    bool sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) const;
     void rest_on(const SurfaceAngle& c);
     void lift(double until);
     void record_lift(std::size_t window);
@@ -74,7 +75,7 @@ class RigidMotion {
     Mirrored mirrored_;
     CamSurface surface_;
     SwingSeries series_;
-    double reach_, floor_;
+    double reach_;
     double centre_direction_;  // of the cam's axis as seen from the hub, mirrored [rad]
     double cached_at_ = kNan;
     SurfaceAngle cached_;
