@@ -9,9 +9,18 @@
 
 namespace beamcam::sim {
 
+template <class V>
+consteval int derivatives_of() {
+    if constexpr (requires { V::kDerivatives; })
+        return V::kDerivatives;
+    else
+        return 0;
+}
+
 // A value and its derivatives, each a number of type V or several of them side by side.
 template <class V, class D>
 struct Dual {
+    static constexpr int kDerivatives = 1 + derivatives_of<V>();  // how often it is differentiated
     V v{};
     D d{};
 
@@ -72,12 +81,6 @@ struct Dual {
     friend void sine_and_cosine(const Dual& a, Dual& sine, Dual& cosine) {
         sine = sin(a);
         cosine = cos(a);
-    }
-    friend void product(std::size_t rows, std::size_t columns, const double* a, const Dual* x, Dual* y) {
-        for (std::size_t r = 0; r < rows; ++r) {
-            y[r] = 0;
-            for (std::size_t c = 0; c < columns; ++c) y[r] += a[r * columns + c] * x[c];
-        }
     }
 };
 
