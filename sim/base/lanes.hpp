@@ -52,7 +52,15 @@ BEAMCAM_INLINE Lanes larger(Lanes a, const Lanes& b) {
     for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = b.part[i] > a.part[i] ? b.part[i] : a.part[i];
     return a;
 }
-BEAMCAM_INLINE Lanes magnitude(const Lanes& a) { return larger(a, -a); }
+BEAMCAM_INLINE Lanes smaller(Lanes a, const Lanes& b) {
+    for (int i = 0; i < Lanes::kParts; ++i) a.part[i] = b.part[i] < a.part[i] ? b.part[i] : a.part[i];
+    return a;
+}
+BEAMCAM_INLINE Lanes magnitude(Lanes a) {
+    using Bits = long long __attribute__((vector_size(16)));
+    for (Lanes::Part& part : a.part) part = (Lanes::Part)((Bits)part & 0x7fff'ffff'ffff'ffff);
+    return a;
+}
 // Of magnitudes; NaN is passed over.
 BEAMCAM_INLINE double largest(const Lanes& a) {
     Lanes::Part m{};

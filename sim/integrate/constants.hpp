@@ -34,7 +34,10 @@ inline constexpr double kSeriesRadians = 2;         // [rad], or decays, up to w
 // The nodes do not resolve vibration that turns by more radians, or decays by more, in a step.
 inline constexpr double kResolvedRadians = 3;
 // Bounds within a step.
-inline constexpr double kNodeOvershoot = 1.5;     // largest value of a polynomial over that at the nodes
+inline constexpr double kNodeOvershoot = 1.5;  // largest value of a polynomial over that at the nodes
+// Of the Legendre polynomial P₈ on a step: its largest integral from the start, and the integral of that over half of
+// the step; and the mean distance of the nodes, all of the step.
+inline constexpr double kLegendreIntegral = 0.01604, kLegendreTurning = 0.00453, kNodeGap = 1.0 / 9;
 inline constexpr double kFarthestFromNode = 0.1;  // of the step: no instant is farther from the nearest node
 
 // ---- iterations ----

@@ -184,60 +184,71 @@ ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t
 }
 
 // Bounds of x = q − f/ω², ẋ and ẍ. It is driven by g = −(f″ + 2γf′)/ω². From a point on, √(x² + (ẋ/ω)²) grows by at
-// most |g|/ω times the time; it is the same in both directions without damping. In two decays r₁ < r₂ the fast one is
-// u = ẋ + r₁x with u̇ = −r₂u + g.                                                                          (S59)
-ExponentialSegment::Distance ExponentialSegment::distance_of(std::size_t i, const ForcingBounds& forcing) const {
-    const int lane = static_cast<int>(i % kNodes);
-    const Oscillator& o = form_->oscillators[i];
-    const double driven = (forcing.second[lane] + 2 * o.gamma * forcing.rate[lane]) / (o.omega * o.omega);
-    Distance out;
-    if (!decays(o)) {
-        const double time = (o.gamma > 0 ? 2 * kFarthestFromNode : kFarthestFromNode) * h;
-        out.value = forcing.vibration[lane] + time * driven / o.omega;
-        out.rate = o.omega * out.value;
-        out.second = (o.omega * o.omega + 2 * o.gamma * o.omega) * out.value + driven;
-        return out;
-    }
-    const Decays d = decays_of(o);
-    const double time = 2 * kFarthestFromNode * h, memory = std::min(time, 1 / d.fast), lasting = driven * memory;
-    double started = 0;  // |u| at a point
-    for (std::size_t k = 0; k < kPoints; ++k) {
-        out.value = std::max(out.value, std::fabs(forcing.x[k][lane]));
-        started = std::max(started, std::fabs(forcing.dx[k][lane] + d.slow * forcing.x[k][lane]));
-    }
-    out.value += started * memory + lasting * time;
-    out.rate = started + lasting + d.slow * out.value;
-    out.second = d.fast * (started + lasting) + driven + d.slow * out.rate;
+// most |g|/ω times the time; it is the same in both directions without damping.                           (S59)
+ExponentialSegment::Distances ExponentialSegment::distances_of(std::size_t g, const ForcingBounds& forcing) const {
+    const OscillatorLanes& o = form_->groups[g];
+    Lanes time;
+    for (int lane = 0; lane < kNodes; ++lane) time[lane] = (o.gamma[lane] > 0 ? 2 : 1) * kFarthestFromNode * h;
+    const Lanes driven = (forcing.second + o.damping * forcing.rate) / o.square;
+    Distances out;
+    out.value = forcing.vibration + time * driven / o.omega;
+    out.rate = o.omega * out.value;
+    out.second = (o.square + o.damping * o.omega) * out.value + driven;
     return out;
 }
 
-// The response to a forcing that is a polynomial is a polynomial p = Σ c_j f⁽ʲ⁾ and a free vibration, which the state
-// at the start determines. Without damping its amplitude is constant; with less than the critical one √(x² + (ẋ/ω)²) is
-// at most √((1 + ζ)/(1 − ζ)) e^(−γτ) times that at the start. Two decays respond separately (S52a); a slow one may be a
-// polynomial by itself.
-void ExponentialSegment::set_swing(std::size_t i, ModalBounds::Mode& mode) const {
+// In two decays r₁ < r₂ the fast one is u = ẋ + r₁x with u̇ = −r₂u + g.                                     (S59)
+void ExponentialSegment::set_distance_of_decays(std::size_t i, const ForcingBounds& forcing, Distances& out) const {
+    const int lane = static_cast<int>(i % kNodes);
     const Oscillator& o = form_->oscillators[i];
+    const Decays d = decays_of(o);
+    const double driven = (forcing.second[lane] + 2 * o.gamma * forcing.rate[lane]) / (o.omega * o.omega);
+    const double time = 2 * kFarthestFromNode * h, memory = std::min(time, 1 / d.fast), lasting = driven * memory;
+    double farthest = 0, started = 0;  // |x|, |u| at a point
+    for (std::size_t k = 0; k < kPoints; ++k) {
+        farthest = std::max(farthest, std::fabs(forcing.x[k][lane]));
+        started = std::max(started, std::fabs(forcing.dx[k][lane] + d.slow * forcing.x[k][lane]));
+    }
+    out.value[lane] = farthest + started * memory + lasting * time;
+    out.rate[lane] = started + lasting + d.slow * out.value[lane];
+    out.second[lane] = d.fast * (started + lasting) + driven + d.slow * out.rate[lane];
+}
+
+// The response to a forcing that is a polynomial is a polynomial p = Σ c_j f⁽ʲ⁾ and a free vibration, which the state
+// at the start determines: its √(x² + (ẋ/ω)²) there.
+Lanes ExponentialSegment::free_vibrations(std::size_t g) const {
+    const OscillatorLanes& o = form_->groups[g];
+    const Lanes* derivatives = taylor_.data() + g * kNodes;
+    Lanes before{}, here = o.inverse_square, p{}, slope{};
+    for (int j = 0; j < kNodes; ++j) {
+        p += here * derivatives[j];
+        if (j + 1 < kNodes) slope += here * derivatives[j + 1];
+        before = std::exchange(here, -(o.damping * here + before) * o.inverse_square);
+    }
+    const Lanes x = lanes_q_[g * kPoints] - p, dx = (lanes_v_[g * kPoints] - slope) / o.omega;
+    Lanes amplitude = x * x + dx * dx;
+    for (int lane = 0; lane < kNodes; ++lane) amplitude[lane] = std::sqrt(amplitude[lane]);
+    return amplitude;
+}
+
+// Without damping the amplitude of a free vibration is constant; with less than the critical one √(x² + (ẋ/ω)²) is at
+// most √((1 + ζ)/(1 − ζ)) e^(−γτ) times that at the start.
+void ExponentialSegment::set_vibration(const Oscillator& o, double amplitude, ModalBounds::Mode& mode) const {
+    const double ratio = o.gamma / o.omega;
+    mode.swings[0] = {amplitude,
+                      o.omega * amplitude,
+                      o.omega * (o.omega + 2 * o.gamma) * amplitude,
+                      o.omega + 2 * o.gamma,
+                      ratio < 1 ? o.gamma : 0,
+                      ratio > 0 && ratio < 1 ? std::sqrt((1 + ratio) / (1 - ratio)) : 1};
+    mode.swings[1] = {};
+}
+
+// Two decays respond separately (S52a); a slow one may be a polynomial by itself.
+void ExponentialSegment::set_decays(std::size_t i, ModalBounds::Mode& mode) const {
     const int lane = static_cast<int>(i % kNodes);
     const Lanes* derivatives = taylor_.data() + i / kNodes * kNodes;
-    if (!decays(o)) {
-        const double square = o.omega * o.omega;
-        double before = 0, here = 1 / square, p = 0, slope = 0;
-        for (int j = 0; j < kNodes; ++j) {
-            p += here * derivatives[j][lane];
-            if (j + 1 < kNodes) slope += here * derivatives[j + 1][lane];
-            before = std::exchange(here, -(2 * o.gamma * here + before) / square);
-        }
-        const double amplitude = std::min(2 * mode.amplitude, std::hypot(q0[i] - p, (v0[i] - slope) / o.omega));
-        const double ratio = o.gamma / o.omega;
-        mode.swings[0] = {amplitude,
-                          o.omega * amplitude,
-                          (square + 2 * o.gamma * o.omega) * amplitude,
-                          o.omega + 2 * o.gamma,
-                          ratio < 1 ? o.gamma : 0,
-                          ratio < 1 ? std::sqrt((1 + ratio) / (1 - ratio)) : 1};
-        return;
-    }
-    const Decays d = decays_of(o);
+    const Decays d = decays_of(form_->oscillators[i]);
     const auto free_part = [&](double decay, double sign, double start) -> ModalBounds::Mode::Swing {
         double p = 0, factor = sign / (decay * d.apart());
         for (int j = 0; j < kNodes; ++j, factor *= -1 / decay) p += factor * derivatives[j][lane];
@@ -245,50 +256,74 @@ void ExponentialSegment::set_swing(std::size_t i, ModalBounds::Mode& mode) const
         return {value, decay * value, decay * decay * value, decay, decay, 1};
     };
     mode.swings[0] = free_part(d.fast, -1, -(v0[i] + d.slow * q0[i]) / d.apart());
+    mode.swings[1] = {};
     if (!(d.slow * h < kResolvedRadians)) mode.swings[1] = free_part(d.slow, 1, (v0[i] + d.fast * q0[i]) / d.apart());
 }
 
-// q = x + f/ω².
-ModalBounds::Mode ExponentialSegment::mode_bounds(std::size_t i, const ForcingBounds& forcing) const {
-    const int lane = static_cast<int>(i % kNodes);
-    const Oscillator& o = form_->oscillators[i];
-    const double force = largest_[i].force, square = o.omega * o.omega, force_rate = forcing.rate[lane];
-    ModalBounds::Mode mode;
-    mode.amplitude = largest_[i].amplitude;
-    mode.rate = largest_[i].rate;
-    mode.acceleration = square * mode.amplitude + force + 2 * o.gamma * mode.rate;
-    mode.low = -mode.amplitude;
-    mode.high = mode.amplitude;
-    if (o.omega > 0) {
-        const Distance x = distance_of(i, forcing);
-        const double mean = forcing.mean[lane] / square, range = forcing.range[lane] / square + x.value;
-        mode.low = std::max(mode.low, mean - range);
-        mode.high = std::min(mode.high, mean + range);
-        mode.amplitude = std::min(mode.amplitude, std::max(-mode.low, mode.high));
-        mode.rate = std::min(mode.rate, x.rate + force_rate / square);
-        // q̈ + 2γq̇ = −ω²x, or ẍ + f″/ω².
-        mode.acceleration = std::min(
-            {mode.acceleration, square * x.value + 2 * o.gamma * mode.rate, x.second + forcing.second[lane] / square});
-        set_swing(i, mode);
+// Of the modes of a group, from q = x + f/ω². Lanes without stiffness divide by zero; their NaN is passed over.
+void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing, ModalBounds::Mode* modes) const {
+    const OscillatorLanes& o = form_->groups[g];
+    const std::size_t first = g * kNodes, count = std::min(n_ - first, static_cast<std::size_t>(kNodes));
+    Lanes amplitude{}, speed{}, force{};
+    Distances x = distances_of(g, forcing);
+    for (std::size_t i = first; i < first + count; ++i) {
+        const int lane = static_cast<int>(i - first);
+        amplitude[lane] = largest_[i].amplitude;
+        speed[lane] = largest_[i].rate;
+        force[lane] = largest_[i].force;
+        if (decays(form_->oscillators[i])) set_distance_of_decays(i, forcing, x);
     }
-    mode.set_frequencies(square * mode.rate + force_rate + 2 * o.gamma * mode.acceleration);
-    return mode;
+    const Lanes mean = forcing.mean / o.square, range = forcing.range / o.square + x.value;
+    Lanes acceleration = o.square * amplitude + force + o.damping * speed;
+    const Lanes low = larger(-amplitude, mean - range), high = smaller(amplitude, mean + range);
+    amplitude = smaller(amplitude, larger(-low, high));
+    speed = smaller(speed, x.rate + forcing.rate / o.square);
+    // q̈ + 2γq̇ = −ω²x, or ẍ + f″/ω².
+    acceleration =
+        smaller(smaller(acceleration, o.square * x.value + o.damping * speed), x.second + forcing.second / o.square);
+    const Lanes jerk = o.square * speed + forcing.rate + o.damping * acceleration;
+    const Lanes vibrations = smaller(2 * amplitude, free_vibrations(g));
+    for (std::size_t i = first; i < first + count; ++i) {
+        const int lane = static_cast<int>(i - first);
+        ModalBounds::Mode& mode = modes[i];
+        mode.low = low[lane];
+        mode.high = high[lane];
+        mode.amplitude = amplitude[lane];
+        mode.rate = speed[lane];
+        mode.acceleration = acceleration[lane];
+        mode.set_frequencies(jerk[lane]);
+        const Oscillator& oscillator = form_->oscillators[i];
+        if (!(oscillator.omega > 0))
+            mode.swings[0] = mode.swings[1] = {};
+        else if (decays(oscillator))
+            set_decays(i, mode);
+        else
+            set_vibration(oscillator, vibrations[lane], mode);
+    }
 }
 
-// Power of the forcing that the nodes miss, on the modes of a group. Its first term is the Legendre polynomial P₈,
-// whose coefficient is extrapolated from the last two pairs.
-double ExponentialSegment::missed_power(std::size_t g, const Lanes* legendre) const {
+// Bound of the work of a forcing cP₈, which vanishes at the nodes, from the nearer end of the step on; per c. It
+// changes its sign at every node: at any speed its work between two of them counts, and at a speed that hardly changes
+// its integral, in which one node makes up for another.
+double work_between_nodes(double speed, double acceleration, double h) {
+    return h * std::min(kNodeGap * speed, kLegendreIntegral * speed + kLegendreTurning * h * acceleration);
+}
+
+// Work of the forcing that the nodes miss on the modes of a group. Its first term is the Legendre polynomial P₈, whose
+// coefficient is extrapolated from the last two pairs.
+double ExponentialSegment::missed_work(std::size_t g, const Lanes* legendre) const {
     const Lanes last = larger(magnitude(legendre[6]), magnitude(legendre[7])),
                 before = larger(magnitude(legendre[4]), magnitude(legendre[5]));
     Lanes speed{};
     for (std::size_t k = 0; k < kPoints; ++k) speed = larger(speed, magnitude(lanes_v_[g * kPoints + k]));
-    double power = 0;
+    double work = 0;
     for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
         const int lane = static_cast<int>(i % kNodes);
-        if (last[lane] > 0)
-            power += form_->mass * speed[lane] * last[lane] * (touching ? 1 : std::min(1.0, last[lane] / before[lane]));
+        if (!(last[lane] > 0)) continue;
+        const double missed = last[lane] * (touching ? 1 : std::min(1.0, last[lane] / before[lane]));
+        work += form_->mass * missed * work_between_nodes(speed[lane], modal_bounds_.modes[i].acceleration, h);
     }
-    return power;
+    return work;
 }
 
 const ModalBounds* ExponentialSegment::modal_bounds() const {
@@ -300,16 +335,15 @@ const ModalBounds* ExponentialSegment::modal_bounds() const {
     transpose();
     expand(0);
     const LegendreDecay torque = legendre_decay(p_dot);
-    double missed = largest(theta_dot) * torque.last * (touching ? 1 : torque.ratio);
+    b.balance_error =
+        torque.last * (touching ? 1 : torque.ratio) * work_between_nodes(largest(theta_dot), bounds_.theta_ddot, h);
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes legendre[kNodes];
         lane_kernels().combine(Collocation::get().legendre.data(), lanes_f_.data() + g * kNodes, legendre);
         const ForcingBounds forcing = forcing_bounds(g, legendre);
-        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) b.modes[i] = mode_bounds(i, forcing);
-        missed += missed_power(g, legendre);
+        bound_modes(g, forcing, b.modes.data());
+        b.balance_error += missed_work(g, legendre);
     }
-    // The missed forcing changes its sign at every node; its work between two nodes counts.
-    b.balance_error = missed * h / (kNodes + 1);
     b.q = q;
     b.rate = v;
     b.force = f;

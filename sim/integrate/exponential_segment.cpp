@@ -166,8 +166,28 @@ void ExponentialSegment::value(double t, double* y) const {
         std::copy(end.begin(), end.end(), y);
         return;
     }
-    const Collocation& gauss = Collocation::get();
     const double s = (t - t0) / h;
+    Lanes weights;
+    Collocation::get().weights_to(s, weights);
+    modal_state(t, s, weights, y);
+    if (ledger_changes) ledger_at(t, s, weights, y);
+    form_->to_coordinates(y);
+}
+
+void ExponentialSegment::value_without_ledger(double t, double* y) const {
+    if (t == t1) {
+        std::copy(end.begin(), end.end(), y);
+        return;
+    }
+    const double s = (t - t0) / h;
+    Lanes weights;
+    Collocation::get().weights_to(s, weights);
+    modal_state(t, s, weights, y);
+    form_->to_coordinates(y);
+}
+
+// The state at t = t0 + sh with the ledger of t0; coordinates are the modes.
+void ExponentialSegment::modal_state(double t, double s, const Lanes& weights, double* y) const {
     double* rates = y + 1 + n_;
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes x, dx;
@@ -177,8 +197,6 @@ void ExponentialSegment::value(double t, double* y) const {
             rates[1 + i] = dx[static_cast<int>(i % kNodes)];
         }
     }
-    Lanes weights;
-    gauss.weights_to(s, weights);
     if (form_->prescribed) {
         const HubMotion hub = drive_.motion(t);
         y[0] = hub.angle;
@@ -189,8 +207,6 @@ void ExponentialSegment::value(double t, double* y) const {
     }
     for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);
-    if (ledger_changes) ledger_at(t, s, weights, y);
-    form_->to_coordinates(y);
 }
 
 }  // namespace beamcam::sim

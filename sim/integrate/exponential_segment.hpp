@@ -18,6 +18,7 @@ class ExponentialSegment final : public StoredSegment {
   public:
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
     void value(double t, double* y) const override;
+    void value_without_ledger(double t, double* y) const override;
     double coordinate(double t, std::size_t index, double* y) const override;
     const MotionBounds* bounds() const override;
     const ModalBounds* modal_bounds() const override;
@@ -63,6 +64,7 @@ class ExponentialSegment final : public StoredSegment {
     void transpose() const;
     int last_point(double t, double s) const;
     void expand(int point) const;
+    void modal_state(double t, double s, const Lanes& weights, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     double work_on(std::size_t mode, const double* g, double s, const double* y) const;
@@ -73,14 +75,17 @@ class ExponentialSegment final : public StoredSegment {
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     struct ForcingBounds;
-    struct Distance {  // of a mode from its forcing: bounds of it and its derivatives
-        double value = 0, rate = 0, second = 0;
+    struct Distances {  // of the modes of a group from their forcing: bounds of them and their derivatives
+        Lanes value, rate, second;
     };
-    Distance distance_of(std::size_t mode, const ForcingBounds& forcing) const;
-    void set_swing(std::size_t mode, ModalBounds::Mode& bounds) const;
     ForcingBounds forcing_bounds(std::size_t group, const Lanes* legendre) const;
-    ModalBounds::Mode mode_bounds(std::size_t mode, const ForcingBounds& forcing) const;
-    double missed_power(std::size_t group, const Lanes* legendre) const;
+    Distances distances_of(std::size_t group, const ForcingBounds& forcing) const;
+    void set_distance_of_decays(std::size_t mode, const ForcingBounds& forcing, Distances& out) const;
+    Lanes free_vibrations(std::size_t group) const;
+    void set_vibration(const Oscillator& oscillator, double amplitude, ModalBounds::Mode& bounds) const;
+    void set_decays(std::size_t mode, ModalBounds::Mode& bounds) const;
+    void bound_modes(std::size_t group, const ForcingBounds& forcing, ModalBounds::Mode* modes) const;
+    double missed_work(std::size_t group, const Lanes* legendre) const;
     double torque_on_vibration(double s, const double* y) const;
 
     std::shared_ptr<const ModalForm> form_;

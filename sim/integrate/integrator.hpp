@@ -72,6 +72,8 @@ class Segment {
     virtual ~Segment() = default;
     // All components at t in [t0, t1].
     virtual void value(double t, double* y) const = 0;
+    // The same bits of all but the ledger, whose entries are undefined: where vibration is damped, it costs the most.
+    virtual void value_without_ledger(double t, double* y) const { value(t, y); }
     // One of the first `coordinates` of them, `y` for scratch: the same bits.
     virtual double coordinate(double t, std::size_t index, double* y) const {
         value(t, y);

@@ -11,15 +11,24 @@
 namespace beamcam::sim {
 namespace {
 
+double negligible(ChannelKind kind) {
+    return kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
+}
+
 BestValue best_so_far(ChannelKind kind, double sign, const Extremum& e) {
-    const double negligible = kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
-    return sign > 0 ? BestValue{sign, e.max, e.t_max, negligible} : BestValue{sign, -e.min, e.t_min, negligible};
+    return sign > 0 ? BestValue{sign, e.max, e.t_max, negligible(kind)}
+                    : BestValue{sign, -e.min, e.t_min, negligible(kind)};
 }
 
 double bound(const ModalChannels::Range& range, double sign) { return sign > 0 ? range.high : -range.low; }
 
 bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, double sign, const Extremum& e) {
     return bound(range, sign) <= best_so_far(kind, sign, e).to_beat();
+}
+
+bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, const Extremum& e) {
+    const double share = negligible(kind);
+    return range.high <= e.max + share * std::fabs(e.max) && range.low >= e.min - share * std::fabs(e.min);
 }
 
 void offer(Extremum& e, double t, double value) {
@@ -60,34 +69,35 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
     halvings_left_ += kHalvingsPerStep;
     step_.begin(s);
     sampled_ = {};
-    if (last_time_ == s.from)
+    const bool follows = last_time_ == s.from;
+    if (follows)
         std::swap(first_, last_);
     else
         step_.values(s, s.from, channels_, nullptr, first_);
     step_.values(s, s.to, channels_, balance, last_);
     last_time_ = s.to;
     std::shared_ptr<const KeptStep> kept;
-    for (std::size_t c = 0; c < channels_.size(); ++c)
-        if (!std::isnan(first_[c])) collect(s, c, kept, extrema[c]);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        if (std::isnan(first_[c])) continue;
+        if (!follows && !is_estimated(channels_[c].kind)) offer(extrema[c], s.from, first_[c]);
+        offer_end(s, c, extrema[c]);
+        if (const auto range = range_within(s, c, extrema[c])) collect(s, c, *range, kept, extrema[c]);
+    }
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
 }
 
-// Offers the values at the ends of the step, and keeps it if the channel may exceed its best value within; a step that
-// cannot be kept is searched now.
-void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, std::shared_ptr<const KeptStep>& kept,
-                            Extremum& e) {
+// Keeps the step if the channel may exceed its best value within; a step that cannot be kept is searched now.
+void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const ModalChannels::Range& range,
+                            std::shared_ptr<const KeptStep>& kept, Extremum& e) {
     const ChannelKind kind = channels_[c].kind;
-    offer_ends(s, c, e);
-    const auto range = range_within(s, c, e);
-    if (!range) return;
     for (const double sign : {1.0, -1.0}) {
-        if (is_beaten(*range, kind, sign, e)) continue;
+        if (is_beaten(range, kind, sign, e)) continue;
         Candidates& candidates = candidates_[c][sign > 0 ? 0 : 1];
-        const double high = bound(*range, sign);
+        const double high = bound(range, sign);
         if (is_separation(kind) && high > kHigherPromise * candidates.promise) {
             candidates.promise = high;
-            offer(e, s.to, step_.exact_value(channels_[c]));
-            if (is_beaten(*range, kind, sign, e)) continue;
+            offer(e, s.to, step_.value(s, channels_[c], s.to));
+            if (is_beaten(range, kind, sign, e)) continue;
         }
         if (!kept) kept = keep(s);
         if (kept->kind != SegmentKind::none)
@@ -97,14 +107,24 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, std::shared
     }
 }
 
-// The values at the ends of the step; where they are estimates, the true one at its end if the estimate is better.
-void ExtremaFinder::offer_ends(const SegmentInterval& s, std::size_t c, Extremum& e) {
+// Where the value is an estimate, the true one if the estimate is better.
+void ExtremaFinder::offer_end(const SegmentInterval& s, std::size_t c, Extremum& e) {
     if (!is_estimated(channels_[c].kind)) {
-        offer(e, s.from, first_[c]);
         offer(e, s.to, last_[c]);
     } else if (!is_separation(channels_[c].kind) && (last_[c] < e.min || last_[c] > e.max)) {
-        offer(e, s.to, step_.exact_value(channels_[c]));
+        offer(e, s.to, step_.value(s, channels_[c], s.to));
     }
+}
+
+// The values at the nodes; whether one is better than the best so far.
+bool ExtremaFinder::offer_nodes(const SegmentInterval& s, const Lanes& nodes, Extremum& e) {
+    bool better = false;
+    for (int k = 0; k < kNodes; ++k) {
+        if (!(nodes[k] < e.min || nodes[k] > e.max)) continue;
+        better = true;
+        offer(e, sample_time(s, static_cast<std::size_t>(k) + 1), nodes[k]);
+    }
+    return better;
 }
 
 // Bounds of the channel, from the cheapest on; nothing as soon as the best values beat them. Offers the values at the
@@ -112,20 +132,16 @@ void ExtremaFinder::offer_ends(const SegmentInterval& s, std::size_t c, Extremum
 std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInterval& s, std::size_t c, Extremum& e) {
     const Channel& channel = channels_[c];
     const ModalChannels& modes = step_.modes();
-    const auto beaten = [&](const ModalChannels::Range& r) {
-        return is_beaten(r, channel.kind, 1, e) && is_beaten(r, channel.kind, -1, e);
-    };
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
     if (step_.unlike_law(channel.kind)) return step_.sampled_range(s, channel, sampled_);
+    if (is_monotone(channel.kind)) return std::nullopt;
     const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
-    if (mode && beaten(modes.mode_range(channel))) return std::nullopt;
+    if (mode && is_beaten(modes.mode_range(channel), channel.kind, e)) return std::nullopt;
     const ModalChannels::Range range = modes.range(channel, first_[c], last_[c]);
-    if (beaten(range)) return std::nullopt;
+    if (is_beaten(range, channel.kind, e)) return std::nullopt;
     Lanes nodes;
-    if (modes.known_at_nodes(channel, nodes)) {
-        for (std::size_t k = 1; k <= kNodes; ++k) offer(e, sample_time(s, k), nodes[static_cast<int>(k) - 1]);
-        if (beaten(range)) return std::nullopt;
-    }
+    if (modes.known_at_nodes(channel, nodes) && offer_nodes(s, nodes, e) && is_beaten(range, channel.kind, e))
+        return std::nullopt;
     if (step_.polynomial() && !is_separation(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     return mode ? range : modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
 }
@@ -170,6 +186,9 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
         const Candidate& candidate = candidates.back();
         if (candidate.high <= best_so_far(channels_[c].kind, sign, e).to_beat()) break;
         const KeptStep& step = *candidate.step;
+        // The residual of a collocation step is searched for both signs at once.
+        const bool nodes_only = step.kind == SegmentKind::exponential && step.sampled.balance;
+        if (nodes_only && channels_[c].kind == ChannelKind::energy_residual) continue;
         std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
         if (!stored) stored = make_stored_segment(step.kind, step_.system().problem());
         const SegmentInterval s{stored.get(), step.from, step.to, false};
@@ -194,6 +213,8 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
     const std::vector<SegmentInterval> parts = step_.parts(s);
     if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual)
         return search(s, channel, sign, step_.sample(s, channel, sampled), e);
+    // Vibrations of which too little reaches the channel need no parts.
+    if (is_beaten(step_.sampled_range(s, channel, sampled), channel.kind, sign, e)) return;
     for (const SegmentInterval& part : parts) {
         step_.begin(part);
         StepChannels::SampledStates states;
@@ -222,6 +243,10 @@ template <class F>
 void ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples,
                                BestValue& best) {
     const Variation variation = step_.variation(s, channel, samples);
+    for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
+    const auto [low, high] = std::ranges::minmax(samples);
+    const double farthest = variation.strays(kWidestNodeGap * (s.to - s.from));
+    if (std::max(best.sign * low, best.sign * high) + farthest <= best.to_beat()) return;
     const double radians = (s.to - s.from) * step_.system().highest_frequency();
     const double needed = std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostHalvings);
     const long allowed = std::min(halvings_left_, static_cast<long>(needed));
@@ -230,7 +255,6 @@ void ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel cha
         if (++evaluations_ % kEvaluationsPerPoll == 0 && poll_) poll_();
         return f(t);
     };
-    for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
     for (std::size_t k = 0; k + 1 < samples.size(); ++k)
         climb(polled, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
     if (best.intervals < 0) ++incomplete_;

@@ -58,10 +58,12 @@ class ExtremaFinder {
     };
     static bool less_promising(const Candidate& a, const Candidate& b);
 
-    void offer_ends(const SegmentInterval& s, std::size_t channel, Extremum& e);
+    void offer_end(const SegmentInterval& s, std::size_t channel, Extremum& e);
+    bool offer_nodes(const SegmentInterval& s, const Lanes& nodes, Extremum& e);
     std::optional<ModalChannels::Range> range_within(const SegmentInterval& s, std::size_t channel, Extremum& e);
     ModalChannels::Range residual_range(const SegmentInterval& s, std::size_t channel);
-    void collect(const SegmentInterval& s, std::size_t channel, std::shared_ptr<const KeptStep>& kept, Extremum& e);
+    void collect(const SegmentInterval& s, std::size_t channel, const ModalChannels::Range& range,
+                 std::shared_ptr<const KeptStep>& kept, Extremum& e);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void search_kept(std::vector<Extremum>& extrema);
     void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);

@@ -17,6 +17,30 @@ ModeBasis::ModeBasis(System& system) {
     hub.assign(model.hub_row(), model.hub_row() + model.size());
     bends_far = !dynamic_cast<const ModalModel*>(&model);
     modes_are_coordinates(system) ? of_coordinates(system) : of_natural_modes(system);
+    pack_modes();
+}
+
+void ModeBasis::pack_modes() {
+    groups.resize((size() + kNodes - 1) / kNodes);
+    for (std::size_t i = 0; i < size(); ++i) {
+        const Mode& mode = modes[i];
+        coupled = coupled || mode.U != 0;
+        Group& group = groups[i / kNodes];
+        const int lane = static_cast<int>(i % kNodes);
+        group.h[lane] = mode.h;
+        group.turn[lane] = mode.turn;
+        group.tip[lane] = mode.tip;
+        group.U[lane] = mode.U;
+        group.W[lane] = mode.W;
+        group.stiffness[lane] = mode.stiffness;
+        group.inertia[lane] = mode.inertia;
+        group.weight[lane] = mode.weight;
+        group.shape[lane] = mode.shape;
+        group.slope[lane] = mode.slope;
+        group.wave[lane] = mode.wave;
+        group.omega[lane] = mode.omega;
+        group.damping[lane] = mode.damping;
+    }
 }
 
 void ModeBasis::of_coordinates(System& system) {

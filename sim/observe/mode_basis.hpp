@@ -5,6 +5,7 @@
 
 #include <vector>
 
+#include "sim/base/lanes.hpp"
 #include "sim/dynamics/system.hpp"
 
 namespace beamcam::sim {
@@ -15,14 +16,19 @@ struct ModeBasis {
     // `turn`, `tip`: what q adds to θ and to the tip's deflection. The rest are magnitudes: `h` of turn; U, W of the
     // terms Θ̇Uq̇ and gWq of the energies; `inertia`, `weight`: roots of the diagonals of their quadratic terms; `shape`,
     // `slope`: largest displacement and rotation along the beam; `wave`: wave number [1/m]; `damping` = 2γ.
-    struct Mode {
-        double h, turn, tip, U, W, stiffness, inertia, weight, shape, slope, wave, omega, damping;
+    template <class T>
+    struct Contribution {
+        T h{}, turn{}, tip{}, U{}, W{}, stiffness{}, inertia{}, weight{}, shape{}, slope{}, wave{}, omega{}, damping{};
     };
+    using Mode = Contribution<double>;
     std::vector<Mode> modes;
+    using Group = Contribution<Lanes>;
+    std::vector<Group> groups;  // the same, eight modes side by side; zero beyond the last
     // Angle and deflection of the tip by coordinates, and the coordinates by modes: row-major, empty where the modes
     // are the coordinates.
     std::vector<double> hub, tip, natural, to_natural;
     bool are_coordinates() const { return natural.empty(); }
+    bool coupled = false;  // a mode turns the hub: U of some is not zero
     // By terms of third order in the deflection, which the modal models leave out.
     bool bends_far = false;
     double length = 0, reach = 0, mass = 0, J = 0, S = 0;
@@ -38,6 +44,7 @@ struct ModeBasis {
   private:
     void of_coordinates(System& system);
     void of_natural_modes(System& system);
+    void pack_modes();
 };
 
 }  // namespace beamcam::sim

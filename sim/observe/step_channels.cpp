@@ -22,6 +22,25 @@ bool needs_contact(ChannelKind kind) {
            kind == ChannelKind::contact_force || is_separation(kind);
 }
 
+bool needs_ledger(ChannelKind kind) {
+    switch (kind) {
+        case ChannelKind::loss_structural:
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+        case ChannelKind::work_cam:
+        case ChannelKind::work_drive:
+        case ChannelKind::energy_residual:
+            return true;
+        default:
+            return false;
+    }
+}
+
+// Of the state, all that the channel needs.
+void evaluate_state(const SegmentInterval& s, ChannelKind kind, double t, double* y) {
+    needs_ledger(kind) ? s.segment->value(t, y) : s.segment->value_without_ledger(t, y);
+}
+
 StepChannels::Samples copied(const double* samples) {
     StepChannels::Samples values;
     std::copy_n(samples, values.size(), values.begin());
@@ -39,14 +58,6 @@ double sample_time(const SegmentInterval& s, std::size_t k) {
     if (k == 0) return s.from;
     if (k > kNodes) return s.to;
     return s.from + Collocation::get().c[static_cast<int>(k) - 1] * (s.to - s.from);
-}
-
-bool is_separation(ChannelKind kind) {
-    return kind == ChannelKind::separation || kind == ChannelKind::separation_paper;
-}
-
-bool is_estimated(ChannelKind kind) {
-    return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate || is_separation(kind);
 }
 
 StepChannels::StepChannels(const System& system)
@@ -128,11 +139,6 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
     }
 }
 
-bool StepChannels::unlike_law(ChannelKind kind) const {
-    return !probing_ && (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
-                         kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction);
-}
-
 // The state of a prescribed hub is that of its drive, not the solution.
 bool StepChannels::is_linear(ChannelKind kind) {
     return is_of_hub(kind) && !(polynomial_ && evaluator_.system().drive().prescribed());
@@ -149,7 +155,7 @@ void StepChannels::probe_contact(double t) {
 double StepChannels::value(const SegmentInterval& s, Channel channel, double t) {
     if (channel.kind == ChannelKind::q)
         return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
-    s.segment->value(t, y_.data());
+    evaluate_state(s, channel.kind, t, y_.data());
     std::optional<ContactState> contact;
     return value_of_state(channel, t, contact);
 }
@@ -181,7 +187,9 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
     }
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
-        if (is_linear(channels[c].kind))
+        if (channels[c].kind == ChannelKind::q)
+            out[c] = y_[static_cast<std::size_t>(channels[c].index)];
+        else if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
         else if (!is_estimated(channels[c].kind))
             out[c] = evaluator_.value(channels[c]);
@@ -210,7 +218,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
         } else if (channel.kind == ChannelKind::q) {
             values[k] = value(s, channel, t);
         } else {
-            place_sample(s, k, sampled);
+            place_sample(s, channel.kind, k, sampled);
             if (touch && probing_ && needs_gap(channel.kind)) {
                 evaluator_.set(t, y_.data());
                 evaluator_.set_gap(touch->gap[k]);
@@ -224,16 +232,17 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
     return values;
 }
 
-// Puts the state of the sample into `y_`.
-void StepChannels::place_sample(const SegmentInterval& s, std::size_t k, SampledStates& sampled) {
+// Puts the state of the sample into `y_`. Those without the ledger are kept for other channels.
+void StepChannels::place_sample(const SegmentInterval& s, ChannelKind kind, std::size_t k, SampledStates& sampled) {
     if (polynomial_) {
         y_ = polynomial_states_[k];
         return;
     }
+    if (needs_ledger(kind)) return evaluate_state(s, kind, sample_time(s, k), y_.data());
     std::vector<double>& state = sampled.states[k];
     if (state.empty()) {
         state.resize(y_.size());
-        s.segment->value(sample_time(s, k), state.data());
+        evaluate_state(s, kind, sample_time(s, k), state.data());
     }
     y_ = state;
 }
@@ -254,7 +263,8 @@ ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Chann
     const Samples values = sample(s, channel, sampled);
     const auto [low, high] = std::ranges::minmax(values);
     const double stray = variation(s, channel, values).strays(kWidestNodeGap * (s.to - s.from));
-    return {low - stray, high + stray};
+    const ModalChannels::Range range{low - stray, high + stray};
+    return channel.kind == ChannelKind::contact_s ? modal_channels_.arc_range(range) : range;
 }
 
 }  // namespace beamcam::sim

@@ -18,7 +18,7 @@ class StepChannels {
   public:
     static constexpr std::size_t kSamples = kNodes + 2;  // both ends and the Gauss nodes
     using Samples = std::array<double, kSamples>;
-    // States, contacts and channels at the samples of one step, each computed when it is first needed.
+    // States without the ledger, contacts and channels at the samples of one step, each computed when first needed.
     struct SampledStates {
         std::array<std::vector<double>, kSamples> states;
         std::array<std::optional<ContactState>, kSamples> contacts;
@@ -37,7 +37,10 @@ class StepChannels {
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
     // The channel depends on the state of a bristle, or on a contact that the law does not describe.
-    bool unlike_law(ChannelKind kind) const;
+    bool unlike_law(ChannelKind kind) const {
+        return !probing_ && (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
+                             kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction);
+    }
 
     double value(const SegmentInterval& s, Channel channel, double t);
     // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
@@ -62,7 +65,7 @@ class StepChannels {
     void sample_touch(const SegmentInterval& s);
     bool is_linear(ChannelKind kind);
     void probe_contact(double t);
-    void place_sample(const SegmentInterval& s, std::size_t k, SampledStates& sampled);
+    void place_sample(const SegmentInterval& s, ChannelKind kind, std::size_t k, SampledStates& sampled);
 
     ChannelEvaluator evaluator_;
     GapProbe probe_;
@@ -78,7 +81,16 @@ class StepChannels {
 };
 
 double sample_time(const SegmentInterval& s, std::size_t k);
-bool is_separation(ChannelKind kind);
-bool is_estimated(ChannelKind kind);
+inline bool is_separation(ChannelKind kind) {
+    return kind == ChannelKind::separation || kind == ChannelKind::separation_paper;
+}
+inline bool is_estimated(ChannelKind kind) {
+    return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate || is_separation(kind);
+}
+// Where the contact follows its law these only grow, and the cam turns one way: they are largest and smallest at ends.
+inline bool is_monotone(ChannelKind kind) {
+    return kind == ChannelKind::cam_angle || kind == ChannelKind::loss_structural ||
+           kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
+}
 
 }  // namespace beamcam::sim

@@ -1,0 +1,38 @@
+// Bounds of the modes within a part of a step, eight side by side, and how far they stray from a straight line there.
+// MODEL.md §12, (S59).
+#pragma once
+
+#include <algorithm>
+#include <vector>
+
+#include "sim/integrate/integrator.hpp"
+
+namespace beamcam::sim {
+
+// Lanes beyond the last mode are zero.
+struct ModeVibrations {
+    Lanes amplitude{}, rate{}, acceleration{};                  // of |q|, |q̇|, |q̈|
+    Lanes q_frequency{}, rate_frequency{};                      // as in ModalBounds
+    Lanes q_strays{}, rate_strays{};                            // of q, q̇ from a line within the part
+    Lanes product_strays{};                                     // of products of modes of amplitude 1
+    struct Free {                                               // a vibration that the nodes do not resolve
+        Lanes value{}, rate{}, second{}, frequency{}, share{};  // `share`: of the amplitudes of products of modes
+    };
+    Free free[ModalBounds::Mode::kSwings];
+    int free_count = 0;
+};
+
+// Of the part of a step that begins `elapsed` after its start and lasts for h.
+void set_vibrations(const ModalBounds& bounds, double elapsed, double h, std::vector<ModeVibrations>& groups);
+
+// Largest distance of a vibration of amplitude 1 from a straight line while it turns by these radians.
+inline double strays(double radians) { return std::min(2.0, radians * radians / 8); }
+BEAMCAM_INLINE Lanes strays(const Lanes& radians) { return smaller(Lanes{} + 2.0, radians * radians * 0.125); }
+
+// `value` where x exceeds the least, else 0.
+BEAMCAM_INLINE Lanes where_above(const Lanes& x, double least, Lanes value) {
+    for (int i = 0; i < Lanes::kParts; ++i) value.part[i] = x.part[i] > least ? value.part[i] : Lanes::Part{};
+    return value;
+}
+
+}  // namespace beamcam::sim

@@ -1,0 +1,86 @@
+#include "sim/observe/part_bounds.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/observe/constants.hpp"
+
+namespace beamcam::sim {
+
+PartBounds::PartBounds(System& system, const ModeBasis& basis)
+    : groups(basis.groups.size()), system_(system), basis_(basis) {
+    if (system.has_cam()) disc_speed_ = system.problem().cam->eccentricity * std::fabs(system.problem().cam->speed);
+}
+
+void PartBounds::set(const Part& of) {
+    part = of;
+    set_vibrations(*part.modes, part.elapsed, part.length(), groups);
+    sum_modes();
+    const DriveLaw& drive = system_.drive();
+    torque = drive.has_torque() ? std::max(std::fabs(drive.torque(part.from)), std::fabs(drive.torque(part.to))) : 0;
+    if (!system_.has_cam()) return;
+    place_contact();
+    const MotionBounds& motion = *part.motion;
+    foot_speed = kBentContactShift * (motion.theta_dot * (basis_.reach + away) + disc_speed_);
+    slide = foot_speed + kBentContactShift * (motion.slope_speed * away + motion.deflection_speed);
+    if (part.touch) bound_force();
+}
+
+void PartBounds::sum_modes() {
+    Lanes shapes{}, slopes{}, turns{}, inertia{}, weight{}, accelerations{};
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const ModeBasis::Group& of = basis_.groups[g];
+        const Lanes& amplitude = groups[g].amplitude;
+        shapes += of.shape * amplitude;
+        slopes += of.slope * amplitude;
+        turns += of.h * amplitude;
+        inertia += of.inertia * amplitude;
+        weight += of.weight * amplitude;
+        accelerations += of.h * groups[g].acceleration;
+    }
+    deflection = sum(shapes);
+    inclination = sum(slopes);
+    alpha = sum(turns);
+    inertia_root = sum(inertia);
+    weight_root = sum(weight);
+    hub_acceleration = part.motion->theta_ddot + sum(accelerations);
+}
+
+// Distance of the disc's centre from the beam, and of the contact from the root: for a straight beam, plus bending.
+void PartBounds::place_contact() {
+    const MotionBounds& motion = *part.motion;
+    const double angle = 0.5 * (motion.angle_low + motion.angle_high),
+                 turn = 0.5 * (motion.angle_high - motion.angle_low);
+    const Vec2 disc = system_.cam(part.from).disc, along = unit(angle);
+    const double root = system_.problem().hub.radius, foot = dot(disc, along),
+                 on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * part.length();
+    away = norm(disc - on_beam * along) + turn * basis_.reach + moved + deflection;
+    const double bent = kBentContactShift * (inclination * away + deflection * inclination);
+    arm = std::min(basis_.length, std::max(0.0, foot - root) + turn * norm(disc) + moved + bent) + deflection;
+}
+
+// The law is convex in the penetration and linear in its rate: its slopes just beyond the deepest and fastest point are
+// the largest.
+void PartBounds::bound_force() {
+    double depth = 0, rate = 0;
+    for (int k = 0; k < TouchSamples::kCount; ++k) {
+        depth = std::max(depth, std::fabs(part.touch->gap[k]));
+        rate = std::max(rate, std::fabs(part.touch->gap_rate[k]));
+    }
+    const double least = kFollowedRadians / part.length();
+    for (std::size_t g = 0; g < groups.size(); ++g) {
+        const ModeBasis::Group& of = basis_.groups[g];
+        for (int k = 0; k < groups[g].free_count; ++k) {
+            const ModeVibrations::Free& v = groups[g].free[k];
+            depth += sum(where_above(v.frequency, least, of.shape * v.value));
+            rate += sum(where_above(v.frequency, least, of.shape * v.rate + of.slope * (slide * v.value)));
+        }
+    }
+    const double more = kSlopeProbe * depth;
+    const auto law = [&](double d, double v) { return system_.normal_law().force(d, v, system_.phase().approach); };
+    force = law(depth, rate);
+    force_per_depth = more > 0 ? (law(depth + more, rate) - force) / more : 0;
+    force_per_rate = rate > 0 ? (force - law(depth, 0)) / rate : 0;
+}
+
+}  // namespace beamcam::sim
