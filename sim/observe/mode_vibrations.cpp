@@ -1,5 +1,7 @@
 #include "sim/observe/mode_vibrations.hpp"
 
+#include <algorithm>
+
 #include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {

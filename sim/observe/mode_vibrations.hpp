@@ -2,7 +2,6 @@
 // MODEL.md §12, (S59).
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
 #include "sim/integrate/integrator.hpp"
@@ -26,7 +25,6 @@ struct ModeVibrations {
 void set_vibrations(const ModalBounds& bounds, double elapsed, double h, std::vector<ModeVibrations>& groups);
 
 // Largest distance of a vibration of amplitude 1 from a straight line while it turns by these radians.
-inline double strays(double radians) { return std::min(2.0, radians * radians / 8); }
 BEAMCAM_INLINE Lanes strays(const Lanes& radians) { return smaller(Lanes{} + 2.0, radians * radians * 0.125); }
 
 // `value` where x exceeds the least, else 0.

@@ -536,6 +536,84 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
     EXPECT_GT(finite, steps / 2);
 }
 
+// A soft beam that turns, vibrates and may be damped beyond the critical ratio.
+struct VibratingFlight {
+    System system;
+    std::vector<double> y;
+    std::unique_ptr<Integrator> integrator;
+
+    explicit VibratingFlight(Dice& dice) : system(problem(dice)), y(static_cast<std::size_t>(system.size)) {
+        const double rtol = std::pow(10, dice.between(-8, -3));
+        const auto n = static_cast<std::size_t>(system.coordinates());
+        y[0] = dice.about_zero(3);
+        y[n] = dice.about_zero(10);
+        for (std::size_t i = 1; i < n; ++i) {
+            y[i] = dice.about_zero(0.05 / static_cast<double>(i * i));
+            y[n + i] = dice.about_zero(3.0 / static_cast<double>(i));
+        }
+        integrator = make_exponential(system, rtol, 1e-3 * rtol);
+        integrator->start(0, y.data());
+    }
+    static Problem problem(Dice& dice) {
+        Problem p = falling_beam(ModelKind::first_order, Basis::hub_beam, 1 + dice.one_of(10));
+        p.beam.youngs_modulus *= std::pow(10, dice.between(-2, 0));
+        p.hub.inertia = std::pow(10, dice.between(-3, 1));
+        if (dice.one_of(2)) p.beam.kelvin_voigt = std::pow(10, dice.between(-6, -2));
+        return p;
+    }
+};
+
+// What the search for extrema relies on.
+TEST(ExponentialFlight, KeepsTheBoundsOfEveryMode) {
+    constexpr int kSamples = 100;
+    constexpr double kSlack = 1 + 1e-9, kRounding = 1e-13;
+    Dice dice(11);
+    for (int repeat = 0; repeat < 30; ++repeat) {
+        VibratingFlight flight(dice);
+        std::vector<double>& y = flight.y;
+        const auto n = static_cast<std::size_t>(flight.system.coordinates());
+        for (int step = 0; step < 15; ++step) {
+            const Segment& segment = flight.integrator->step();
+            const std::vector<ModalBounds::Mode>& modes = segment.modal_bounds()->modes;
+            const double dt = (segment.t1 - segment.t0) / kSamples;
+            std::vector<double> rates;
+            for (int k = 0; k <= kSamples; ++k) {
+                segment.value(segment.t0 + k * dt, y.data());
+                for (std::size_t i = 0; i + 1 < n; ++i) {
+                    const ModalBounds::Mode& mode = modes[i];
+                    const double q = y[1 + i], rate = y[n + 1 + i];
+                    EXPECT_GE(q, mode.low - kRounding) << repeat;
+                    EXPECT_LE(q, mode.high + kRounding) << repeat;
+                    EXPECT_LE(std::fabs(q), kSlack * mode.amplitude + kRounding) << repeat;
+                    EXPECT_LE(std::fabs(rate), kSlack * mode.rate + kRounding) << repeat;
+                    if (k > 0) {
+                        const double most = mode.acceleration * dt + 1e-12 * mode.rate;
+                        EXPECT_LE(std::fabs(rate - rates[i]), kSlack * most + kRounding) << repeat;
+                    }
+                }
+                rates.assign(y.begin() + static_cast<std::ptrdiff_t>(n) + 1,
+                             y.begin() + 2 * static_cast<std::ptrdiff_t>(n));
+            }
+        }
+    }
+}
+
+TEST(ExponentialFlight, HasTheSameStateWithoutTheLedger) {
+    Dice dice(3);
+    for (int repeat = 0; repeat < 10; ++repeat) {
+        VibratingFlight flight(dice);
+        const Segment& segment = flight.integrator->step();
+        std::vector<double> whole(flight.y), part(flight.y);
+        const auto controlled = static_cast<std::ptrdiff_t>(flight.system.controlled);
+        for (const double share : {0.0, 0.3, 0.8, 1.0}) {
+            const double t = segment.t0 + share * (segment.t1 - segment.t0);
+            segment.value(t, whole.data());
+            segment.value_without_ledger(t, part.data());
+            EXPECT_TRUE(std::equal(whole.begin(), whole.begin() + controlled, part.begin())) << repeat << ", " << share;
+        }
+    }
+}
+
 // In natural modes the bounds are of another frame than that of Θ: together they bound the motion of every point.
 TEST(ExponentialFlight, KeepsTheBoundsOfOtherModels) {
     constexpr int kSamples = 60, kPoints = 5;
