@@ -26,6 +26,16 @@ std::string contact_piece(const sim::Problem& problem) {
     return k + ", " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
 }
 
+// Structural damping; empty: none.
+std::string damping_piece(const sim::Beam& beam) {
+    if (beam.model == sim::ModelKind::rigid) return {};
+    if (beam.kelvin_voigt.value_or(0) > 0) return equation("η", quantity(*beam.kelvin_voigt, "s"));
+    if (beam.damping_ratio.empty()) return {};
+    const auto [least, most] = std::ranges::minmax(beam.damping_ratio);
+    if (most == 0) return {};
+    return equation("ζ", fmt::format("{:.3g}", least) + (most > least ? fmt::format(" … {:.3g}", most) : ""));
+}
+
 struct FrictionPiece {
     std::string operator()(const sim::NoFriction&) const { return "frictionless"; }
     std::string operator()(const sim::CoulombFriction& f) const {
@@ -91,9 +101,16 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm)
         out.push_back("rigid beam");
     else
         out.push_back(fmt::format("{}, {}", sim::name(problem.beam.model), counted(problem.beam.modes, "mode")));
+    if (std::string damping = damping_piece(problem.beam); !damping.empty()) out.push_back(std::move(damping));
+    if (problem.hub.radius != 0) out.push_back(equation("a", quantity(problem.hub.radius, "m")));
+    if (problem.hub.inertia != 0)
+        out.push_back(equation("I_{\\r{h}}", power_text(problem.hub.inertia) + "\u00A0kg\u2009m²"));
     if (std::string drive = std::visit(DrivePiece{rpm}, problem.hub.drive); !drive.empty())
         out.push_back(std::move(drive));
-    if (problem.gravity == 0) out.emplace_back("no gravity");
+    if (problem.gravity == 0)
+        out.emplace_back("no gravity");
+    else if (problem.gravity != sim::Problem{}.gravity)
+        out.push_back(equation("g", power_text(problem.gravity) + "\u00A0m/s²"));
     if (problem.cam) {
         out.push_back(contact_piece(problem));
         out.push_back(std::visit(FrictionPiece{}, problem.contact.friction));

@@ -9,6 +9,7 @@
 
 #include "render/draw/accumulated.hpp"
 #include "render/draw/dirty_tiles.hpp"
+#include "render/draw/markup.hpp"
 #include "render/film/film.hpp"
 #include "render/film/mechanism_view.hpp"
 #include "render/film/strip_content.hpp"
@@ -1276,6 +1277,27 @@ TEST(Labels, SpeedsAreToldAsFractions) {
     EXPECT_EQ(speed_text(600, true), "600× speed");  // no exponents
     EXPECT_EQ(speed_text(6.73e-5, true), "1/14900 speed");
     EXPECT_EQ(speed_text(1.53, true), "1.5× speed");
+}
+
+TEST(Labels, UnusualParametersAreStated) {
+    const auto has = [](const sim::Problem& problem, const char* text) {
+        return std::ranges::any_of(parameter_pieces(problem),
+                                   [&](const std::string& piece) { return to_plain(piece) == text; });
+    };
+    sim::Problem problem;
+    const std::size_t usual = parameter_pieces(problem).size();
+    problem.beam.damping_ratio = {0};
+    EXPECT_EQ(parameter_pieces(problem).size(), usual);
+    problem.gravity = 1.62;
+    problem.hub.radius = 0.06, problem.hub.inertia = 0.05;
+    problem.beam.damping_ratio = {0.01, 0.02};
+    EXPECT_EQ(parameter_pieces(problem).size(), usual + 4);
+    EXPECT_TRUE(has(problem, "g\u2009=\u20091.62\u00A0m/s²"));
+    EXPECT_TRUE(has(problem, "a\u2009=\u200960\u00A0mm"));
+    EXPECT_TRUE(has(problem, "I_h\u2009=\u20090.05\u00A0kg\u2009m²"));
+    EXPECT_TRUE(has(problem, "ζ\u2009=\u20090.01 … 0.02"));
+    problem.beam.damping_ratio.clear(), problem.beam.kelvin_voigt = 5e-4;
+    EXPECT_TRUE(has(problem, "η\u2009=\u2009500\u00A0µs"));
 }
 
 TEST(Labels, BothCoefficientsOfStickSlipAreTold) {
