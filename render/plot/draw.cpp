@@ -189,9 +189,9 @@ void add_panel(std::string& out, const Panel& panel, const std::string& name) {
     const auto quantity = [](const Axis& axis) { return axis.label.substr(0, axis.label.rfind(" / ")); };
     for (const Series& s : panel.series) {
         const Axis& axis = s.right && panel.right ? *panel.right : panel.y;
-        rows(cell_text(!s.label.empty()  ? s.label
-                       : !s.name.empty() ? s.name
-                                         : quantity(axis)),
+        rows(cell_text(!s.name.empty()    ? s.name
+                       : !s.label.empty() ? s.label
+                                          : quantity(axis)),
              axis, s.x, s.y, s.value);
     }
     for (const Band& b : panel.bands) {

@@ -18,7 +18,7 @@ namespace beamcam::render::figure {
 struct Series {
     std::string label = {};  // markup; empty: not in the legend
     std::vector<double> x = {}, y = {};
-    std::string name = {};            // in the table of data, where it has no label; empty: the quantity of its axis
+    std::string name = {};            // in the table of data; empty: the label, or the quantity of its axis
     int look = 0;                     // colour, dash and marker, see `look`
     bool line = true;                 // through the points; NaN breaks it
     bool every_point = false;         // a marker at each point

@@ -411,7 +411,7 @@ TEST(Measured, DataHaveSpectraOfTheirOwn) {
     double at = 0, most = 0;
     while (std::getline(rows, line)) {
         double f = 0, amplitude = 0;
-        if (std::sscanf(line.c_str(), "1,even,f / Hz,%lf,|w| / µm,%lf", &f, &amplitude) == 2 && amplitude > most)
+        if (std::sscanf(line.c_str(), "1,even,f / Hz,%lf,|v| / µm,%lf", &f, &amplitude) == 2 && amplitude > most)
             most = amplitude, at = f;
     }
     EXPECT_NEAR(at, 50, 1);
