@@ -33,7 +33,7 @@ struct Grid {
         : columns(std::min(args.columns, shown)), rows((shown + columns - 1) / columns), gap(args.width / 160) {
         width = (args.width - gap * (columns + 1)) / columns;
         height = std::max(1, static_cast<int>(std::lround(double(width) * picture.height / picture.width)));
-        label = std::max(12, std::min(width / 16, args.width / 60));
+        label = std::max(12, std::min(width / 16, std::max(24, args.width / 60)));
     }
     int total_height() const { return gap + rows * (height + label + gap); }
     render::Box at(int k) const {
