@@ -34,7 +34,7 @@ PRIVATE_LIBRARIES = [
     ("HDF5", re.compile(r"^hdf5"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
-    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2, "scenes": 3}),
+    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2, "scenes": 2}),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")

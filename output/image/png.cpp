@@ -264,8 +264,8 @@ std::string encode_png(const render::Image& image, const PngOptions& options) {
     return PngSequence(options).encode(image, all);
 }
 
-void write_png(const Target& file, const render::Image& image, const PngOptions& options, Durability durability) {
-    write_file(file, encode_png(image, options), durability);
+void write_png(const Target& file, const render::Image& image, const PngOptions& options) {
+    write_file(file, encode_png(image, options));
 }
 
 }  // namespace beamcam::output

@@ -60,8 +60,7 @@ class PngSequence {
     std::string file_;
 };
 
-// Throws IoError as well. Frames of a sequence need not be synced one by one.
-void write_png(const Target& file, const render::Image& image, const PngOptions& options = {},
-               Durability durability = Durability::synced);
+// Throws IoError as well.
+void write_png(const Target& file, const render::Image& image, const PngOptions& options = {});
 
 }  // namespace beamcam::output

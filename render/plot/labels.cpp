@@ -82,11 +82,11 @@ std::string turning_speed(double speed, bool rpm, std::optional<int> decimals) {
     return with_unit(number);
 }
 
-std::string power_text(double value, int digits) {
+std::string power_text(double value) {
     if (value == 0) return "0";
     const int exponent = static_cast<int>(std::floor(std::log10(std::abs(value))));
     if (exponent >= -2 && exponent <= 4) return fmt::format("{:.6g}", value);
-    const std::string mantissa = fmt::format("{:.{}g}", value / std::pow(10.0, exponent), digits);
+    const std::string mantissa = fmt::format("{:.3g}", value / std::pow(10.0, exponent));
     return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
 }
 

@@ -37,6 +37,6 @@ TimeFormat time_format(const std::vector<double>& frame_times, double latest = 0
 std::string clock_text(const TimeFormat& format, double t, double last);
 
 // 1e8 → "10⁸", 2.5e7 → "2.5·10⁷", 1200 → "1200"; exponents as superscripts.
-std::string power_text(double value, int digits = 3);
+std::string power_text(double value);
 
 }  // namespace beamcam::render

@@ -107,9 +107,9 @@ Node checks_node(const std::vector<Check>& checks) {
     Node groups = object_node();
     for (const Check& check : checks) {
         Node one = object_node();
-        add(one, "ok", boolean_node(check.ok));
-        add(one, "found", text_node(check.found));
-        if (!check.ok) add(one, "remedy", text_node(check.remedy));
+        add(one, "ok", check.ok);
+        add(one, "found", check.found);
+        if (!check.ok) add(one, "remedy", check.remedy);
         if (!groups.find(check.group)) add(groups, check.group, object_node());
         add(groups.find(check.group)->value, check.part, std::move(one));
     }

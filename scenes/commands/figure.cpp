@@ -53,8 +53,8 @@ std::string list(const Scene& scene, Lang lang) {
 Node compare_node(const FigureArguments& args) {
     Node compare = array_node();
     const auto add_motion = [&](const std::filesystem::path& file, bool other) {
-        Node motion = object_node({{"label", text_node(file.stem().string())}});
-        if (other) add(motion, "scene", text_node(std::filesystem::absolute(file).string()));
+        Node motion = object_node({{"label", file.stem().string()}});
+        if (other) add(motion, "scene", std::filesystem::absolute(file).string());
         compare.items.push_back(std::move(motion));
     };
     add_motion(args.scene, false);
@@ -64,8 +64,8 @@ Node compare_node(const FigureArguments& args) {
 
 // The keys of a panel that the options of the panel do not set.
 Node panel_node(const FigureArguments& args) {
-    Node panel = object_node({{"channels", texts_node(args.channels.values("--channels"))}});
-    if (args.title) add(panel, "title", text_node(*args.title));
+    Node panel = object_node({{"channels", args.channels.values("--channels")}});
+    if (args.title) add(panel, "title", *args.title);
     return panel;
 }
 
@@ -73,17 +73,17 @@ Node panel_node(const FigureArguments& args) {
 Node note_node(const std::string& text) {
     const std::size_t sign = text.find('=');
     Node note = object_node({{"at", value_node(text.substr(0, sign))}});
-    if (sign != std::string::npos) add(note, "text", text_node(text.substr(sign + 1)));
+    if (sign != std::string::npos) add(note, "text", text.substr(sign + 1));
     return note;
 }
 
 Node output_node(const FigureArguments& args) {
-    Node output = object_node({{"type", text_node(FigureOutput::kType)}, {"figure", text_node(args.figure)}});
+    Node output = object_node({{"type", FigureOutput::kType}, {"figure", args.figure}});
     if (args.describes_panel()) add(output, "panels", array_node({panel_node(args)}));
     if (!args.compare.empty()) add(output, "compare", compare_node(args));
-    if (args.impacts) add(output, "impacts", boolean_node(true));
-    if (args.residuals) add(output, "residuals", boolean_node(true));
-    if (args.apart) add(output, "comparison", text_node("panels"));
+    if (args.impacts) add(output, "impacts", true);
+    if (args.residuals) add(output, "residuals", true);
+    if (args.apart) add(output, "comparison", "panels");
     if (args.notes.empty()) return output;
     Node notes = array_node();
     for (const std::string& note : args.notes) notes.items.push_back(note_node(note));

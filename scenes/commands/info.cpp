@@ -174,15 +174,15 @@ std::string runnable_scene(const std::string& scene) {
 }
 
 Node provenance_node(const Provenance& p) {
-    Node out = object_node({{"file", text_node(p.file)}, {"kind", text_node(p.kind)}});
-    for (const auto& [key, value] : p.facts) add(out, key, text_node(value));
-    add(out, "made_by_beamcam", boolean_node(p.made_by_beamcam()));
+    Node out = object_node({{"file", p.file}, {"kind", p.kind}});
+    for (const auto& [key, value] : p.facts) add(out, key, value);
+    add(out, "made_by_beamcam", p.made_by_beamcam());
     for (const auto& [key, value] :
          {std::pair{"version", &p.version}, std::pair{"accuracy", &p.accuracy}, std::pair{"title", &p.title}})
-        if (!value->empty()) add(out, key, text_node(*value));
+        if (!value->empty()) add(out, key, *value);
     if (p.scene.empty()) return out;
     Parsed scene = parse(p.scene);
-    add(out, "scene", scene.is_json ? std::move(scene.root) : text_node(p.scene));
+    add(out, "scene", scene.is_json ? std::move(scene.root) : Node(p.scene));
     return out;
 }
 

@@ -44,7 +44,7 @@ std::string types_with(const std::string& key) {
 
 Node value_node(const std::string& text) {
     const auto number = output::number_in<double>(text);
-    Node node = number && std::isfinite(*number) ? number_node(*number) : text_node(text);
+    Node node = number && std::isfinite(*number) ? Node(*number) : Node(text);
     node.text = text;  // as it was written, for messages
     return node;
 }

@@ -46,17 +46,17 @@ std::vector<KeyRow> chosen(const std::string& pattern) {
 
 Node json_of(const KeyRow& row) {
     const DescribedKey& key = *row.key;
-    const auto bound = [](double value) { return std::isfinite(value) ? number_node(value) : Node{}; };
-    Node out = object_node({{"key", text_node(row.path)}});
-    if (!row.when.empty()) add(out, "when", text_node(row.when));
-    add(out, "type", text_node(key.type));
-    if (!key.words.empty()) add(out, "words", texts_node(key.words));
-    add(out, "unit", key.unit.empty() ? Node{} : text_node(key.unit));
+    const auto bound = [](double value) { return std::isfinite(value) ? Node(value) : Node{}; };
+    Node out = object_node({{"key", row.path}});
+    if (!row.when.empty()) add(out, "when", row.when);
+    add(out, "type", key.type);
+    if (!key.words.empty()) add(out, "words", key.words);
+    add(out, "unit", key.unit.empty() ? Node{} : Node(key.unit));
     add(out, "default", key.value && !key.required() ? *key.value : Node{});
     add(out, "min", bound(key.range.min));
     add(out, "max", bound(key.range.max));
-    add(out, "required", boolean_node(key.required()));
-    add(out, "meaning", text_node(key.meaning));
+    add(out, "required", key.required());
+    add(out, "meaning", key.meaning);
     return out;
 }
 

@@ -92,7 +92,7 @@ Output with_options(const RenderArguments& args, const Output& base, const Scene
             throw UsageError(fmt::format("{} belongs to films and sequences; -o {} is none", option, args.file));
     Node node = to_tree(base);
     remove(node, "file");
-    add(node, "file", text_node(std::filesystem::path(args.file).filename().string()));
+    add(node, "file", std::filesystem::path(args.file).filename().string());
     if (args.film.value("--speed")) remove(node, "duration");
     if (args.film.value("--duration")) remove(node, "speed");
     KeyOptions film = args.film;
@@ -185,7 +185,7 @@ void require_poster_inside(const PictureOutput& film, double end_time) {
 
 void act(const RenderArguments& args) {
     Common with_title = args.common;
-    if (args.title) with_title.overrides.push_back("title=" + to_text(text_node(*args.title)));
+    if (args.title) with_title.overrides.push_back("title=" + to_text(Node(*args.title)));
     Scene scene = load_scene(args.scene, with_title);
     PictureOutput film = film_template(scene);
     compare_scenes(args, scene, film);

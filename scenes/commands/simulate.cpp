@@ -23,7 +23,7 @@ struct SimulateArguments {
 TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
     const std::string file = args.trajectory.value_or("-");
     require_ending("--trajectory", file, {".csv", ".npz"});
-    auto table = std::get<TrajectoryOutput>(read_output(object_node({{"type", text_node(TrajectoryOutput::kType)}}),
+    auto table = std::get<TrajectoryOutput>(read_output(object_node({{"type", TrajectoryOutput::kType}}),
                                                         {&args.rate, &args.times, &args.channels}, scene, args.scene,
                                                         args.common));
     table.file = file;
@@ -33,7 +33,7 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
 ShapesOutput shapes_output(const SimulateArguments& args, const Scene& scene) {
     if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
     require_ending("--shapes", *args.shapes, {".csv", ".npz"});
-    auto shapes = std::get<ShapesOutput>(read_output(object_node({{"type", text_node(ShapesOutput::kType)}}),
+    auto shapes = std::get<ShapesOutput>(read_output(object_node({{"type", ShapesOutput::kType}}),
                                                      {&args.rate, &args.times}, scene, args.scene, args.common));
     shapes.file = *args.shapes;
     return shapes;

@@ -14,11 +14,9 @@ using sim::Length, sim::Range, sim::Unit;
 
 Node bounded(const Range& range) {
     Node number = object_node();
-    add(number, "type", text_node("number"));
-    if (std::isfinite(range.min))
-        add(number, range.exclusive_min ? "exclusiveMinimum" : "minimum", number_node(range.min));
-    if (std::isfinite(range.max))
-        add(number, range.exclusive_max ? "exclusiveMaximum" : "maximum", number_node(range.max));
+    add(number, "type", "number");
+    if (std::isfinite(range.min)) add(number, range.exclusive_min ? "exclusiveMinimum" : "minimum", range.min);
+    if (std::isfinite(range.max)) add(number, range.exclusive_max ? "exclusiveMaximum" : "maximum", range.max);
     return number;
 }
 
@@ -52,13 +50,13 @@ class Describer final : public SceneVisitor {
 
     void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) override {
         DescribedKey& d = number_key(key, unit, range, meaning, nullptr);
-        d.value = number_node(value);
+        d.value = value;
     }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char* meaning,
                 const char* word) override {
         DescribedKey& d = number_key(key, unit, range, meaning, word);
-        if (value) d.value = number_node(*value);
-        if (!value && word) d.value = text_node(word);
+        if (value) d.value = *value;
+        if (!value && word) d.value = word;
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
                  const Length& length, const char* meaning) override {
@@ -71,34 +69,34 @@ class Describer final : public SceneVisitor {
         d.unit = symbol(unit);
         d.range = range;
         Node item = any_of({bounded(range), with_text(unit)}), list = node_of(R"({"type": "array"})");
-        if (length.min > 0) add(list, "minItems", integer_node(static_cast<long>(length.min)));
-        if (fixed) add(list, "maxItems", integer_node(static_cast<long>(length.max)));
+        if (length.min > 0) add(list, "minItems", length.min);
+        if (fixed) add(list, "maxItems", length.max);
         add(list, "items", item);
         d.schema = length.or_one_number ? any_of({bounded(range), with_text(unit), std::move(list)}) : std::move(list);
-        if (!values.empty()) d.value = numbers_node(values);
+        if (!values.empty()) d.value = values;
     }
     void integer(const Key& key, std::optional<int>& value, int min, int max, const char* meaning) override {
         DescribedKey& d = add_key(key, "whole number", meaning);
         d.range = sim::between(min, max);
         d.schema = node_of(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", min, max));
-        if (value) d.value = integer_node(*value);
+        if (value) d.value = *value;
     }
     void boolean(const Key& key, bool& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "true or false", meaning);
         d.schema = node_of(R"({"type": "boolean"})");
-        d.value = boolean_node(value);
+        d.value = value;
     }
     void text(const Key& key, std::string& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "text", meaning);
         d.schema = node_of(R"({"type": "string"})");
-        d.value = text_node(value);
+        d.value = value;
     }
     void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
                  const char* meaning) override {
         DescribedKey& d = add_key(key, "word", meaning);
         d.words = words;
-        d.schema = object_node({{"enum", texts_node(words)}});
-        if (!key.derived) d.value = text_node(words[chosen]);
+        d.schema = object_node({{"enum", words}});
+        if (!key.derived) d.value = words[chosen];
     }
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override {
         Describer inside(meaning);
@@ -139,8 +137,8 @@ class Describer final : public SceneVisitor {
         if (list.format) d.item_schema = node_of(list.format->schema);
         d.schema = node_of(R"({"type": "array"})");
         if (list.min_size > 0) {
-            add(d.schema, "minItems", integer_node(static_cast<long>(list.min_size)));
-            add(d.schema, "maxItems", integer_node(static_cast<long>(list.max_size)));
+            add(d.schema, "minItems", list.min_size);
+            add(d.schema, "maxItems", list.max_size);
         }
     }
     void constrain_schema(const char* schema) override { common_.constraints.push_back(node_of(schema)); }

@@ -48,7 +48,7 @@ void read_panel(ObjectReader& r, const Node& node, const std::string& key, Panel
 ValueFormat panel_format(PanelSpec& panel) {
     return {"panel or channel", R"({"anyOf": [{"const": "strip"}, {"$ref": "#/$defs/panelName"}]})",
             [&panel](ObjectReader& r, const Node& node, const std::string& key) { read_panel(r, node, key, panel); },
-            [&panel] { return text_node(type_of(panel.kind).name); }};
+            [&panel] { return type_of(panel.kind).name; }};
 }
 
 void check_strip_units(ObjectReader& r, const std::string& key, const std::vector<sim::Channel>& channels) {
@@ -87,8 +87,8 @@ ValueFormat window_format(PanelSpec& panel) {
             panel.window = window;
     };
     const auto write = [&panel]() -> std::optional<Node> {
-        if (panel.by_collision) return text_node("collision");
-        return panel.window ? std::optional(number_node(*panel.window)) : std::nullopt;
+        if (panel.by_collision) return "collision";
+        return panel.window ? std::optional<Node>(*panel.window) : std::nullopt;
     };
     return {
         "time or \"collision\"",
@@ -191,7 +191,7 @@ ValueFormat layout_format(std::optional<LayoutNode>& layout) {
         layout = one.front();
     };
     const auto write = [&layout]() -> std::optional<Node> {
-        return layout ? std::nullopt : std::optional(text_node("auto"));
+        return layout ? std::nullopt : std::optional<Node>("auto");
     };
     return {"\"auto\", panel or object", R"({"anyOf": [{"const": "auto"}, {"$ref": "#/$defs/panelName"}]})", read,
             write};

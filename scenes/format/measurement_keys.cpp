@@ -41,7 +41,7 @@ ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>
     const auto write = [&units]() -> std::optional<Node> {
         if (units.empty()) return std::nullopt;
         Node out = object_node();
-        for (const auto& [column, unit] : units) add(out, column, text_node(unit));
+        for (const auto& [column, unit] : units) add(out, column, unit);
         return out;
     };
     return {"object of units", R"({"type": "object", "additionalProperties": {"type": "string"}})", read, write};

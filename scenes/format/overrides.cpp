@@ -26,7 +26,7 @@ bool parse_value(std::string_view text, Node& value, std::string& problem) {
         problem = parsed.messages.front().text;
         return false;
     }
-    value = text_node(std::string(text));
+    value = Node(std::string(text));
     return true;
 }
 

@@ -45,7 +45,7 @@ Node panel_schema() {
     for (const render::PanelType& type : render::panel_types())
         if (!type.takes_channels) names.emplace_back(type.name);
     return object_node(
-        {{"anyOf", array_node({object_node({{"enum", texts_node(names)}}),
+        {{"anyOf", array_node({object_node({{"enum", names}}),
                                node_of(R"({"allOf": [{"$ref": "#/$defs/channel"}, {"not": {"const": "t"}}]})")})}});
 }
 
@@ -53,7 +53,7 @@ Node channel_schema() {
     std::vector<std::string> names;
     for (const sim::Channel& channel : sim::all_channels({}))
         if (channel.kind != sim::ChannelKind::q) names.push_back(name(channel));
-    return object_node({{"anyOf", array_node({object_node({{"enum", texts_node(names)}}),
+    return object_node({{"anyOf", array_node({object_node({{"enum", names}}),
                                               node_of(R"({"description": "A coordinate of the beam, q1 … qN.",
         "type": "string", "pattern": "^q[1-9][0-9]*$"})")})}});
 }
@@ -66,8 +66,8 @@ class SchemaWriter {
         add(definitions_, "channel", channel_schema());
         object(scene);  // first pass: counts repeated properties
         counted_ = true;
-        Node out = object_node({{"$schema", text_node("https://json-schema.org/draft/2020-12/schema")},
-                                {"title", text_node("beamcam scene")}});
+        Node out =
+            object_node({{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "beamcam scene"}});
         append(out, object(scene));
         add(out, "$defs", std::move(definitions_));
         return out;
@@ -77,7 +77,7 @@ class SchemaWriter {
     static void append(Node& out, Node more) {
         for (Member& member : more.members) out.members.add(std::move(member));
     }
-    static Node reference(const std::string& name) { return object_node({{"$ref", text_node("#/$defs/" + name)}}); }
+    static Node reference(const std::string& name) { return object_node({{"$ref", "#/$defs/" + name}}); }
     static Node one_of(const char* choice, std::vector<Node> all) {
         return all.size() == 1 ? std::move(all.front()) : object_node({{choice, array_node(std::move(all))}});
     }
@@ -86,18 +86,18 @@ class SchemaWriter {
         ++depth_;
         Node properties = object_node(), needed = array_node();
         for (const auto& [tag, word] : shape.tags) {
-            add(properties, tag, object_node({{"const", text_node(word)}}));
-            needed.items.push_back(text_node(tag));
+            add(properties, tag, object_node({{"const", word}}));
+            needed.items.emplace_back(tag);
         }
         for (const DescribedKey& key : shape.keys) {
             add(properties, key.name, shared(key.name, property(key)));
-            if (key.required()) needed.items.push_back(text_node(key.name));
+            if (key.required()) needed.items.emplace_back(key.name);
         }
-        Node out = object_node({{"description", text_node(shape.meaning)},
-                                {"type", text_node("object")},
+        Node out = object_node({{"description", shape.meaning},
+                                {"type", "object"},
                                 {"properties", std::move(properties)},
                                 {"patternProperties", node_of(R"({"^x-": true})")},
-                                {"additionalProperties", boolean_node(false)}});
+                                {"additionalProperties", false}});
         if (!needed.items.empty()) add(out, "required", std::move(needed));
         const Node& known = out.find("properties")->value;
         std::vector<Node> together;
@@ -146,7 +146,7 @@ class SchemaWriter {
         std::string meaning = key.meaning;
         if (!key.unit.empty()) meaning += fmt::format(" In {}, or a text with a unit.", key.unit);
         remove(schema, "description");
-        Node out = object_node({{"description", text_node(meaning)}});
+        Node out = object_node({{"description", meaning}});
         append(out, std::move(schema));
         if (key.value && !key.required()) add(out, "default", *key.value);
         return out;

@@ -43,7 +43,7 @@ static ValueFormat value_format(Number& value, const std::string& of) {
     return {"number, or text with the unit of the key", R"({"anyOf": [{"type": "number"}, {"type": "string"}]})", read,
             [&value] {
                 const std::optional<double> given = value;
-                return given ? std::optional(number_node(*given)) : std::nullopt;
+                return given ? std::optional<Node>(*given) : std::nullopt;
             }};
 }
 
@@ -54,7 +54,7 @@ static ValueFormat values_format(std::vector<double>& values, const std::string&
     };
     return {"list of numbers, or texts with the unit of the key",
             R"({"type": "array", "minItems": 1, "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}})", read,
-            [&values] { return values.empty() ? std::nullopt : std::optional(numbers_node(values)); }};
+            [&values] { return values.empty() ? std::nullopt : std::optional<Node>(values); }};
 }
 
 static void visit(SceneVisitor& v, RandomKey& key) {
@@ -104,7 +104,7 @@ ValueFormat sample_format(sim::Sampling& sampling) {
     };
     const auto write = [&sampling]() -> std::optional<Node> {
         const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes;
-        return is_word ? std::optional(text_node(text_of_sample(sampling))) : std::nullopt;
+        return is_word ? std::optional<Node>(text_of_sample(sampling)) : std::nullopt;
     };
     return {"\"impacts\", \"apexes\", \"section:CHANNEL=VALUE\" or object",
             R"({"anyOf": [{"enum": ["impacts", "apexes", "apex"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
@@ -136,9 +136,9 @@ ValueFormat seed_format(SweepSeeds& seeds) {
     };
     const auto write = [&seeds]() -> std::optional<Node> {
         if (seeds.random > 0) return std::nullopt;
-        if (seeds.kinds.size() == 1) return text_node(name(seeds.kinds.front()));
+        if (seeds.kinds.size() == 1) return name(seeds.kinds.front());
         Node all = array_node();
-        for (const SeedKind kind : seeds.kinds) all.items.push_back(text_node(name(kind)));
+        for (const SeedKind kind : seeds.kinds) all.items.emplace_back(name(kind));
         return all;
     };
     return {"\"same\", \"carry-up\", \"carry-down\", several of them, \"random:N\", or object",

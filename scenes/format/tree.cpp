@@ -64,7 +64,7 @@ std::string json_text(const Node& node, std::size_t indent, std::size_t width) {
         std::string out;
         for (const Node& item : node.items) out += (out.empty() ? "" : between) + json_text(item, inner, inner_width);
         for (const Member& member : node.members)
-            out += (out.empty() ? "" : between) + scalar_text(text_node(member.key)) + ": " +
+            out += (out.empty() ? "" : between) + scalar_text(member.key) + ": " +
                    json_text(member.value, inner, inner_width);
         return out;
     };
@@ -80,39 +80,13 @@ std::string json_text(const Node& node, std::size_t indent, std::size_t width) {
 
 }  // namespace
 
-Node number_node(double value) {
-    Node node = of_kind(Node::Kind::number);
-    node.number = value;
-    return node;
-}
-Node integer_node(long value) {
-    Node node = number_node(static_cast<double>(value));
-    node.text = std::to_string(value);
-    return node;
-}
-Node boolean_node(bool value) {
-    Node node = of_kind(Node::Kind::boolean);
-    node.boolean = value;
-    return node;
-}
-Node text_node(std::string value) {
-    Node node = of_kind(Node::Kind::string);
-    node.text = std::move(value);
-    return node;
-}
+Node::Node(double value) : kind(Kind::number), number(value) {}
+Node::Node(std::string value) : kind(Kind::string), text(std::move(value)) {}
+Node::Node(const char* value) : Node(std::string(value)) {}
+
 Node array_node(std::vector<Node> items) {
     Node node = of_kind(Node::Kind::array);
     node.items = std::move(items);
-    return node;
-}
-Node numbers_node(const std::vector<double>& values) {
-    Node node = array_node();
-    for (const double value : values) node.items.push_back(number_node(value));
-    return node;
-}
-Node texts_node(const std::vector<std::string>& values) {
-    Node node = array_node();
-    for (const std::string& value : values) node.items.push_back(text_node(value));
     return node;
 }
 Node object_node(std::vector<std::pair<std::string, Node>> members) {

@@ -2,6 +2,7 @@
 // `//` and `/* */` comments and trailing commas are accepted.
 #pragma once
 
+#include <concepts>
 #include <functional>
 #include <map>
 #include <string>
@@ -38,6 +39,23 @@ class Members {
 struct Node {
     enum class Kind { null, boolean, number, string, array, object };
 
+    // Nodes without a position. A value converts to its node: true, 3, 0.5, "text", an array or map of values.
+    Node() = default;  // null
+    Node(double value);
+    Node(std::string value);
+    Node(const char* value);
+    template <std::same_as<bool> Boolean>  // no pointer
+    Node(Boolean value) : kind(Kind::boolean), boolean(value) {}
+    template <std::integral Integer>
+    requires(!std::same_as<Integer, bool>) Node(Integer value)
+        : kind(Kind::number), number(static_cast<double>(value)), text(std::to_string(value)) {}
+    template <class Value>
+    Node(const std::vector<Value>& values) : kind(Kind::array), items(values.begin(), values.end()) {}
+    template <class Value>
+    Node(const std::map<std::string, Value>& values) : kind(Kind::object) {
+        for (const auto& [key, value] : values) members.add({key, {}, value});
+    }
+
     Kind kind = Kind::null;
     Place place;          // first byte of the value
     std::size_t end = 0;  // offset of the byte after it
@@ -60,14 +78,7 @@ struct Member {
 inline const Member& Members::back() const { return all_.back(); }
 inline std::size_t Members::size() const { return all_.size(); }
 
-// Nodes without a position.
-Node number_node(double value);
-Node integer_node(long value);
-Node boolean_node(bool value);
-Node text_node(std::string value);
 Node array_node(std::vector<Node> items = {});
-Node numbers_node(const std::vector<double>& values);
-Node texts_node(const std::vector<std::string>& values);
 Node object_node(std::vector<std::pair<std::string, Node>> members = {});
 void add(Node& object, std::string key, Node value);
 void remove(Node& object, std::string_view key);

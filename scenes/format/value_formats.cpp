@@ -76,7 +76,7 @@ ValueFormat file_format(std::string& file, std::initializer_list<const char*> al
         file = node.text;
     };
     const auto write = [&file]() -> std::optional<Node> {
-        return file.empty() ? std::nullopt : std::optional(text_node(file));
+        return file.empty() ? std::nullopt : std::optional<Node>(file);
     };
     return {"file name", schema_of_file(endings, numbered), read, write};
 }
@@ -161,9 +161,7 @@ std::optional<FrameRate> read_frame_rate(ObjectReader& r, const Node& node, cons
 }  // namespace
 
 ValueFormat size_format(Size& size) {
-    const auto write = [](const Size& one) {
-        return std::optional(array_node({integer_node(one.width), integer_node(one.height)}));
-    };
+    const auto write = [](const Size& one) { return std::optional(array_node({one.width, one.height})); };
     return format_of(
         size, "[width, height] or \"1280x720\"",
         fmt::format(
@@ -175,8 +173,8 @@ ValueFormat size_format(Size& size) {
 
 ValueFormat frame_rate_format(FrameRate& rate) {
     const auto write = [](const FrameRate& one) {
-        return std::optional(one.denominator == 1 ? integer_node(one.numerator)
-                                                  : text_node(fmt::format("{}/{}", one.numerator, one.denominator)));
+        return std::optional(one.denominator == 1 ? Node(one.numerator)
+                                                  : Node(fmt::format("{}/{}", one.numerator, one.denominator)));
     };
     return format_of(
         rate, "number or \"30000/1001\"",
@@ -218,10 +216,10 @@ std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std
 }
 
 std::optional<Node> written(const Instant& at) {
-    if (at.kind == Instant::Kind::time) return number_node(at.t);
+    if (at.kind == Instant::Kind::time) return at.t;
     for (const EventWord& event : kEventWords)
-        if (event.kind == at.kind) return text_node(fmt::format("{}:{}", event.word, at.number));
-    return text_node("last");
+        if (event.kind == at.kind) return fmt::format("{}:{}", event.word, at.number);
+    return "last";
 }
 
 template <class Value>
@@ -245,7 +243,7 @@ ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
     };
     out.write = [&]() -> std::optional<Node> {
         const std::optional<double> t = time;
-        return event ? written(*event) : t ? std::optional(number_node(*t)) : std::nullopt;
+        return event ? written(*event) : t ? std::optional<Node>(*t) : std::nullopt;
     };
     return out;
 }
@@ -267,7 +265,7 @@ ValueFormat speed_format(Speed& speed) {
             r.ranged_value(node, key, sim::dimension::kNone, kSpeedRange, speed.factor);
     };
     const auto write = [&speed]() -> std::optional<Node> {
-        return speed.around || !speed.intervals.empty() ? std::nullopt : std::optional(number_node(speed.factor));
+        return speed.around || !speed.intervals.empty() ? std::nullopt : std::optional<Node>(speed.factor);
     };
     return {
         "factor, \"impacts\" or object",
@@ -306,8 +304,8 @@ template <class Value>
 ValueFormat format_of_anchor(Value& anchor) {
     const auto write = [](const render::Anchor& one) -> std::optional<Node> {
         for (const auto& [kind, name] : kAnchors)
-            if (one.kind == kind) return text_node(name);
-        return numbers_node({one.place.x, one.place.y});
+            if (one.kind == kind) return name;
+        return array_node({one.place.x, one.place.y});
     };
     return format_of(anchor, "\"all\", \"tip\", \"contact\", \"cam\", \"hub\" or [x, y]",
                      R"({"$ref": "#/$defs/anchor"})", read_anchor, write);
@@ -330,7 +328,7 @@ std::optional<std::uint32_t> parse_color(std::string_view text) {
     return value;
 }
 
-Node color_node(std::uint32_t color) { return text_node(fmt::format("#{:06x}", color)); }
+Node color_node(std::uint32_t color) { return fmt::format("#{:06x}", color); }
 
 }  // namespace
 
@@ -354,7 +352,7 @@ ValueFormat background_format(render::View& view) {
                            " is not a background; write \"paper\", \"transparent\" or a colour such as \"#f4f1ea\"");
     };
     const auto write = [&view] {
-        return view.paper ? color_node(*view.paper) : text_node(view.transparent ? "transparent" : "paper");
+        return view.paper ? color_node(*view.paper) : Node(view.transparent ? "transparent" : "paper");
     };
     return {"\"paper\", \"transparent\" or \"#rrggbb\"",
             R"({"anyOf": [{"enum": ["paper", "transparent"]}, {"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"}]})",
@@ -380,10 +378,10 @@ ValueFormat show_format(render::Shown& show) {
     };
     const auto write = [&show, sized]() -> std::optional<Node> {
         for (const auto& [name, preset] : kPresets)
-            if (show == sized(preset, show.size)) return text_node(name);
+            if (show == sized(preset, show.size)) return name;
         return std::nullopt;
     };
-    return {"preset or object", one_line(object_node({{"enum", texts_node(kNames)}})), read, write};
+    return {"preset or object", one_line(object_node({{"enum", kNames}})), read, write};
 }
 
 // ---- channels ----------------------------------------------------------------------------------
@@ -423,7 +421,7 @@ ValueFormat channels_format(std::vector<sim::Channel>& channels) {
     };
     const auto write = [&channels]() -> std::optional<Node> {
         if (channels.empty()) return std::nullopt;
-        return texts_node(channel_names(channels));
+        return channel_names(channels);
     };
     return {"[channel, …]",
             R"({"type": "array", "minItems": 1, "uniqueItems": true, "items": {"$ref": "#/$defs/channel"}})", read,
@@ -468,7 +466,7 @@ ValueFormat abscissa_format(std::string& against) {
     };
     return {"channel, \"turns\", \"phase\" or \"frequency\"",
             R"({"anyOf": [{"enum": ["turns", "phase", "frequency"]}, {"$ref": "#/$defs/channel"}]})", read,
-            [&against] { return text_node(against); }};
+            [&against] { return against; }};
 }
 
 }  // namespace beamcam::scenes

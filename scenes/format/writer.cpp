@@ -10,29 +10,27 @@ class Writer final : public SceneVisitor {
   public:
     Node take() { return std::move(object_); }
 
-    void number(const Key& key, double& value, const Unit&, const Range&, const char*) override {
-        put(key, number_node(value));
-    }
+    void number(const Key& key, double& value, const Unit&, const Range&, const char*) override { put(key, value); }
     void number(const Key& key, std::optional<double>& value, const Unit&, const Range&, const char*,
                 const char* word) override {
         if (value)
-            put(key, number_node(*value));
+            put(key, *value);
         else if (word)
-            put(key, text_node(word));
+            put(key, word);
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit&, const Range&, const Length& length,
                  const char*) override {
         if (values.empty()) return;
-        if (length.or_one_number && values.size() == 1) return put(key, number_node(values.front()));
-        put(key, numbers_node(values));
+        if (length.or_one_number && values.size() == 1) return put(key, values.front());
+        put(key, values);
     }
     void integer(const Key& key, std::optional<int>& value, int, int, const char*) override {
-        if (value) put(key, integer_node(*value));
+        if (value) put(key, *value);
     }
-    void boolean(const Key& key, bool& value, const char*) override { put(key, boolean_node(value)); }
-    void text(const Key& key, std::string& value, const char*) override { put(key, text_node(value)); }
+    void boolean(const Key& key, bool& value, const char*) override { put(key, value); }
+    void text(const Key& key, std::string& value, const char*) override { put(key, value); }
     void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) override {
-        put(key, text_node(words[chosen]));
+        put(key, words[chosen]);
     }
     void object(const Key& key, const Fields& fields, const char*, bool* present) override {
         if (present && !*present) return put(key, Node{});
@@ -43,7 +41,7 @@ class Writer final : public SceneVisitor {
     void alternatives(const std::vector<sim::Alternative>& all) override {
         for (const sim::Alternative& each : all) {
             if (!each.chosen) continue;
-            for (const auto& [tag, word] : each.tags) put(tag, text_node(word));
+            for (const auto& [tag, word] : each.tags) put(tag, word);
             return each.fields(*this);
         }
     }

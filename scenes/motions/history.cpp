@@ -19,7 +19,7 @@ constexpr const char* kHeader = "beamcam times 1";
 constexpr std::size_t kMostKept = 2000;       // lines; the oldest are dropped
 constexpr std::uintmax_t kLongest = 1 << 20;  // [bytes]; a longer file has another origin
 
-using Lines = std::vector<std::pair<std::string, Rate>>;
+using Lines = std::vector<std::pair<std::string, Cost>>;
 
 // name, tab, seconds, tab, amount
 Lines read(const std::filesystem::path& file) {
@@ -32,7 +32,7 @@ Lines read(const std::filesystem::path& file) {
     while (std::getline(in, line)) {
         const std::size_t tab = line.find('\t');
         if (tab == std::string::npos) continue;
-        Rate rate;
+        Cost rate;
         if (std::sscanf(line.c_str() + tab, "\t%lf\t%lf", &rate.seconds, &rate.amount) != 2) continue;
         if (!(rate.seconds >= 0 && rate.amount >= 0 && std::isfinite(rate.seconds + rate.amount))) continue;
         lines.emplace_back(line.substr(0, tab), rate);
@@ -46,16 +46,17 @@ History::History(const std::filesystem::path& directory) : file_(directory / kFi
     for (const auto& [name, rate] : read(file_)) known_[name] = rate;
 }
 
-std::optional<Rate> History::find(const std::vector<std::string>& names) const {
+std::optional<Cost> History::find(const std::vector<std::string>& names, double units) const {
     for (const std::string& name : names)
-        if (const auto known = known_.find(name); known != known_.end()) return known->second;
+        if (const auto known = known_.find(name); known != known_.end())
+            return Cost{units * known->second.seconds, units * known->second.amount};
     return std::nullopt;
 }
 
 void History::note(const std::vector<std::string>& names, double units, double seconds, double amount) {
     if (file_.empty() || !(units > 0)) return;
     for (const std::string& name : names) {
-        Rate rate{seconds / units, amount / units};
+        Cost rate{seconds / units, amount / units};
         if (const auto known = known_.find(name); known != known_.end()) {
             rate.seconds = 0.5 * (rate.seconds + known->second.seconds);
             rate.amount = 0.5 * (rate.amount + known->second.amount);

@@ -13,8 +13,8 @@
 
 namespace beamcam::scenes {
 
-// Cost of one unit of work: a second of motion, a picture, a number of a table.
-struct Rate {
+// Cost of a stage of work, or of one unit of it: a second of motion, a picture, a number of a table.
+struct Cost {
     double seconds = 0;
     double amount = 0;  // steps of a motion, bytes of a file
 };
@@ -25,17 +25,17 @@ class History {
     History() = default;
     explicit History(const std::filesystem::path& directory);
 
-    // The rate of the first known name.
-    std::optional<Rate> find(const std::vector<std::string>& names) const;
+    // The cost of `units` of the first known name.
+    std::optional<Cost> find(const std::vector<std::string>& names, double units = 1) const;
     // Adds a measurement. The mean gives the latest run the same weight as all earlier ones together.
     void note(const std::vector<std::string>& names, double units, double seconds, double amount);
     // Merges with the measurements of other processes. Ignores errors.
     void save();
 
   private:
-    std::filesystem::path file_;  // may be empty
-    std::map<std::string, Rate> known_;
-    std::vector<std::pair<std::string, Rate>> noted_;
+    std::filesystem::path file_;         // may be empty
+    std::map<std::string, Cost> known_;  // of one unit
+    std::vector<std::pair<std::string, Cost>> noted_;
 };
 
 // Names of the work per second of motion: first of this motion, then of similar ones. `key`: motion_key(problem).

@@ -52,15 +52,14 @@ static const std::string& constraint_of_figures() {
         Node others = object_node();
         for (const std::string_view key : keys_of_figures())
             add(others, std::string(key),
-                object_node({{"properties",
-                              object_node({{"figure", object_node({{"enum", texts_node(figures_with(key))}})}})}}));
+                object_node({{"properties", object_node({{"figure", object_node({{"enum", figures_with(key)}})}})}}));
         return fmt::format(
             R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}}},
                 "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
                 "else": {{"if": {{"properties": {{"figure": {{"enum": {}}}}}}},
                           "then": {{"properties": {{"channels": {{"maxItems": 1}}}}}}}},
                 "dependentSchemas": {}}})",
-            one_line(texts_node(figures_with("window"))), one_line(others));
+            one_line(Node(figures_with("window"))), one_line(others));
     }();
     return kText;
 }

@@ -45,8 +45,7 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
     DataFile data{output, file, "table", {}};
     data.content = counted(instants.size(), "row") + " of " + counted(columns.size(), "channel");
     data.numbers = instants.size() * columns.size();
-    data.details = object_node(
-        {{"rows", integer_node(static_cast<long>(instants.size()))}, {"channels", texts_node(channel_names(columns))}});
+    data.details = object_node({{"rows", instants.size()}, {"channels", channel_names(columns)}});
     const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
     data.table = index;
     data.write = [index](const DataSource& from) { return write_table(from, from.run.tables[index]); };

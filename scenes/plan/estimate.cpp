@@ -26,13 +26,8 @@ std::vector<std::string> data_work(const DataFile& d) {
 
 namespace {
 
-std::optional<Cost> cost(const History& history, const std::vector<std::string>& names, double units) {
-    const auto rate = history.find(names);
-    return rate ? std::optional(Cost{units * rate->seconds, units * rate->amount}) : std::nullopt;
-}
-
 std::optional<Cost> cost(const History& history, const Simulation& s) {
-    return cost(history, motion_work(motion_key(s.problem), s.problem, s.from_cache, s.horizon), s.request.end_time);
+    return history.find(motion_work(motion_key(s.problem), s.problem, s.from_cache, s.horizon), s.request.end_time);
 }
 
 }  // namespace
@@ -42,10 +37,10 @@ void estimate(Plan& plan, const History& history, int threads) {
         plan.simulation->cost = cost(history, *plan.simulation);
     for (Simulation& s : plan.others) s.cost = cost(history, s);
     for (Pictures& p : plan.pictures)
-        if (p.times_known) p.cost = cost(history, picture_work(p, threads), static_cast<double>(p.draw.size()));
-    for (FigureFile& f : plan.figures) f.cost = cost(history, figure_work(f), 1);
+        if (p.times_known) p.cost = history.find(picture_work(p, threads), static_cast<double>(p.draw.size()));
+    for (FigureFile& f : plan.figures) f.cost = history.find(figure_work(f));
     for (DataFile& d : plan.data)
-        if (d.numbers > 0) d.cost = cost(history, data_work(d), static_cast<double>(d.numbers));
+        if (d.numbers > 0) d.cost = history.find(data_work(d), static_cast<double>(d.numbers));
 }
 
 }  // namespace beamcam::scenes

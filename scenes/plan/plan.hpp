@@ -19,6 +19,7 @@
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/format/tree.hpp"
+#include "scenes/motions/history.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/run/simulate.hpp"
@@ -38,12 +39,6 @@ struct ExistingWork {
     bool keeps = false;                            // trajectories are cached
     std::map<std::string, double> kept_until;      // ends of the cached trajectories, by Studies::key [s]
     double until = 0;                              // end of a run for all outputs, up-to-date ones included [s]
-};
-
-// Expected cost of a stage, from earlier runs (history.hpp).
-struct Cost {
-    double seconds = 0;
-    double amount = 0;  // steps of a motion, bytes of a file
 };
 
 // The simulation of one motion, for all outputs that need it.

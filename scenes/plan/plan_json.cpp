@@ -5,30 +5,28 @@
 namespace beamcam::scenes {
 namespace {
 
-Node count_node(std::size_t count) { return integer_node(static_cast<long>(count)); }
-
 void add_cost(Node& stage, const std::optional<Cost>& cost, const char* amount) {
     if (!cost) return;
-    add(stage, "seconds", number_node(cost->seconds));
-    add(stage, amount, number_node(cost->amount));
+    add(stage, "seconds", cost->seconds);
+    add(stage, amount, cost->amount);
 }
 
 Node file_stage(const char* name, const std::string& file, std::size_t output) {
-    return object_node({{"stage", text_node(name)}, {"file", text_node(file)}, {"output", count_node(output)}});
+    return object_node({{"stage", name}, {"file", file}, {"output", output}});
 }
 
 Node stage_of(const Simulation& simulation) {
     const sim::Beam& beam = simulation.problem.beam;
-    Node stage = object_node({{"stage", text_node("simulate")},
-                              {"model", text_node(name(beam.model))},
-                              {"modes", integer_node(beam.model == sim::ModelKind::rigid ? 0 : beam.modes)},
-                              {"until", number_node(simulation.request.end_time)},
-                              {"because", text_node(simulation.until_because)}});
-    if (!simulation.label.empty()) add(stage, "label", text_node(simulation.label));
-    if (!simulation.until_events.empty()) add(stage, "until_events", texts_node(simulation.until_events));
-    add(stage, "horizon", boolean_node(simulation.horizon));
-    add(stage, "from_cache", boolean_node(simulation.from_cache));
-    add(stage, "keep", boolean_node(simulation.keep));
+    Node stage = object_node({{"stage", "simulate"},
+                              {"model", name(beam.model)},
+                              {"modes", beam.model == sim::ModelKind::rigid ? 0 : beam.modes},
+                              {"until", simulation.request.end_time},
+                              {"because", simulation.until_because}});
+    if (!simulation.label.empty()) add(stage, "label", simulation.label);
+    if (!simulation.until_events.empty()) add(stage, "until_events", simulation.until_events);
+    add(stage, "horizon", simulation.horizon);
+    add(stage, "from_cache", simulation.from_cache);
+    add(stage, "keep", simulation.keep);
     add_cost(stage, simulation.cost, "steps");
     return stage;
 }
@@ -36,19 +34,19 @@ Node stage_of(const Simulation& simulation) {
 Node stage_of(const Pictures& p, const std::vector<double>& times) {
     Node stage = file_stage(kind_name(p.kind), p.file, p.output);
     if (p.times_known) {
-        add(stage, "frames", count_node(p.draw.size()));
-        add(stage, "from", number_node(times[static_cast<std::size_t>(p.draw.front())]));
-        add(stage, "last", number_node(times[static_cast<std::size_t>(p.draw.back())]));
+        add(stage, "frames", p.draw.size());
+        add(stage, "from", times[static_cast<std::size_t>(p.draw.front())]);
+        add(stage, "last", times[static_cast<std::size_t>(p.draw.back())]);
     }
-    add(stage, "size", array_node({integer_node(p.size.width), integer_node(p.size.height)}));
-    add(stage, "style", text_node(view_name(p.view)));
-    if (p.kind != Pictures::Kind::still) add(stage, "fps", number_node(p.span.fps.value()));
+    add(stage, "size", array_node({p.size.width, p.size.height}));
+    add(stage, "style", view_name(p.view));
+    if (p.kind != Pictures::Kind::still) add(stage, "fps", p.span.fps.value());
     if (p.kind == Pictures::Kind::video) {
-        add(stage, "codec", text_node(output::name(p.encoding.codec)));
-        if (p.encoding.crf) add(stage, "crf", integer_node(*p.encoding.crf));
-        if (p.encoding.codec == output::Codec::h264) add(stage, "preset", text_node(p.encoding.preset));
-        if (p.encoding.variable_rate) add(stage, "rate_mode", text_node("variable"));
-        if (!p.poster_file.empty()) add(stage, "poster", text_node(p.poster_file));
+        add(stage, "codec", output::name(p.encoding.codec));
+        if (p.encoding.crf) add(stage, "crf", *p.encoding.crf);
+        if (p.encoding.codec == output::Codec::h264) add(stage, "preset", p.encoding.preset);
+        if (p.encoding.variable_rate) add(stage, "rate_mode", "variable");
+        if (!p.poster_file.empty()) add(stage, "poster", p.poster_file);
     }
     add_cost(stage, p.cost, "bytes");
     return stage;
@@ -57,14 +55,13 @@ Node stage_of(const Pictures& p, const std::vector<double>& times) {
 Node stages_of(const Plan& plan) {
     Node stages = array_node();
     const auto put = [&stages](Node stage) { stages.items.push_back(std::move(stage)); };
-    if (plan.events_until)
-        put(object_node({{"stage", text_node("impacts")}, {"until", number_node(*plan.events_until)}}));
+    if (plan.events_until) put(object_node({{"stage", "impacts"}, {"until", *plan.events_until}}));
     if (plan.simulation) put(stage_of(*plan.simulation));
     for (const Simulation& other : plan.others) put(stage_of(other));
     for (const Pictures& p : plan.pictures) put(stage_of(p, plan.times(p)));
     for (const FigureFile& f : plan.figures) {
         put(file_stage("figure", f.file, f.output));
-        add(stages.items.back(), "figure", text_node(f.figure));
+        add(stages.items.back(), "figure", f.figure);
         add_cost(stages.items.back(), f.cost, "bytes");
     }
     for (const DataFile& d : plan.data) {
@@ -82,7 +79,7 @@ std::string to_json(const Plan& plan) {
     add(out, "stages", stages_of(plan));
     add_cost(out, plan.cost(), "bytes");
     for (const Skipped& each : plan.skipped)
-        skipped.items.push_back(object_node({{"what", text_node(each.what)}, {"why", text_node(each.why)}}));
+        skipped.items.push_back(object_node({{"what", each.what}, {"why", each.why}}));
     add(out, "skipped", std::move(skipped));
     return to_text(out);
 }

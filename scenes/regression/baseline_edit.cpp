@@ -20,7 +20,7 @@ struct Edit {
 
 // As JSON.
 std::string json_text(const std::string& text) {
-    std::string out = to_text(text_node(text));
+    std::string out = to_text(Node(text));
     out.pop_back();  // the line break
     return out;
 }

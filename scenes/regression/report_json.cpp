@@ -2,9 +2,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
+#include <stdexcept>
 
 #include "output/files/atomic_file.hpp"
+#include "output/files/numbers.hpp"
+#include "scenes/format/tree.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "scenes/regression/report.hpp"
 
@@ -12,44 +14,101 @@ namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using Json = nlohmann::ordered_json;
+using Kind = Node::Kind;
 
-// File names may contain bytes that are not UTF-8; they become U+FFFD.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-Json box(const output::PixelBox& b) {
-    if (b.empty()) return nullptr;
-    return {{"left", b.left}, {"top", b.top}, {"width", b.width()}, {"height", b.height()}};
+Node box(const output::PixelBox& b) {
+    if (b.empty()) return {};
+    return object_node({{"left", b.left}, {"top", b.top}, {"width", b.width()}, {"height", b.height()}});
 }
 
-Json picture(const PictureComparison& p) {
-    Json out = {{"a", p.a}, {"b", p.b}, {"verdict", name(p.verdict)}, {"size_a", p.size_a}, {"size_b", p.size_b}};
+Node picture(const PictureComparison& p) {
+    Node out =
+        object_node({{"a", p.a}, {"b", p.b}, {"verdict", name(p.verdict)}, {"size_a", p.size_a}, {"size_b", p.size_b}});
     if (!p.same_size()) return out;
     const output::PictureDifference& d = p.difference;
-    out["pixels"] = d.pixels;
-    out["changed"] = d.changed;
-    out["share"] = d.share();
-    out["largest"] = d.largest;
-    out["box"] = box(d.box);
-    out["antialiased"] = d.antialiased;
-    out["ssim"] = d.ssim;
-    out["lowest_ssim"] = d.lowest_ssim;
+    add(out, "pixels", d.pixels);
+    add(out, "changed", d.changed);
+    add(out, "share", d.share());
+    add(out, "largest", d.largest);
+    add(out, "box", box(d.box));
+    add(out, "antialiased", d.antialiased);
+    add(out, "ssim", d.ssim);
+    add(out, "lowest_ssim", d.lowest_ssim);
     return out;
 }
 
-Json table(const output::TableDifference& d) {
-    Json columns = Json::object();
+Node table(const output::TableDifference& d) {
+    Node columns = object_node();
     for (const output::ColumnDifference& c : d.columns)
-        columns[c.name] = {{"identical", c.identical}, {"largest", c.largest}, {"t", c.t},
-                           {"range", c.range},         {"share", c.share},     {"undefined", c.undefined}};
-    return {{"rows_a", d.rows_a},       {"rows_b", d.rows_b},       {"rows_compared", d.rows_compared},
-            {"only_in_a", d.only_in_a}, {"only_in_b", d.only_in_b}, {"columns", columns}};
+        add(columns, c.name,
+            object_node({{"identical", c.identical},
+                         {"largest", c.largest},
+                         {"t", c.t},
+                         {"range", c.range},
+                         {"share", c.share},
+                         {"undefined", c.undefined}}));
+    return object_node({{"rows_a", d.rows_a},
+                        {"rows_b", d.rows_b},
+                        {"rows_compared", d.rows_compared},
+                        {"only_in_a", d.only_in_a},
+                        {"only_in_b", d.only_in_b},
+                        {"columns", std::move(columns)}});
+}
+
+Node picture_part(const EntryResult& entry) {
+    Node changed = object_node();
+    for (const auto& [number, frame] : entry.frames) {
+        if (frame.verdict == Verdict::identical) continue;
+        Node one = object_node({{"verdict", name(frame.verdict)}, {"sha256", frame.sha256}});
+        if (frame.compared) add(one, "difference", picture(frame.comparison));
+        add(changed, std::to_string(number), std::move(one));
+    }
+    return object_node({{"verdict", name(*entry.picture)},
+                        {"pictures", entry.frames.size()},
+                        {"words", entry.picture_lines},
+                        {"changed", std::move(changed)}});
+}
+
+Node entry_node(const EntryResult& entry) {
+    Node out = object_node({{"verdict", name(entry.verdict())}});
+    if (entry.picture) add(out, "picture", picture_part(entry));
+    if (entry.motion)
+        add(out, "motion",
+            object_node(
+                {{"verdict", name(*entry.motion)}, {"words", entry.motion_lines}, {"files", entry.motion_files}}));
+    if (entry.reproducible_until) add(out, "reproducible_until", *entry.reproducible_until);
+    if (!entry.not_reproducible.empty()) add(out, "not_reproducible", entry.not_reproducible);
+    if (!entry.renderer.empty()) {
+        std::vector<std::string> digests;  // of all its pictures
+        for (const auto& [number, frame] : entry.frames) digests.push_back(frame.sha256);
+        add(out, "renderer", entry.renderer);
+        add(out, "sha256", digests);
+    }
+    if (entry.updated) add(out, "updated", true);
+    if (entry.digest_added) add(out, "digest_added", true);
+    return out;
 }
 
 // ---- reading ----------------------------------------------------------------------------------------
 
-bool verdict_is(const nlohmann::json& part, std::initializer_list<Verdict> verdicts) {
-    return std::ranges::any_of(verdicts, [&](Verdict v) { return part.at("verdict") == name(v); });
+const Node& required(const Node& object, std::string_view key, Kind kind) {
+    const Member* member = object.find(key);
+    if (!member || member->value.kind != kind)
+        throw std::invalid_argument(fmt::format("\"{}\" is not {}", key, name(kind)));
+    return member->value;
+}
+std::string text_in(const Node& object, std::string_view key) {
+    return object.find(key) ? required(object, key, Kind::string).text : std::string();
+}
+std::map<std::string, std::string> texts_of(const Node& object) {
+    std::map<std::string, std::string> texts;
+    for (const Member& member : object.members) texts[member.key] = required(object, member.key, Kind::string).text;
+    return texts;
+}
+
+bool verdict_is(const Node& part, std::initializer_list<Verdict> verdicts) {
+    const std::string& verdict = required(part, "verdict", Kind::string).text;
+    return std::ranges::any_of(verdicts, [&](Verdict v) { return verdict == name(v); });
 }
 
 // A name that stays in its folder.
@@ -58,23 +117,30 @@ void require_file_name(const std::string& name) {
         throw std::invalid_argument(fmt::format("{} is not the name of a file", name));
 }
 
-ReportedEntry reported_entry(const nlohmann::json& entry) {
+ReportedEntry reported_entry(const Node& entry) {
     ReportedEntry out;
-    out.renderer = entry.value("renderer", "");
-    out.sha256 = entry.value("sha256", std::vector<std::string>());
-    for (const char* part : {"picture", "motion"})
-        if (entry.contains(part) && verdict_is(entry.at(part), {Verdict::different, Verdict::missing})) {
-            out.differs = true;
-            for (const nlohmann::json& line : entry.at(part).at("words")) out.reason = line.get<std::string>();
-        }
-    if (entry.contains("motion")) out.motion_files = entry.at("motion").at("files");
-    for (const auto& [file, digest] : out.motion_files) require_file_name(file);
+    out.renderer = text_in(entry, "renderer");
     require_file_name("0000-" + out.renderer);
-    if (entry.contains("reproducible_until")) out.reproducible_until = entry.at("reproducible_until").get<double>();
-    out.not_reproducible = entry.value("not_reproducible", "");
-    if (entry.contains("picture"))
-        for (const auto& [number, frame] : entry.at("picture").at("changed").items())
-            out.changed.push_back(std::stol(number));
+    if (entry.find("sha256"))
+        for (const Node& digest : required(entry, "sha256", Kind::array).items) out.sha256.push_back(digest.text);
+    for (const char* key : {"picture", "motion"})
+        if (const Member* part = entry.find(key);
+            part && verdict_is(part->value, {Verdict::different, Verdict::missing})) {
+            out.differs = true;
+            for (const Node& line : required(part->value, "words", Kind::array).items) out.reason = line.text;
+        }
+    if (const Member* motion = entry.find("motion"))
+        out.motion_files = texts_of(required(motion->value, "files", Kind::object));
+    for (const auto& [file, digest] : out.motion_files) require_file_name(file);
+    if (entry.find("reproducible_until"))
+        out.reproducible_until = required(entry, "reproducible_until", Kind::number).number;
+    out.not_reproducible = text_in(entry, "not_reproducible");
+    if (const Member* part = entry.find("picture"))
+        for (const Member& frame : required(part->value, "changed", Kind::object).members) {
+            const auto number = output::number_in<long>(frame.key);
+            if (!number) throw std::invalid_argument(fmt::format("\"{}\" is not the number of a picture", frame.key));
+            out.changed.push_back(*number);
+        }
     return out;
 }
 
@@ -94,66 +160,43 @@ fs::path folder_of_report(const fs::path& given) {
 }  // namespace
 
 std::string to_json(const Comparison& c) {
-    Json out = {{"a", c.a}, {"b", c.b}, {"verdict", name(c.verdict)}};
+    Node out = object_node({{"a", c.a}, {"b", c.b}, {"verdict", name(c.verdict)}});
     if (c.table) {
-        out["table"] = table(*c.table);
-        return text_of(out);
+        add(out, "table", table(*c.table));
+        return to_text(out);
     }
-    out["pictures_a"] = c.pictures_a;
-    out["pictures_b"] = c.pictures_b;
-    out["identical"] = std::min(c.pictures_a, c.pictures_b) - c.pictures.size();
-    out["pictures"] = Json::array();
-    for (const PictureComparison& p : c.pictures) out["pictures"].push_back(picture(p));
-    return text_of(out);
+    Node pictures = array_node();
+    for (const PictureComparison& p : c.pictures) pictures.items.push_back(picture(p));
+    add(out, "pictures_a", c.pictures_a);
+    add(out, "pictures_b", c.pictures_b);
+    add(out, "identical", std::min(c.pictures_a, c.pictures_b) - c.pictures.size());
+    add(out, "pictures", std::move(pictures));
+    return to_text(out);
 }
 
 std::string to_json(const RegressionResult& result) {
-    Json entries = Json::object();
-    for (const EntryResult& entry : result.entries) {
-        Json out = {{"verdict", name(entry.verdict())}};
-        if (entry.picture) {
-            out["picture"] = {
-                {"verdict", name(*entry.picture)}, {"pictures", entry.frames.size()}, {"words", entry.picture_lines}};
-            out["picture"]["changed"] = Json::object();
-            for (const auto& [number, frame] : entry.frames) {
-                if (frame.verdict == Verdict::identical) continue;
-                Json one = {{"verdict", name(frame.verdict)}, {"sha256", frame.sha256}};
-                if (frame.compared) one["difference"] = picture(frame.comparison);
-                out["picture"]["changed"][std::to_string(number)] = std::move(one);
-            }
-        }
-        if (entry.motion)
-            out["motion"] = {
-                {"verdict", name(*entry.motion)}, {"words", entry.motion_lines}, {"files", entry.motion_files}};
-        if (entry.reproducible_until) out["reproducible_until"] = *entry.reproducible_until;
-        if (!entry.not_reproducible.empty()) out["not_reproducible"] = entry.not_reproducible;
-        if (!entry.renderer.empty()) {
-            out["renderer"] = entry.renderer;
-            out["sha256"] = Json::array();  // of all its pictures
-            for (const auto& [number, frame] : entry.frames) out["sha256"].push_back(frame.sha256);
-        }
-        if (entry.updated) out["updated"] = true;
-        if (entry.digest_added) out["digest_added"] = true;
-        entries[entry.name] = std::move(out);
-    }
-    return text_of({{"baselines", result.baselines},
-                    {"entries", std::move(entries)},
-                    {"renderers", result.renderers},
-                    {"simulations", result.simulations},
-                    {"pictures", result.pictures},
-                    {"seconds", result.seconds},
-                    {"changed", result.changed}});
+    Node entries = object_node();
+    for (const EntryResult& entry : result.entries) add(entries, entry.name, entry_node(entry));
+    return to_text(object_node({{"baselines", result.baselines},
+                                {"entries", std::move(entries)},
+                                {"renderers", result.renderers},
+                                {"simulations", result.simulations},
+                                {"pictures", result.pictures},
+                                {"seconds", result.seconds},
+                                {"changed", result.changed}}));
 }
 
 Report read_report(const std::filesystem::path& given) {
     Report report{folder_of_report(given), {}, {}, {}};
     const fs::path file = report.folder / kReportFile;
     try {
-        const auto json = nlohmann::json::parse(output::read_file(file));
-        report.baselines = json.at("baselines").get<std::string>();
-        report.renderers = json.at("renderers").get<std::map<std::string, RendererParts>>();
-        for (const auto& [name, entry] : json.at("entries").items())
-            if (!verdict_is(entry, {Verdict::identical})) report.entries[name] = reported_entry(entry);
+        const Parsed parsed = parse(output::read_file(file));
+        if (!parsed.messages.empty()) throw std::invalid_argument(parsed.messages.front().text);
+        report.baselines = required(parsed.root, "baselines", Kind::string).text;
+        for (const Member& renderer : required(parsed.root, "renderers", Kind::object).members)
+            report.renderers[renderer.key] = texts_of(renderer.value);
+        for (const Member& entry : required(parsed.root, "entries", Kind::object).members)
+            if (!verdict_is(entry.value, {Verdict::identical})) report.entries[entry.key] = reported_entry(entry.value);
     } catch (const std::exception& error) {
         throw output::IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
     }

@@ -78,7 +78,7 @@ Tolerance tolerance_argument(const std::vector<std::string>& texts) {
         if (!number)
             throw UsageError(fmt::format(
                 "--tolerance {}: write channel=2, share=1e-4, ssim=0.98, motion=1e-5 or impacts=1e-4", text));
-        set_value(given, text.substr(0, sign), number_node(*number), messages);
+        set_value(given, text.substr(0, sign), Node(*number), messages);
     }
     Diagnostics diagnostics;
     Tolerances tolerances;

@@ -13,7 +13,6 @@
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/version.hpp"
-#include "sim/base/counted.hpp"
 #include "sim/sweep/sweep_point.hpp"
 
 namespace beamcam::scenes {
@@ -180,7 +179,7 @@ output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store
     const sim::Sampling& sampling = grid.sampling();
     const auto span = [](const sim::CamSpan& s) {
         return s.time ? fmt::format("{} s, rounded up to whole turns of the cam", *s.time)
-                      : counted(s.turns, "turn") + " of the cam";
+                      : fmt::format("{} turns of the cam", s.turns);
     };
     data.attributes = {
         {"Conventions", "CF-1.8"},

@@ -27,14 +27,14 @@ std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& fi
     const double rows = std::max(cost.rows, static_cast<double>(grid.points()));
     if (json) {
         Node made = array_node();
-        for (const PlannedFile& each : files) made.items.push_back(text_node(each.file));
-        return to_text(object_node({{"points", integer_node(static_cast<long>(grid.points()))},
-                                    {"tasks", integer_node(static_cast<long>(grid.tasks()))},
-                                    {"threads", integer_node(used)},
-                                    {"seconds", number_node(seconds)},
-                                    {"rows", number_node(std::round(rows))},
-                                    {"csv_bytes", number_node(std::round(rows * columns * kTextOfNumber))},
-                                    {"npz_bytes", number_node(std::round(rows * columns * kNumber))},
+        for (const PlannedFile& each : files) made.items.emplace_back(each.file);
+        return to_text(object_node({{"points", grid.points()},
+                                    {"tasks", grid.tasks()},
+                                    {"threads", used},
+                                    {"seconds", seconds},
+                                    {"rows", std::round(rows)},
+                                    {"csv_bytes", std::round(rows * columns * kTextOfNumber)},
+                                    {"npz_bytes", std::round(rows * columns * kNumber)},
                                     {"files", std::move(made)}}));
     }
     std::string text = "sweep\n";

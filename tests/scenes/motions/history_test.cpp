@@ -18,6 +18,7 @@ TEST(History, KnowsWhatWasNotedAndTakesTheFirstNameItKnows) {
     history.save();
     const History later(folder / "c");
     EXPECT_EQ(later.find({"a"})->seconds, 0.5);
+    EXPECT_EQ(later.find({"a"}, 3)->seconds, 1.5);
     EXPECT_EQ(later.find({"b", "kind of a"})->amount, 25);
     EXPECT_FALSE(later.find({"b"}));
     History other(folder / "c");
