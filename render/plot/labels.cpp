@@ -109,7 +109,7 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm)
         out.push_back(std::move(drive));
     if (problem.gravity == 0)
         out.emplace_back("no gravity");
-    else if (problem.gravity != sim::Problem{}.gravity)
+    else if (const double usual = sim::Problem{}.gravity; std::abs(problem.gravity - usual) > 1e-3 * usual)
         out.push_back(equation("g", power_text(problem.gravity) + "\u00A0m/s²"));
     if (problem.cam) {
         out.push_back(contact_piece(problem));
