@@ -1,7 +1,6 @@
 // `beamcam diff`: the difference of two pictures, sequences, films or tables.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <filesystem>
 #include <optional>
 

@@ -1,8 +1,4 @@
 // `beamcam hash`: digests of decoded pixels.
-#include <fmt/format.h>
-
-#include <optional>
-
 #include "output/files/descriptor.hpp"
 #include "output/files/digest.hpp"
 #include "output/film/picture_source.hpp"

@@ -1,7 +1,6 @@
 // `beamcam lyapunov`: the Lyapunov exponents of a motion.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 #include <optional>
 

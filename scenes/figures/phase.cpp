@@ -1,6 +1,5 @@
 // The phase portrait of the hub: the motion, and its mean over a period of the first bending mode.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <utility>
 

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <sstream>
 
 #include "output/files/atomic_file.hpp"
 #include "scenes/motions/identity.hpp"

@@ -3,12 +3,10 @@
 #include <fmt/format.h>
 #include <link.h>
 
-#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <set>
 #include <string_view>
-#include <type_traits>
 #include <variant>
 
 #include "output/files/digest.hpp"

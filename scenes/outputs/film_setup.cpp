@@ -27,17 +27,17 @@ std::shared_ptr<PoseSpool> stored(const std::vector<sim::Pose>& held, const sim:
     return poses;
 }
 
-render::Motion motion_of(const Pictures& p, const sim::Problem& problem, const PictureRequests& at,
-                         const StoredPoses& poses, sim::Result& result) {
+render::Motion motion_of(const Pictures& p, const Study& study, const StoredPoses& poses, sim::Result& result) {
     render::Motion motion;
-    motion.problem = problem;
-    motion.poses = std::move(result.poses[at.poses]);
-    motion.chart = std::move(result.tables[at.chart]);
-    if (at.trace) motion.trace = std::move(result.tables[*at.trace]);
+    motion.problem = study.problem;
+    motion.label = study.label;
+    motion.poses = std::move(result.poses[kFramePoses]);
+    motion.chart = std::move(result.tables[kChartTable]);
+    if (study.problem.cam) motion.trace = std::move(result.tables[kTraceTable]);
     motion.impacts = result.impacts;
     motion.end = result.end_time;
     motion.stored = poses.frames;
-    motion.survey = poses.survey;
+    motion.survey = poses.survey ? poses.survey : stored(result.poses[kSurveyPoses], study.request.poses[kSurveyPoses]);
     motion.exposures = p.view.poses();
     if (p.horizon)  // curves are paler where θ is not reproducible
         for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))
@@ -70,24 +70,24 @@ std::vector<render::FilmData> data_of(const Scene& scene) {
 }
 
 // The accuracy note is that of the least accurate motion.
-void add_compared(const Pictures& p, std::vector<sim::Result>& results, const std::vector<StoredPoses>& poses,
-                  render::FilmSetup& setup) {
+void add_motions(const Pictures& p, std::vector<sim::Result>& results, const std::vector<StoredPoses>& poses,
+                 render::FilmSetup& setup) {
     double worst = -1;
     std::string beyond;
-    for (std::size_t i = 0; i < p.compared.size(); ++i) {
-        const ComparedMotion& each = p.compared[i];
+    for (std::size_t i = 0; i < p.shown.size(); ++i) {
+        const sim::Problem& problem = p.shown[i].problem;
         sim::Result& result = results[i];
         const double share = result.energy_scale > 0 ? result.energy_residual_max / result.energy_scale : 0;
-        if (share > worst) worst = share, setup.accuracy_note = accuracy_note(each.problem, result);
-        if (result.beyond_model) beyond = beyond_model(each.problem);
-        render::Motion motion = motion_of(p, each.problem, each.of_picture, poses[i], result);
-        motion.label = each.label;
+        if (share > worst) worst = share, setup.accuracy_note = accuracy_note(problem, result);
+        if (result.beyond_model) beyond = beyond_model(problem);
+        render::Motion motion = motion_of(p, p.shown[i], poses[i], result);
         if (i == 0)
             static_cast<render::Motion&>(setup) = std::move(motion);
         else
             setup.others.push_back(std::move(motion));
     }
     if (setup.accuracy_note.find(" · bends beyond ") == std::string::npos) setup.accuracy_note += beyond;
+    setup.accuracy_note += paler_note(setup);
 }
 
 }  // namespace
@@ -118,20 +118,7 @@ render::FilmSetup film_setup(const Plan& plan, std::size_t picture, const Scene&
     setup.data = data_of(scene);
     setup.moves = p.moves;
     setup.view.strobe = p.view.strobe_every.has_value();
-    if (!p.compared.empty()) {
-        add_compared(p, results.compared[picture], results.compared_poses[picture], setup);
-        setup.accuracy_note += paler_note(setup);
-        return setup;
-    }
-    StoredPoses poses;
-    if (results.poses.empty())  // the results contain the poses
-        poses.survey = stored(results.run.poses[p.of_scene.survey], plan.simulation->request.poses[p.of_scene.survey]);
-    else
-        poses = results.poses[picture];
-    static_cast<render::Motion&>(setup) = motion_of(p, scene.problem, p.of_scene, poses, results.run);
-    setup.accuracy_note = accuracy_note(scene.problem, results.seen_by(p)) + paler_note(setup);
-    setup.impacts = results.seen_by(p).impacts;
-    setup.end = results.seen_by(p).end_time;
+    add_motions(p, results.shown[picture], results.poses[picture], setup);
     return setup;
 }
 

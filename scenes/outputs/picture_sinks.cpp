@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <mutex>
-#include <utility>
 
 #include "output/files/atomic_file.hpp"
 #include "output/image/png.hpp"

@@ -8,8 +8,8 @@ namespace beamcam::scenes {
 namespace {
 
 // The poses of a request go to disk as they are found.
-StoredPoses store_poses(sim::Request& request, const PictureRequests& of) {
-    sim::PoseRequest &all = request.poses[of.poses], &some = request.poses[of.survey];
+StoredPoses store_poses(sim::Request& request) {
+    sim::PoseRequest &all = request.poses[kFramePoses], &some = request.poses[kSurveyPoses];
     StoredPoses stored{std::make_shared<PoseSpool>(all), std::make_shared<PoseSpool>(some)};
     all.take = [to = stored.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
     some.take = [to = stored.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
@@ -26,28 +26,35 @@ Results PlanResults::of_figure(std::size_t figure) const {
 
 void PlanMotions::request_all() {
     if (plan_.simulation) {
-        std::vector<sim::Request> requests = requests_of(plan_);
-        for (const Pictures& p : plan_.pictures)
-            results_.poses.push_back(p.compared.empty() ? store_poses(requests.front(), p.of_scene) : StoredPoses{});
-        own_ = motions_.request(plan_.simulation->problem, std::move(requests));
+        std::vector<sim::Request> own = requests_of(plan_);
+        auto next = own.begin() + 1;
+        for (const Pictures& p : plan_.pictures) {
+            std::vector<StoredPoses>& stored = results_.poses.emplace_back(p.shown.size());
+            if (p.shown.front().of_scene) stored.front() = store_poses(*next++);
+        }
+        own_ = motions_.request(plan_.simulation->problem, std::move(own));
     }
     request_others();
 }
 
 void PlanMotions::request_others() {
+    results_.poses.resize(plan_.pictures.size());
+    for (std::size_t k = 0; k < plan_.pictures.size(); ++k) {
+        const Pictures& p = plan_.pictures[k];
+        results_.poses[k].resize(p.shown.size());
+        for (std::size_t i = 0; i < p.shown.size(); ++i) {
+            const Study& motion = p.shown[i];
+            if (motion.of_scene) continue;
+            sim::Request request = motion.request;
+            results_.poses[k][i] = store_poses(request);
+            others_.push_back(
+                motions_.request(motion.problem, {std::move(request)}, fmt::format("{}, {}", p.file, motion.label)));
+        }
+    }
     for (const FigureFile& f : plan_.figures)
         for (const Study& study : f.studies)
             if (!study.of_scene)
                 others_.push_back(motions_.request(study.problem, {study.request}, f.file, study.may_fail));
-    for (const Pictures& p : plan_.pictures) {
-        std::vector<StoredPoses>& stored = results_.compared_poses.emplace_back();
-        for (const ComparedMotion& each : p.compared) {
-            sim::Request request = each.request;
-            stored.push_back(store_poses(request, each.of_picture));
-            others_.push_back(
-                motions_.request(each.problem, {std::move(request)}, fmt::format("{}, {}", p.file, each.label)));
-        }
-    }
 }
 
 PlanResults PlanMotions::take_results() {
@@ -57,19 +64,15 @@ PlanResults PlanMotions::take_results() {
 PlanResults PlanMotions::take_results(std::vector<sim::Result> own) {
     auto next = own.begin();
     auto other = others_.begin();
-    const auto take_other = [&] { return std::move(motions_.take_results(*other++).front()); };
-    if (plan_.simulation) {
-        results_.run = std::move(*next++);
-        for (std::size_t i = 0; i < plan_.simulation->ends.size(); ++i) results_.ends.push_back(std::move(*next++));
-    }
-    for (const FigureFile& f : plan_.figures) {
-        std::vector<sim::Result>& all = results_.figures.emplace_back();
-        for (const Study& study : f.studies) all.push_back(study.of_scene ? std::move(*next++) : take_other());
-    }
-    for (const Pictures& p : plan_.pictures) {
-        std::vector<sim::Result>& all = results_.compared.emplace_back();
-        for (std::size_t i = 0; i < p.compared.size(); ++i) all.push_back(take_other());
-    }
+    if (plan_.simulation) results_.run = std::move(*next++);
+    const auto taken = [&](const std::vector<Study>& studies) {
+        std::vector<sim::Result> all;
+        for (const Study& study : studies)
+            all.push_back(std::move(study.of_scene ? *next++ : motions_.take_results(*other++).front()));
+        return all;
+    };
+    for (const Pictures& p : plan_.pictures) results_.shown.push_back(taken(p.shown));
+    for (const FigureFile& f : plan_.figures) results_.figures.push_back(taken(f.studies));
     return std::move(results_);
 }
 

@@ -18,15 +18,11 @@ struct StoredPoses {
 };
 
 struct PlanResults {
-    sim::Result run;                                       // of the scene's motion
-    std::vector<sim::Result> ends;                         // as Simulation::ends
-    std::vector<std::vector<sim::Result>> figures;         // one for each study of each figure
-    std::vector<std::vector<sim::Result>> compared;        // one for each motion of each picture
-    std::vector<StoredPoses> poses;                        // of each picture; empty if the results contain the poses
-    std::vector<std::vector<StoredPoses>> compared_poses;  // as `compared`
+    sim::Result run;                                // of the scene's motion
+    std::vector<std::vector<sim::Result>> shown;    // one for each motion of each picture
+    std::vector<std::vector<StoredPoses>> poses;    // the same; null where the results contain the poses
+    std::vector<std::vector<sim::Result>> figures;  // one for each study of each figure
 
-    // The run as if it ended with this picture.
-    const sim::Result& seen_by(const Pictures& p) const { return p.until ? ends.at(*p.until) : run; }
     Results of_figure(std::size_t figure) const;
 };
 

@@ -133,7 +133,7 @@ void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const 
     context.motions.compute();
     PlanResults results = motions.take_results(std::move(callbacks.results));
     for (std::size_t i = 0; i < plan.pictures.size() && callbacks.compared; ++i)
-        for (std::size_t k = 0; k < results.compared[i].size(); ++k) callbacks.compared(i, k, results.compared[i][k]);
+        for (std::size_t k = 0; k < plan.pictures[i].compare.size(); ++k) callbacks.compared(i, k, results.shown[i][k]);
     std::optional<SweepRun> sweep;
     if (!plan.sweep.empty()) {
         sweep.emplace(scene);

@@ -191,8 +191,10 @@ void SceneRun::write_pictures(std::size_t picture) {
     render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
     if (p.kind == Pictures::Kind::page) return write_document(p, render::html_page(setup));
     if (p.kind == Pictures::Kind::model) return write_document(p, render::glb_model(setup));
-    const SinkFiles to{scene_, files_, context_, accuracy_note(scene_.problem, results_.seen_by(p)),
-                       film_track(setup, p.view.lang)};
+    const SinkFiles to{
+        scene_, files_, context_,
+        accuracy_note(scene_.problem, p.compare.empty() ? results_.shown[picture].front() : results_.run),
+        film_track(setup, p.view.lang)};
     render::Film film(std::move(setup));
     if (const auto requested = p.view.exaggeration; requested && film.exaggeration_reduced())
         context_.print(

@@ -1,6 +1,5 @@
 #include <algorithm>
 #include <mutex>
-#include <utility>
 
 #include "output/files/atomic_file.hpp"
 #include "output/film/palette.hpp"

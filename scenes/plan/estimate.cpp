@@ -12,7 +12,7 @@ namespace beamcam::scenes {
 std::vector<std::string> picture_work(const Pictures& p, int threads) {
     std::string how = fmt::format("{} {}", kind_name(p.kind), view_name(p.view));
     if (p.kind == Pictures::Kind::video) how += ", " + encoding_text(p.encoding);
-    if (!p.compared.empty()) how += fmt::format(", {} motions", p.compared.size());
+    if (!p.compare.empty()) how += fmt::format(", {} motions", p.compare.size());
     return {fmt::format("{}, {} x {}, {} threads", how, p.size.width, p.size.height, threads)};
 }
 

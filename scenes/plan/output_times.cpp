@@ -159,13 +159,12 @@ FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& moti
 
 // Slow motion is around the impacts of all motions; "impact:N" counts those of the first motion.
 FilmTimes times_of_compared(Pictures& p, const FindEvents& find) {
-    const sim::Result first = find_events(p.compared.front().problem, events_request(p.end_time, needs_apexes(p)),
+    const sim::Result first = find_events(p.shown.front().problem, events_request(p.end_time, needs_apexes(p)),
                                           p.ends_at_event() ? bounds_of(p) : Bounds(), find);
     end_at_event(p, first);
-    for (ComparedMotion& each : p.compared) each.request.end_time = p.end_time;
     std::vector<sim::Impact> all = first.impacts;
-    for (std::size_t i = 1; i < p.compared.size(); ++i) {
-        const sim::Result other = find(p.compared[i].problem, events_request(p.end_time, false));
+    for (std::size_t i = 1; i < p.shown.size(); ++i) {
+        const sim::Result other = find(p.shown[i].problem, events_request(p.end_time, false));
         all.insert(all.end(), other.impacts.begin(), other.impacts.end());
     }
     std::ranges::stable_sort(all, {}, &sim::Impact::t_start);
@@ -209,21 +208,21 @@ void choose_frames(Pictures& p, const FilmTimes& times) {
         if (!p.existing.contains(k)) p.draw.push_back(static_cast<int>(k - begin));
 }
 
-void put_times(Pictures& p, sim::Request& request, FilmTimes times) {
+void put_times(Pictures& p, FilmTimes times) {
     choose_frames(p, times);
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
     p.moves = std::move(times.moves);
     p.unreached_events = std::move(times.unreached_events);
     p.poster = times.poster;
-    const auto put = [&times](sim::Request& into, const PictureRequests& at) {
-        into.poses[at.poses].times = times.exposures.empty() ? times.frames : times.exposures;
-        into.poses[at.survey].times = times.survey;
-        into.tables[at.chart].times = times.chart;
-        if (at.trace) into.tables[*at.trace].times = times.trace;
-    };
-    for (ComparedMotion& other : p.compared) put(other.request, other.of_picture);
-    if (p.compared.empty()) put(request, p.of_scene);
+    for (Study& motion : p.shown) {
+        sim::Request& request = motion.request;
+        request.end_time = p.end_time;
+        request.poses[kFramePoses].times = times.exposures.empty() ? times.frames : times.exposures;
+        request.poses[kSurveyPoses].times = times.survey;
+        request.tables[kChartTable].times = times.chart;
+        if (motion.problem.cam) request.tables[kTraceTable].times = times.trace;
+    }
 }
 
 // ---- all outputs -------------------------------------------------------------------------------
@@ -262,7 +261,7 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
     Bounds bounds;
     const auto add_bounds = [&](const Bounds& more) { bounds.insert(bounds.end(), more.begin(), more.end()); };
     for (const Pictures& p : plan.pictures)
-        if (!p.times_known && p.compared.empty()) add_bounds(bounds_of(p));
+        if (!p.times_known && p.compare.empty()) add_bounds(bounds_of(p));
     for (const FigureFile& f : plan.figures)
         if (const SeriesKeys& keys = output_of(f, scene).series; !f.times_known && keys.compare.empty())
             add_bounds(bounds_of(keys));
@@ -275,10 +274,9 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
         return *found;
     };
     resolve_each(plan.pictures, reject, [&](Pictures& p) {
-        sim::Request none;
-        if (!p.compared.empty()) return put_times(p, none, times_of_compared(p, find));
+        if (!p.compare.empty()) return put_times(p, times_of_compared(p, find));
         end_at_event(p, own());
-        put_times(p, plan.simulation->request, times_of(p, own()));
+        put_times(p, times_of(p, own()));
         plan.simulation->simulate_until(p.end_time, p.file);
     });
     resolve_each(plan.figures, reject, [&](FigureFile& f) {
@@ -291,7 +289,6 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
     });
     plan.events_until.reset();
     if (plan.simulation) plan.simulation->until_events.clear();
-    assign_ends(plan);
 }
 
 }  // namespace beamcam::scenes

@@ -11,8 +11,8 @@ namespace beamcam::scenes {
 FilmTimes times_of(const Pictures& p, const sim::Result& motion);
 // Chooses the frames to draw: the selected ones that are not up to date.
 void choose_frames(Pictures& p, const FilmTimes& times);
-// Adds the times to the requests for the motions; `request` is that of the scene's motion.
-void put_times(Pictures& p, sim::Request& request, FilmTimes times);
+// Adds the times to the requests for the motions.
+void put_times(Pictures& p, FilmTimes times);
 // Poses per second of a page between two times [s]: `fps`, or more for a short motion.
 FrameRate rate_of_page(FrameRate fps, double from, double to);
 

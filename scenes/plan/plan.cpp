@@ -48,9 +48,7 @@ std::optional<Cost> Plan::cost() const {
 }
 
 std::vector<double> Plan::times(const Pictures& p) const {
-    const sim::Request& request = p.compared.empty() ? simulation->request : p.compared.front().request;
-    const PictureRequests& at = p.compared.empty() ? p.of_scene : p.compared.front().of_picture;
-    const std::vector<double>& all = request.poses[at.poses].times;
+    const std::vector<double>& all = p.shown.front().request.poses[kFramePoses].times;
     std::vector<double> out;
     for (std::size_t i = 0; i < all.size(); i += p.view.poses()) out.push_back(all[i]);
     return out;
@@ -60,27 +58,13 @@ std::vector<sim::Request> requests_of(const Plan& plan) {
     std::vector<sim::Request> all;
     if (!plan.simulation) return all;
     all.push_back(plan.simulation->request);
-    for (double end : plan.simulation->ends) {
-        all.emplace_back();
-        all.back().end_time = end;
-    }
-    for (const FigureFile& figure : plan.figures)
-        for (const Study& study : figure.studies)
+    const auto add = [&all](const std::vector<Study>& studies) {
+        for (const Study& study : studies)
             if (study.of_scene) all.push_back(study.request);
+    };
+    for (const Pictures& p : plan.pictures) add(p.shown);
+    for (const FigureFile& f : plan.figures) add(f.studies);
     return all;
-}
-
-void assign_ends(Plan& plan) {
-    if (!plan.simulation) return;
-    std::vector<double>& ends = plan.simulation->ends;
-    ends.clear();
-    for (Pictures& p : plan.pictures) {
-        p.until.reset();
-        if (!p.compared.empty() || !(p.end_time < plan.simulation->request.end_time)) continue;
-        const auto at = std::ranges::find(ends, p.end_time);
-        p.until = static_cast<std::size_t>(at - ends.begin());
-        if (at == ends.end()) ends.push_back(p.end_time);
-    }
 }
 
 std::string why_panels_are_omitted(const Size& size) {

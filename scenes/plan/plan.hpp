@@ -44,47 +44,35 @@ struct ExistingWork {
 // The simulation of one motion, for all outputs that need it.
 struct Simulation {
     sim::Problem problem;
-    sim::Request request = {};       // of the scene's motion; of another, which its outputs request, only the end
+    sim::Request request = {};       // for data files of the scene's motion; of other motions only the end
     std::string label = {};          // of a compared motion
     std::string until_because = {};  // the output that needs the latest time: "fall.mp4"
     // Events with unknown times at which outputs end: "impact 3, for f.pdf".
     std::vector<std::string> until_events = {};
-    // Ends of pictures before the end of the run: each reports impacts and energy as if the run ended with it.
-    std::vector<double> ends = {};  // [s], distinct
-    bool horizon = false;           // the reproducible horizon is needed, by further runs
-    bool from_cache = false;        // the cached trajectory is long enough
-    bool keep = false;              // the trajectory goes into the cache
+    bool horizon = false;     // the reproducible horizon is needed, by further runs
+    bool from_cache = false;  // the cached trajectory is long enough
+    bool keep = false;        // the trajectory goes into the cache
     std::optional<Cost> cost = {};
 
     void simulate_until(double t, const std::string& file);
 };
 
-// What a picture requests of a motion: indices into its request.
-struct PictureRequests {
-    std::size_t poses = 0;             // into Request::poses: the frames
-    std::size_t survey = 0;            // into Request::poses: for the choice of scales
-    std::size_t chart = 0;             // into Request::tables: channels of the panels
-    std::optional<std::size_t> trace;  // into Request::tables: t, contact_x, contact_s, contact_force; with a cam
-};
-
-// One of the motions that a picture compares.
-struct ComparedMotion : Study {
-    PictureRequests of_picture = {};
-};
+// The parts of the request for a motion that a picture shows.
+constexpr std::size_t kFramePoses = 0, kSurveyPoses = 1;  // of Request::poses; the survey is for the choice of scales
+// Of Request::tables: channels of the panels; with a cam t, contact_x, contact_s, contact_force.
+constexpr std::size_t kChartTable = 0, kTraceTable = 1;
 
 // An output with pictures of the mechanism, as this run makes it.
 struct Pictures : PictureOutput {
-    std::size_t output = 0;   // index into the scene's outputs
-    bool collisions = false;  // a strip shows one collision at a time
-    bool times_known = true;  // false: they depend on events that have to be found first
-    double end_time = 0;      // last time that it needs; an upper bound while times_known is false [s]
-    long first_frame = 0;     // number of the first frame
-    Selection selection;      // the requested frames
-    std::set<long> existing;  // numbers of the up-to-date frames
-    std::vector<int> draw;    // frames to draw, ascending; camera and scales depend on all frames
-    std::string part;         // of a film: "30:60 of 0:90"; empty: all of it
-    // Index into Simulation::ends; nullopt: it ends with the run, or compares motions.
-    std::optional<std::size_t> until;
+    std::size_t output = 0;      // index into the scene's outputs
+    bool collisions = false;     // a strip shows one collision at a time
+    bool times_known = true;     // false: they depend on events that have to be found first
+    double end_time = 0;         // last time that it needs; an upper bound while times_known is false [s]
+    long first_frame = 0;        // number of the first frame
+    Selection selection;         // the requested frames
+    std::set<long> existing;     // numbers of the up-to-date frames
+    std::vector<int> draw;       // frames to draw, ascending; camera and scales depend on all frames
+    std::string part;            // of a film: "30:60 of 0:90"; empty: all of it
     std::optional<int> poster;   // of a video: the frame that is also written to poster_file, as in `draw`
     std::string poster_file;     // empty: none
     std::string subtitles_file;  // empty: none
@@ -94,8 +82,7 @@ struct Pictures : PictureOutput {
     std::vector<std::string> unreached_events;  // events outside the film: "impact 3"
     std::string omitted_panels;                 // panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
-    std::vector<ComparedMotion> compared;  // the motions of a comparison
-    PictureRequests of_scene;              // of the scene's motion, unless the picture compares motions
+    std::vector<Study> shown;  // the scene's motion, or those of a comparison
     std::optional<Cost> cost;
 
     bool makes_poster() const;  // the poster is among the drawn frames
@@ -163,11 +150,8 @@ struct Plan {
 
 Plan plan(const Scene& scene, const Selection& selection = {}, const ExistingWork& existing = {});
 
-// The requests for the scene's motion: the run itself, then Simulation::ends, then the studies of the figures.
+// The requests for the scene's motion: for data files, then those of the pictures and figures that show it.
 std::vector<sim::Request> requests_of(const Plan& plan);
-
-// Fills Simulation::ends and Pictures::until.
-void assign_ends(Plan& plan);
 
 // The reason for Pictures::omitted_panels.
 std::string why_panels_are_omitted(const Size& size);

@@ -90,11 +90,10 @@ Plan Planner::make() {
 
 void Planner::finish_simulation() {
     simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
-    for (const sim::Request& of_figure : figure_requests_)
-        simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, of_figure);
+    for (const sim::Request& request : study_requests_)
+        simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, request);
     resolve_cache_use(simulation_);
     plan_.simulation = std::move(simulation_);
-    assign_ends(plan_);
 }
 
 // On entry `keep` is true if the motion is worth caching.
@@ -144,47 +143,30 @@ void Planner::add(Pictures p, double end) {
         add_skipped_frames(p, times.frames.size());
         if (p.draw.empty()) return;
     }
-    if (p.compare.empty())
-        add_own_motion(p, end);
-    else
-        add_compared(p);
+    if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .of_scene = true});
+    for (const Compared& each : p.compare) p.shown.push_back({.problem = each.problem, .label = each.label});
+    for (Study& motion : p.shown) {
+        add_requests(p, motion);
+        add_study(motion, p.file, p.ends_at_event() ? p.span.to_event : std::nullopt, motion.label);
+    }
     if (p.times_known)
-        put_times(p, simulation_.request, std::move(times));
+        put_times(p, std::move(times));
     else
         find_events(end, !p.ends_at_event());
     plan_.pictures.push_back(std::move(p));
 }
 
-void Planner::add_own_motion(Pictures& p, double end) {
-    p.ends_at_event() ? simulate_until(*p.span.to_event, p.file) : simulate_until(end, p.file);
-    if (p.horizon) require_horizon();
-    p.of_scene = add_requests(p, scene_.problem, simulation_.request);
-}
-
-void Planner::add_compared(Pictures& p) {
-    for (const Compared& each : p.compare) {
-        ComparedMotion& motion = p.compared.emplace_back(ComparedMotion{{each.problem, {}, each.label}});
-        motion.request.end_time = p.end_time;
-        motion.request.horizon = p.horizon;
-        motion.of_picture = add_requests(p, each.problem, motion.request);
-        add_other(motion, p.file).label = each.label;
-    }
-}
-
 // The times follow (put_times).
-PictureRequests Planner::add_requests(const Pictures& p, const sim::Problem& problem, sim::Request& request) const {
-    PictureRequests added{request.poses.size(), request.poses.size() + 1, request.tables.size(), {}};
-    request.poses.push_back({});
-    request.poses.push_back(survey());
-    request.tables.push_back({{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))});
-    if (!problem.cam) return added;
-    added.trace = request.tables.size();
-    request.tables.push_back({{}, kTraceChannels});
-    return added;
+void Planner::add_requests(const Pictures& p, Study& motion) const {
+    motion.request.end_time = p.end_time;
+    motion.request.horizon = p.horizon;
+    motion.request.poses = {{}, survey()};
+    motion.request.tables = {{{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))}};
+    if (motion.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
 }
 
 void Planner::add(FigureFile figure) {
-    for (const Study& study : figure.studies) add_study(study, figure);
+    for (const Study& study : figure.studies) add_study(study, figure.file, figure.ends_at);
     plan_.figures.push_back(std::move(figure));
 }
 
@@ -193,26 +175,23 @@ void Planner::find_events(double until, bool all) {
     plan_.all_events = plan_.all_events || all;
 }
 
-void Planner::add_study(const Study& study, const FigureFile& figure) {
-    if (!study.of_scene) {
-        add_other(study, figure.file);
+// Studies of the same motion share one simulation.
+void Planner::add_study(const Study& study, const std::string& file, const std::optional<Instant>& ends_at,
+                        const std::string& label) {
+    if (study.of_scene) {
+        ends_at ? simulate_until(*ends_at, file) : simulate_until(end_of(study.request), file);
+        study_requests_.push_back(study.request);
+        simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
     }
-    figure.ends_at ? simulate_until(*figure.ends_at, figure.file) : simulate_until(end_of(study.request), figure.file);
-    figure_requests_.push_back(study.request);
-    simulation_.horizon = simulation_.horizon || study.request.horizon;
-}
-
-// Studies of the same motion share one simulation.
-Simulation& Planner::add_other(const Study& study, const std::string& file) {
     const std::string key = Studies::key(study.problem);
     auto same =
         std::ranges::find_if(plan_.others, [&](const Simulation& other) { return Studies::key(other.problem) == key; });
     if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem});
     same->simulate_until(end_of(study.request), file);
+    if (!label.empty()) same->label = label;
     same->horizon = same->horizon || study.request.horizon;
     same->keep = same->keep || worth_keeping(study.problem, study.request);
-    return *same;
 }
 
 // ---- what is skipped ---------------------------------------------------------------------------
@@ -225,7 +204,7 @@ void Planner::add_skipped_frames(const Pictures& p, std::size_t count) {
 }
 
 void Planner::add_skipped_stages() {
-    const bool compares = std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compared.empty(); });
+    const bool compares = std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compare.empty(); });
     if (!needed_ && !compares && !plan_.others.empty())
         return skip("simulation of the scene itself", "its figures show only variants of it");
     if (!needed_)
@@ -259,7 +238,7 @@ void Planner::add_unread_channels() {
         const auto in_tables = [&](const sim::Request& some) {
             return std::ranges::any_of(some.tables, [&](const sim::TableRequest& t) { return holds(t.channels); });
         };
-        return holds(request.extrema) || in_tables(request) || std::ranges::any_of(figure_requests_, in_tables);
+        return holds(request.extrema) || in_tables(request) || std::ranges::any_of(study_requests_, in_tables);
     };
     const auto unread = std::count_if(every.begin(), every.end(),
                                       [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });

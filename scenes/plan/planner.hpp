@@ -40,11 +40,9 @@ class Planner {
   private:
     void finish_simulation();
     void resolve_cache_use(Simulation& simulation) const;
-    void add_study(const Study& study, const FigureFile& figure);
-    Simulation& add_other(const Study& study, const std::string& file);
-    void add_own_motion(Pictures& p, double end);
-    void add_compared(Pictures& p);
-    PictureRequests add_requests(const Pictures& p, const sim::Problem& problem, sim::Request& request) const;
+    void add_study(const Study& study, const std::string& file, const std::optional<Instant>& ends_at,
+                   const std::string& label = {});
+    void add_requests(const Pictures& p, Study& motion) const;
     void add_skipped_frames(const Pictures& p, std::size_t count);
     void add_skipped_stages();
     void add_unread_channels();
@@ -54,7 +52,7 @@ class Planner {
     const ExistingWork& existing_;
     Plan plan_;
     Simulation simulation_;
-    std::vector<sim::Request> figure_requests_;  // for the scene's motion
+    std::vector<sim::Request> study_requests_;  // of pictures and figures, for the scene's motion
     bool needed_ = false;
     int finished_ = 0;
 };

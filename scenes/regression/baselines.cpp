@@ -5,7 +5,6 @@
 #include <fnmatch.h>
 
 #include <algorithm>
-#include <set>
 
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/reader.hpp"

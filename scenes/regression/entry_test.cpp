@@ -101,8 +101,8 @@ void EntryTest::request_record() {
 
 void EntryTest::request_compared_records() {
     for (Pictures& p : plan_.pictures)
-        for (std::size_t i = 0; i < p.compared.size(); ++i) {
-            ComparedMotion& other = p.compared[i];
+        for (std::size_t i = 0; i < p.compare.size(); ++i) {
+            Study& other = p.shown[i];
             other.request.tables.push_back(motion_.compared_table(i, other.problem, p.end_time));
             if (needs_horizon()) other.request.horizon = true;
         }
@@ -121,7 +121,7 @@ void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
         callbacks.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
             const Pictures& shown = plan_.pictures[picture];
             require_reproducible(result, shown.end_time);
-            motion_.judge_compared(index, shown.compared[index].label, result.tables.back(), result.impacts,
+            motion_.judge_compared(index, shown.compare[index].label, result.tables.back(), result.impacts,
                                    result.reproducible_until);
         };
     options.no_cache = true;  // the test runs the present program

@@ -416,7 +416,7 @@ TEST(Films, ScalesComeFromTheSameInstantsAtAnyFrameRate) {
     const auto surveyed = [](const std::string& output) {
         const Reading reading = testing::read(R"({"time": {"end": 1}, "outputs": [)" + output + "]}");
         const Plan made = plan(*reading.scene);
-        return made.simulation->request.poses.at(made.pictures.front().of_scene.survey).times;
+        return made.pictures.front().shown.front().request.poses.at(kSurveyPoses).times;
     };
     const auto thirty = surveyed(R"({"type": "video", "fps": 30, "from": 0.2, "to": 0.4})"),
                sixty = surveyed(R"({"type": "video", "fps": 60, "from": 0.2, "to": 0.4})");
@@ -434,8 +434,10 @@ TEST(Films, AStillOfAnImpactIsExaggeratedAsTheFilmIs) {
     resolve_event_times(made, *reading.scene, [](const sim::Problem& problem, const sim::Request& request) {
         return sim::simulate(problem, request);
     });
-    const auto& poses = made.simulation->request.poses;
-    EXPECT_EQ(poses.at(made.pictures[0].of_scene.survey).times, poses.at(made.pictures[1].of_scene.survey).times);
+    const auto survey = [&](std::size_t i) {
+        return made.pictures[i].shown.front().request.poses.at(kSurveyPoses).times;
+    };
+    EXPECT_EQ(survey(0), survey(1));
 }
 
 // ---- how long films last, and what goes with them --------------------------------------------

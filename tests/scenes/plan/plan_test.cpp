@@ -26,6 +26,8 @@ Plan plan_of(const std::string& outputs, const std::string& physics = "") {
     return plan(scene_of("{" + physics + "\"outputs\": " + outputs + "}"));
 }
 
+const sim::Request& shown_by(const Pictures& pictures) { return pictures.shown.front().request; }
+
 std::string text_of(const std::string& scene_text) {
     const Scene scene = scene_of(scene_text);
     return to_text(plan(scene));
@@ -66,7 +68,7 @@ TEST(Plan, SimulationEndsWhereTheLastOutputLooks) {
 TEST(Plan, FramesAreAtMultiplesOfTheFramePeriod) {
     const Plan p = plan_of(R"([{"type": "frames", "fps": 10, "from": 0.2, "to": 0.5}])");
     EXPECT_EQ(p.pictures[0].first_frame, 2);
-    EXPECT_THAT(p.simulation->request.poses[0].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
+    EXPECT_THAT(shown_by(p.pictures[0]).poses[kFramePoses].times, ElementsAre(2 / 10.0, 3 / 10.0, 4 / 10.0));
     EXPECT_EQ(plan_of(R"([{"type": "video"}])", R"("time": {"end": 10},)").pictures.front().draw.size(), 600u);
     EXPECT_EQ(plan_of(R"([{"type": "video", "fps": 29.97}])", R"("time": {"end": 10},)").pictures.front().draw.size(),
               300u);
@@ -94,16 +96,23 @@ TEST(Plan, AFlatViewNeedsNoOpenGl) {
 }
 
 TEST(Plan, WithoutACamThereIsNoTraceOfTheContact) {
-    EXPECT_FALSE(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0].of_scene.trace);
-    EXPECT_TRUE(plan_of(R"([{"type": "video"}])").pictures[0].of_scene.trace);
+    EXPECT_EQ(shown_by(plan_of(R"([{"type": "video"}])", "\"cam\": null,").pictures[0]).tables.size(), kTraceTable);
+    EXPECT_EQ(shown_by(plan_of(R"([{"type": "video"}])").pictures[0]).tables.size(), kTraceTable + 1);
 }
 
 TEST(Plan, OneSimulationServesEveryOutput) {
     const Plan p = plan_of(
         R"([{"type": "video", "file": "a.mp4"}, {"type": "still", "at": 0.2}, {"type": "trajectory"}, {"type": "summary"}])");
-    EXPECT_EQ(p.simulation->request.poses.size(), 4U);   // of each its frames, and what its scales are chosen by
-    EXPECT_EQ(p.simulation->request.tables.size(), 5u);  // chart and trace of each picture, and the table
-    EXPECT_NE(p.pictures[0].of_scene.poses, p.pictures[1].of_scene.poses);
+    EXPECT_TRUE(p.others.empty());
+    EXPECT_EQ(p.simulation->request.tables.size(), 1u);
+    EXPECT_EQ(requests_of(p).size(), 3u);  // of the table and the summary, and of each picture
+}
+
+TEST(Plan, TheHorizonThatAPictureShowsDoesNotChangeTheSummary) {
+    const Plan p = plan_of(R"([{"type": "video", "horizon": true}, {"type": "summary"}])");
+    EXPECT_TRUE(shown_by(p.pictures[0]).horizon);
+    EXPECT_FALSE(p.simulation->request.horizon);
+    EXPECT_TRUE(p.simulation->horizon);
 }
 
 // ---- golden texts ------------------------------------------------------------------------------
@@ -260,7 +269,7 @@ TEST(Plan, ShardsCoverEveryFrameOnce) {
             ASSERT_EQ(p.pictures.size(), 1u);
             all.insert(all.end(), p.pictures[0].draw.begin(), p.pictures[0].draw.end());
             // Scales and camera are those of the whole film.
-            EXPECT_EQ(p.simulation->request.poses[0].times.size(), 24u);
+            EXPECT_EQ(shown_by(p.pictures[0]).poses[kFramePoses].times.size(), 24u);
         }
         EXPECT_EQ(all.size(), 24u);
         EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
@@ -287,10 +296,9 @@ TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {
 TEST(Plan, PicturesThatEndBeforeTheRunReportOnlyTheirPart) {
     const Plan p = plan_of(
         R"([{"type": "video", "file": "a.mp4", "to": 0.5}, {"type": "video", "file": "b.mp4"}, {"type": "still", "at": 0.5}])");
-    EXPECT_THAT(p.simulation->ends, ElementsAre(0.5));
-    EXPECT_EQ(p.pictures[0].until, 0u);
-    EXPECT_FALSE(p.pictures[1].until);
-    EXPECT_EQ(p.pictures[2].until, 0u);
+    std::vector<double> ends;
+    for (const sim::Request& request : requests_of(p)) ends.push_back(request.end_time);
+    EXPECT_THAT(ends, ElementsAre(1.5, 0.5, 1.5, 0.5));  // of the run, then of each picture
 }
 
 }  // namespace
