@@ -145,6 +145,7 @@ double rest_after_bounces(const PressedBeam& b, double speed) {
 }
 
 TEST(OrbitChanges, RestOnTheCamEndsWhereTheBouncesNoLongerDieOutInTime) {
+    SKIP_UNDER_SANITIZERS();
     const PressedBeam b;
     const double expected = find_root([&](double w) { return rest_after_bounces(b, w); }, 46.0, 56.0);
     const Family family = [&](double speed) {
@@ -213,6 +214,7 @@ std::optional<PeriodicOrbit> no_saddle(const Problem& problem) {
 }
 
 TEST(OrbitChanges, ANeimarkSackerPointPartsConvergingFromDivergingMotions) {
+    SKIP_UNDER_SANITIZERS();
     const BendingBeam family;
     const auto start = no_saddle(family(0.32));
     ASSERT_TRUE(start.has_value());
