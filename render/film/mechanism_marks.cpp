@@ -22,10 +22,12 @@ bool meets(const Box& box, Vec2 from, Vec2 to) {
     return false;
 }
 
-// The place of the force's label. If the edge of the view moves it onto its arrow, it goes to the other side of the
-// arrow.
+// The place of the force's label. Before a near camera it moves away with the beam's back. If the edge of the view
+// moves it onto its arrow, it goes to the other side of the arrow.
 LabelPlace beside_arrow(const MechanismScene& s, const ForceArrow& arrow, Vec2 foot, Vec2 tip) {
     LabelPlace label = *s.at.labels->force;
+    if (dot(label.middle - label.base, arrow.normal) > 0)
+        label.middle += arrow.normal * (s.at.look.depth * std::max(0.0, s.at.zoom() - 1));
     const auto is_clear = [&] { return !meets(s.at.label_box(label, s.view, arrow.foot), foot, tip); };
     if (!s.at.moved || is_clear()) return label;
     const LabelPlace usual = label;

@@ -57,8 +57,8 @@ void force_rows(const FilmContext& context, int member, ChartCurve& curve) {
     }
     const auto by_time = [&] { std::ranges::stable_sort(rows, {}, [](const ForceRow& r) { return r[0]; }); };
     by_time();
-    const auto same = std::ranges::unique(rows, {}, [](const ForceRow& r) { return r[0]; });
-    rows.erase(same.begin(), same.end());
+    rows.erase(std::unique(rows.begin(), rows.end(), [](const ForceRow& a, const ForceRow& b) { return a[0] == b[0]; }),
+               rows.end());
     const auto sampled = static_cast<std::ptrdiff_t>(rows.size());
     for (const sim::Impact& i : one.impacts) {
         if (!i.force_peak || !i.t_end || sampled == 0 || *i.t_end > rows[static_cast<std::size_t>(sampled) - 1][0])

@@ -69,14 +69,14 @@ struct Command {
     Parameter& positional(std::string name, Target target, std::string meaning);
     // An option whose words are the names of an enumeration.
     template <class Enum, std::size_t n>
-    Parameter& choice(std::string names, Enum& target, const sim::Named<Enum> (&words)[n], std::string value,
-                      std::string meaning) {
+    Parameter& choice(const std::string& names, Enum& target, const sim::Named<Enum> (&words)[n],
+                      const std::string& value, const std::string& meaning) {
         std::vector<std::string> allowed;
         for (const sim::Named<Enum>& each : words) allowed.emplace_back(each.name);
         const auto store = [&target, &words](const std::string& word) {
             target = std::ranges::find(words, word, &sim::Named<Enum>::name)->value;
         };
-        return option(std::move(names), store, std::move(value), std::move(meaning)).one_of(std::move(allowed));
+        return option(names, store, value, meaning).one_of(std::move(allowed));
     }
 
     template <class Arguments, class Code>
