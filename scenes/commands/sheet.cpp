@@ -37,8 +37,9 @@ struct Grid {
     }
     int total_height() const { return gap + rows * (height + label + gap); }
     render::Box at(int k) const {
-        return {double(gap + k % columns * (width + gap)), double(gap + k / columns * (height + label + gap)),
-                double(width), double(height)};
+        const int column = k % columns, row = k / columns;
+        return {double(gap + column * (width + gap)), double(gap + row * (height + label + gap)), double(width),
+                double(height)};
     }
 };
 
