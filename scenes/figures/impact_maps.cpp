@@ -58,16 +58,15 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& proble
     hub.y.from.reset();
     spread_ratios(loss);
     return {
-        {std::move(loss),
+        {loss,
          {"coefficient of restitution of each impact (the ratio of its normal speeds after and before) against its "
           "approach speed",
           "各次冲击的恢复系数（分离速度与接近速度之比）与接近速度"}},
-        {std::move(next),
+        {next,
          {"approach speed of each collision, $k$ + 1, against that of the one before, $k$",
           "相邻碰撞（第 $k$、$k$ + 1 次）的接近速度"}},
-        {std::move(phase),
-         {"approach speed of each impact against the phase of the cam", "各次冲击的接近速度与凸轮相位"}},
-        {std::move(hub),
+        {phase, {"approach speed of each impact against the phase of the cam", "各次冲击的接近速度与凸轮相位"}},
+        {hub,
          {"hub speed $\\dot{θ}$ at the touch against the phase of the cam", "接触时的角速度 $\\dot{θ}$ 与凸轮相位"}}};
 }
 
