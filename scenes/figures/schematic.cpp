@@ -74,12 +74,12 @@ double room(const sim::Cam& cam, const DiscSymbols& s, double letter) {
     double least = 1;
     for (std::size_t a = 0; a < std::size(labels); ++a) {
         for (std::size_t b = 0; b < a; ++b) least = std::min(least, norm(labels[a] - labels[b]));
-        for (double share = 0.2; a > 0 && share < 1; share += 0.1)
-            least = std::min(least, norm(labels[a] - share * s.radius) + 0.3 * letter);
+        for (int tenth = 2; a > 0 && tenth <= 10; ++tenth)
+            least = std::min(least, norm(labels[a] - 0.1 * tenth * s.radius) + 0.3 * letter);
     }
     for (const Vec2 foot : {c, Vec2{0, 0}})  // the lines of the dimension e
-        for (double share = 0.1; share < 0.4; share += 0.1)
-            least = std::min(least, norm(labels[0] - foot - share * across) + 0.3 * letter);
+        for (int tenth = 1; tenth <= 3; ++tenth)
+            least = std::min(least, norm(labels[0] - foot - 0.1 * tenth * across) + 0.3 * letter);
     return least;
 }
 

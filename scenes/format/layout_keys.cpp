@@ -166,7 +166,7 @@ int depth_of(const LayoutNode& node) {
 
 void visit(SceneVisitor& v, LayoutNode& node) {
     using Kind = LayoutNode::Kind;
-    const auto shape = [&](Kind kind, const char* meaning, std::function<void(SceneVisitor&)> keys) {
+    const auto shape = [&](Kind kind, const char* meaning, const std::function<void(SceneVisitor&)>& keys) {
         return sim::Alternative{{}, meaning, node.kind == kind, [&node, kind, keys](sim::Visitor& inside) {
                                     node.kind = kind;
                                     keys(static_cast<SceneVisitor&>(inside));

@@ -91,7 +91,7 @@ Node array_node(std::vector<Node> items) {
 }
 Node object_node(std::vector<std::pair<std::string, Node>> members) {
     Node node = of_kind(Node::Kind::object);
-    for (auto& [key, value] : members) add(node, std::move(key), std::move(value));
+    for (auto& member : members) add(node, std::move(member.first), std::move(member.second));
     return node;
 }
 void add(Node& object, std::string key, Node value) { object.members.add({std::move(key), {}, std::move(value)}); }
