@@ -261,8 +261,7 @@ class SweepComparer {
             return ta.empty() == tb.empty() ? "" : "samples appeared or vanished";
         const double from = std::min(ta.front(), tb.front()), to = std::max(ta.back(), tb.back());
         const Blocks in_a(ta, from, to), in_b(tb, from, to);
-        if (const std::string why = compared("number of samples a block", in_a.number(), in_b.number(), 1);
-            !why.empty())
+        if (std::string why = compared("number of samples a block", in_a.number(), in_b.number(), 1); !why.empty())
             return why;
         const MeanEstimate before{a_.at(a, "exponent"), a_.at(a, "exponent_error")},
             after{b_.at(b, "exponent"), b_.at(b, "exponent_error")};
