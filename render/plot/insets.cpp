@@ -72,18 +72,16 @@ double PanelDrawing::place_insets() {
     return cost;
 }
 
-PanelDrawing PanelDrawing::inset(std::size_t i) const {
-    const auto& [outer, width, height] = *insets_[i];
-    PanelDrawing inner(panel_.insets[i].panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
-    if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
-    return inner;
-}
-
 // Below the curves, which may reach into the empty edge of an inset.
-void PanelDrawing::draw_inset_backgrounds() const {
+std::deque<PanelDrawing> PanelDrawing::draw_inset_backgrounds() const {
+    std::deque<PanelDrawing> out;
     for (std::size_t i = 0; i < panel_.insets.size(); ++i) {
         if (!insets_[i]) continue;
-        const Box outer = insets_[i]->outer, plot = inset(i).plot_;
+        const auto& [outer, width, height] = *insets_[i];
+        PanelDrawing& inner =
+            out.emplace_back(panel_.insets[i].panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
+        if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
+        const Box& plot = inner.plot_;
         sheet_.rectangle(outer);
         sheet_.fill(kWhite);
         if (const auto& source = panel_.insets[i].source) {
@@ -100,11 +98,7 @@ void PanelDrawing::draw_inset_backgrounds() const {
             sheet_.fill(kWhite);
         }
     }
-}
-
-void PanelDrawing::draw_insets() const {
-    for (std::size_t i = 0; i < panel_.insets.size(); ++i)
-        if (insets_[i]) inset(i).draw();
+    return out;
 }
 
 }  // namespace beamcam::render::figure

@@ -260,7 +260,7 @@ bool PanelDrawing::place_direct() {
 
 void PanelDrawing::draw() {
     sheet_.clip(plot_, [&] { draw_backgrounds(); });
-    draw_inset_backgrounds();
+    std::deque<PanelDrawing> insets = draw_inset_backgrounds();
     sheet_.clip(plot_, [&] {
         for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, axes_, sheet_);
         for (const DrawnCurve& curve : curves_) curve.draw(style_, sheet_);
@@ -272,7 +272,7 @@ void PanelDrawing::draw() {
         if (!inside(plot_, p, 1)) continue;
         draw_marker(sheet_, style_, look(m.look).marker, p, 1.1 * style_.marker, look(m.look).color, m.hollow);
     }
-    draw_insets();
+    for (PanelDrawing& inset : insets) inset.draw();
     for (const Writing& w : writings_) {
         if (w.leader) {
             sheet_.line(w.leader->first, w.leader->second, {kMuted, 0.6 * style_.frame, {}, Cap::butt});

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <deque>
 #include <string>
 #include <vector>
 
@@ -46,9 +47,7 @@ class PanelDrawing {
     double crowding(const Box& box, const DrawnCurve& own) const;
 
     void draw_backgrounds();
-    PanelDrawing inset(std::size_t i) const;
-    void draw_inset_backgrounds() const;
-    void draw_insets() const;
+    std::deque<PanelDrawing> draw_inset_backgrounds() const;  // returns the insets, to be drawn
 
     const Panel& panel_;
     const PrintStyle& style_;

@@ -161,7 +161,11 @@ double ExponentialSegment::coordinate(double t, std::size_t index, double* y) co
     return x[static_cast<int>(mode % kNodes)];
 }
 
-void ExponentialSegment::value(double t, double* y) const {
+void ExponentialSegment::value(double t, double* y) const { evaluate(t, ledger_changes, y); }
+void ExponentialSegment::value_without_ledger(double t, double* y) const { evaluate(t, false, y); }
+
+// With the ledger at t, or that of the start of the step.
+void ExponentialSegment::evaluate(double t, bool ledger, double* y) const {
     if (t == t1) {
         std::copy(end.begin(), end.end(), y);
         return;
@@ -169,25 +173,6 @@ void ExponentialSegment::value(double t, double* y) const {
     const double s = (t - t0) / h;
     Lanes weights;
     Collocation::get().weights_to(s, weights);
-    modal_state(t, s, weights, y);
-    if (ledger_changes) ledger_at(t, s, weights, y);
-    form_->to_coordinates(y);
-}
-
-void ExponentialSegment::value_without_ledger(double t, double* y) const {
-    if (t == t1) {
-        std::copy(end.begin(), end.end(), y);
-        return;
-    }
-    const double s = (t - t0) / h;
-    Lanes weights;
-    Collocation::get().weights_to(s, weights);
-    modal_state(t, s, weights, y);
-    form_->to_coordinates(y);
-}
-
-// The state at t = t0 + sh with the ledger of t0; coordinates are the modes.
-void ExponentialSegment::modal_state(double t, double s, const Lanes& weights, double* y) const {
     double* rates = y + 1 + n_;
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes x, dx;
@@ -207,6 +192,8 @@ void ExponentialSegment::modal_state(double t, double s, const Lanes& weights, d
     }
     for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);
+    if (ledger) ledger_at(t, s, weights, y);
+    form_->to_coordinates(y);
 }
 
 }  // namespace beamcam::sim

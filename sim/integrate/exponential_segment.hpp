@@ -64,7 +64,7 @@ class ExponentialSegment final : public StoredSegment {
     void transpose() const;
     int last_point(double t, double s) const;
     void expand(int point) const;
-    void modal_state(double t, double s, const Lanes& weights, double* y) const;
+    void evaluate(double t, bool ledger, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     double work_on(std::size_t mode, const double* g, double s, const double* y) const;

@@ -478,6 +478,19 @@ FlightSample flight_sample(System& system, const Segment& segment, double t) {
     return s;
 }
 
+// Turning and vibrating; faster vibration is smaller.
+std::vector<double> vibrating_state(const System& system, Dice& dice) {
+    std::vector<double> y(static_cast<std::size_t>(system.size));
+    const auto n = static_cast<std::size_t>(system.coordinates());
+    y[0] = dice.about_zero(3);
+    y[n] = dice.about_zero(10);
+    for (std::size_t i = 1; i < n; ++i) {
+        y[i] = dice.about_zero(0.05 / static_cast<double>(i * i));
+        y[n + i] = dice.about_zero(3.0 / static_cast<double>(i));
+    }
+    return y;
+}
+
 TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
     constexpr int kSamples = 60;
     constexpr double kSlack = 1 + 1e-9;
@@ -495,14 +508,7 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
         System system(p);
         const double rtol = std::pow(10, dice.between(-8, -3));
         const auto integrator = make_exponential(system, rtol, 1e-3 * rtol);
-        std::vector<double> y(static_cast<std::size_t>(system.size));
-        const auto n = static_cast<std::size_t>(system.coordinates());
-        y[0] = dice.about_zero(3);
-        y[n] = dice.about_zero(10);
-        for (std::size_t i = 1; i < n; ++i) {
-            y[i] = dice.about_zero(0.05 / static_cast<double>(i * i));
-            y[n + i] = dice.about_zero(3.0 / static_cast<double>(i));
-        }
+        const std::vector<double> y = vibrating_state(system, dice);
         integrator->start(0, y.data());
         for (int step = 0; step < 25; ++step) {
             const Segment& segment = integrator->step();
@@ -542,15 +548,9 @@ struct VibratingFlight {
     std::vector<double> y;
     std::unique_ptr<Integrator> integrator;
 
-    explicit VibratingFlight(Dice& dice) : system(problem(dice)), y(static_cast<std::size_t>(system.size)) {
+    explicit VibratingFlight(Dice& dice) : system(problem(dice)) {
         const double rtol = std::pow(10, dice.between(-8, -3));
-        const auto n = static_cast<std::size_t>(system.coordinates());
-        y[0] = dice.about_zero(3);
-        y[n] = dice.about_zero(10);
-        for (std::size_t i = 1; i < n; ++i) {
-            y[i] = dice.about_zero(0.05 / static_cast<double>(i * i));
-            y[n + i] = dice.about_zero(3.0 / static_cast<double>(i));
-        }
+        y = vibrating_state(system, dice);
         integrator = make_exponential(system, rtol, 1e-3 * rtol);
         integrator->start(0, y.data());
     }
