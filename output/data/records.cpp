@@ -273,8 +273,10 @@ std::string modes_json(const std::vector<sim::Mode>& modes) {
     for (const sim::Mode& mode : modes) {
         Json shape = Json::array();
         for (const sim::Vec2& at : mode.shape) shape.push_back({at.x, at.y});
-        all.push_back(
-            {{"omega", mode.omega}, {"hz", mode.omega / (2 * std::numbers::pi)}, {"shape", std::move(shape)}});
+        all.push_back({{"omega", mode.omega},
+                       {"hz", mode.omega / (2 * std::numbers::pi)},
+                       {"shape", std::move(shape)},
+                       {"q", mode.q}});
     }
     return Json{{"modes", std::move(all)}}.dump(2) + "\n";
 }

@@ -52,7 +52,8 @@ void add_modes(Grammar& grammar) {
     add_scene(app, args.scene, args.common);
     app.option("--speed", &args.speed, "RAD_S",
                "Clamp the beam to a hub that rotates at this speed, for example 300rpm (default: a free hub at rest)");
-    app.flag("--json", args.common.json, "Print JSON, with mass-normalized mode shapes");
+    app.flag("--json", args.common.json,
+             "Print JSON, with mass-normalized mode shapes (tip positive) and their coordinates q");
 }
 
 }  // namespace beamcam::scenes

@@ -52,10 +52,9 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
             for (Eigen::Index i = 0; i < size; ++i) y += jy[i] * xi[i];
             mode.shape.push_back({x, y});
         }
-        Eigen::Index most = 0;
-        natural.shapes.col(j).cwiseAbs().maxCoeff(&most);
-        if (natural.shapes(most, j) < 0)
-            for (Vec2& at : mode.shape) at.y = -at.y;
+        const double sign = mode.shape.back().y < 0 ? -1 : 1;
+        for (Vec2& at : mode.shape) at.y *= sign;
+        for (const double q : natural.shapes.col(j)) mode.q.push_back(sign * q);
     }
     return modes;
 }

@@ -12,10 +12,11 @@ namespace beamcam::sim {
 
 struct Mode {
     double omega = 0;         // [rad/s]; NaN for a mode with negative stiffness (divergence)
-    std::vector<Vec2> shape;  // (x, y): 101 points from the root, mass-normalized [m], [kg^−1/2]
+    std::vector<Vec2> shape;  // (x, y): 101 points from the root, mass-normalized [m], [kg^−1/2]; y ≥ 0 at the tip
+    std::vector<double> q;    // the coordinates of that shape, `size() − 1` of the model
 };
 
-// Without the rigid rotation. The sign of a mode is that of its largest coordinate. No `speed`: at rest, with a free
+// Without the rigid rotation. No `speed`: at rest, with a free
 // hub (clamped if the drive prescribes its angle). With `speed` [rad/s]: in-plane vibration of a beam that is clamped
 // to a hub rotating at this speed. Empty for a rigid beam.
 std::vector<Mode> natural_modes(const Problem& problem, std::optional<double> speed = std::nullopt);

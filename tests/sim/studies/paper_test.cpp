@@ -86,5 +86,18 @@ TEST(Modes, FreeHubAsPublishedInEveryModel) {
     }
 }
 
+// φᵢ(L) of a uniform beam that is clamped or hinged at its root is ±2/√m for every i.
+TEST(Modes, TipIsPositive) {
+    for (const Basis basis : {Basis::hub_beam, Basis::cantilever}) {
+        Problem problem;
+        problem.beam.basis = basis;
+        problem.beam.modes = 6;
+        const double tip = 2 / std::sqrt(problem.beam.line_density() * problem.beam.length);
+        const bool clamped = basis == Basis::cantilever;
+        for (const Mode& mode : natural_modes(problem, clamped ? std::optional(0.0) : std::nullopt))
+            EXPECT_NEAR(mode.shape.back().y, tip, 1e-9 * tip) << name(basis) << " " << mode.omega;
+    }
+}
+
 }  // namespace
 }  // namespace beamcam::sim
