@@ -54,7 +54,7 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
         }
         const double sign = mode.shape.back().y < 0 ? -1 : 1;
         for (Vec2& at : mode.shape) at.y *= sign;
-        for (const double q : natural.shapes.col(j)) mode.q.push_back(sign * q);
+        for (const double q : natural.shapes.col(j)) mode.q.push_back(sign * q + 0.0);  // no −0
     }
     return modes;
 }
