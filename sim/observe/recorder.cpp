@@ -22,11 +22,12 @@ double end_of(const Request& request) {
     return end;
 }
 
-Recorder::Recorder(const System& system, const Request& request, const std::function<void()>& poll)
+Recorder::Recorder(const System& system, const Request& request, const std::function<void()>& poll,
+                   SharedSamples* shared)
     : request_(request),
       end_(end_of(request)),
       evaluator_(system),
-      samples_(request, evaluator_, result_),
+      samples_(request, evaluator_, result_, shared),
       impacts_(evaluator_, result_),
       extrema_(std::make_unique<ExtremaFinder>(system, request.extrema, poll)),
       y_(static_cast<std::size_t>(system.size)) {

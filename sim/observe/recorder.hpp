@@ -16,8 +16,8 @@ class ExtremaFinder;
 
 class Recorder {
   public:
-    // `poll`: called now and then during long work; may throw.
-    Recorder(const System& system, const Request& request, const std::function<void()>& poll = {});
+    // `poll`: called now and then during long work; may throw. `shared`: with the recorders of other requests.
+    Recorder(const System& system, const Request& request, const std::function<void()>& poll, SharedSamples* shared);
     Recorder(const Recorder&) = delete;  // its parts refer to each other
     ~Recorder();
     Recorder& operator=(const Recorder&) = delete;

@@ -8,7 +8,8 @@ namespace beamcam::sim {
 RecorderSet::RecorderSet(const System& system, std::span<const Request> requests, Poll poll)
     : poll_(std::move(poll)), y_(static_cast<std::size_t>(system.size)) {
     for (const Request& request : requests) {
-        recorders_.emplace_back(system, request, [this] { this->poll(); });
+        recorders_.emplace_back(
+            system, request, [this] { this->poll(); }, requests.size() > 1 ? &shared_ : nullptr);
         end_ = std::max(end_, recorders_.back().end());
     }
 }
@@ -28,6 +29,7 @@ void RecorderSet::begin(const Phase& phase, const std::vector<double>& y) {
 const SegmentSummary* RecorderSet::record(const Segment& segment, double from, double to, bool event,
                                           const StatisticsSource& statistics, const SegmentSummary* known) {
     reached_ = to;
+    shared_ = {};
     each_unfinished([&](Recorder& r) {
         if (r.end() < to || (r.end() == to && !event)) {
             r.record({&segment, from, r.end(), true});
@@ -62,6 +64,7 @@ struct PointSegment final : Segment {
 
 void RecorderSet::resume(double t, const std::vector<double>& y, const Phase& phase,
                          const StatisticsSource& statistics) {
+    shared_ = {};
     each_unfinished([&](Recorder& r) {
         r.set_phase(phase);
         if (r.end() > t && !r.has_enough()) return;

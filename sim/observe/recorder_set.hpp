@@ -46,6 +46,7 @@ class RecorderSet {
 
     Poll poll_;
     double reached_ = 0;
+    SharedSamples shared_;  // of the step that is recorded
     std::deque<Recorder> recorders_;
     std::vector<double> y_;
     double end_ = 0;

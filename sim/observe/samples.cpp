@@ -9,10 +9,12 @@
 
 namespace beamcam::sim {
 
-SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result)
+SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result,
+                               SharedSamples* shared)
     : request_(request),
       evaluator_(evaluator),
       result_(result),
+      shared_(shared),
       y_(static_cast<std::size_t>(evaluator.system().size)),
       contact_poses_(request.poses.size(), 0) {
     for (const TableRequest& table : request.tables) {
@@ -39,14 +41,12 @@ SampleRecorder::Cursor SampleRecorder::ascending(const std::vector<double>& time
     return cursor;
 }
 
-// Calls visit(row) with the evaluator at each of the times in the interval.
 template <class F>
 void SampleRecorder::sweep(const std::vector<double>& times, Cursor& cursor, const SegmentInterval& s, F&& visit) {
     for (; cursor.next < cursor.order.size(); ++cursor.next) {
         const std::size_t row = cursor.order[cursor.next];
         if (s.ends_before(times[row])) return;
-        evaluate_at(s, times[row]);
-        visit(row);
+        visit(times[row], row);
     }
 }
 
@@ -56,17 +56,30 @@ void SampleRecorder::evaluate_at(const SegmentInterval& s, double t) {
     evaluator_.system().search_again();
 }
 
+const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double t,
+                                               const std::vector<Channel>& channels) {
+    const auto evaluate = [&](std::vector<double>& values) {
+        evaluate_at(s, t);
+        values.clear();
+        for (const Channel channel : channels) values.push_back(evaluator_.value(channel));
+    };
+    if (shared_) return shared_->rows.get(t, channels, evaluate);
+    evaluate(row_);
+    return row_;
+}
+
 void SampleRecorder::step(const SegmentInterval& s) {
     std::vector<std::size_t> before;
     for (const Cursor& cursor : table_cursors_) before.push_back(cursor.next);
     sample_tables(s);
     refine_curves(s, before);
     for (std::size_t i = 0; i < request_.poses.size(); ++i)
-        sweep(request_.poses[i].times, pose_cursors_[i], s, [&](std::size_t row) { put_pose(i, row); });
+        sweep(request_.poses[i].times, pose_cursors_[i], s, [&](double t, std::size_t row) { put_pose(s, t, i, row); });
     for (std::size_t i = 0; i < request_.points.size(); ++i) {
         const PointRequest& points = request_.points[i];
-        sweep(points.times, point_cursors_[i], s, [&](std::size_t row) {
+        sweep(points.times, point_cursors_[i], s, [&](double t, std::size_t row) {
             BeamPoint p;
+            evaluate_at(s, t);
             evaluator_.model().point(points.x, p);
             result_.points[i][row] = p.r;
         });
@@ -80,17 +93,22 @@ void SampleRecorder::sample_tables(const SegmentInterval& s) {
         const Cursor& cursor = table_cursors_[i];
         return cursor.next < cursor.order.size() ? request_.tables[i].times[cursor.order[cursor.next]] : kNone;
     };
+    std::vector<Channel> channels;
     for (;;) {
         double t = kNone;
         for (std::size_t i = 0; i < request_.tables.size(); ++i) t = std::min(t, next(i));
         if (t == kNone || s.ends_before(t)) return;
-        evaluate_at(s, t);
+        channels.clear();
+        for (std::size_t i = 0; i < request_.tables.size(); ++i)
+            if (next(i) == t)
+                channels.insert(channels.end(), request_.tables[i].channels.begin(), request_.tables[i].channels.end());
+        auto value = row(s, t, channels).begin();
         for (std::size_t i = 0; i < request_.tables.size(); ++i) {
-            const std::vector<Channel>& channels = request_.tables[i].channels;
+            if (next(i) != t) continue;
             for (; next(i) == t; ++table_cursors_[i].next)
-                for (std::size_t c = 0; c < channels.size(); ++c)
-                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] =
-                        evaluator_.value(channels[c]);
+                for (std::size_t c = 0; c < request_.tables[i].channels.size(); ++c)
+                    result_.tables[i].values[c][table_cursors_[i].order[table_cursors_[i].next]] = value[c];
+            value += request_.tables[i].channels.size();
         }
     }
 }
@@ -108,15 +126,15 @@ void SampleRecorder::refine_curve(const SegmentInterval& s, std::size_t i, std::
                  to = std::min(s.to, table.times[cursor.order.back()]);
     if (!(to > from)) return;
     RefinedRows& rows = refined_[i];
+    const std::vector<Channel> curve{table.curve->first, table.curve->second};
     const auto at = [&](double t) {
-        evaluate_at(s, t);
-        return Vec2{evaluator_.value(table.curve->first), evaluator_.value(table.curve->second)};
+        const std::vector<double>& point = row(s, t, curve);
+        return Vec2{point[0], point[1]};
     };
     const auto keep = [&](double t) {
-        evaluate_at(s, t);
         rows.times.push_back(t);
-        for (std::size_t c = 0; c < table.channels.size(); ++c)
-            rows.values[c].push_back(evaluator_.value(table.channels[c]));
+        const std::vector<double>& values = row(s, t, table.channels);
+        for (std::size_t c = 0; c < values.size(); ++c) rows.values[c].push_back(values[c]);
     };
     keep(from);
     double reached = from;
@@ -146,9 +164,17 @@ void SampleRecorder::finish() {
     }
 }
 
-void SampleRecorder::put_pose(std::size_t i, std::size_t row) {
+void SampleRecorder::put_pose(const SegmentInterval& s, double t, std::size_t i, std::size_t row) {
     const PoseRequest& poses = request_.poses[i];
-    Pose pose = evaluator_.pose(poses.stations);
+    const auto evaluate = [&](Pose& pose) {
+        evaluate_at(s, t);
+        pose = evaluator_.pose(poses.stations);
+    };
+    Pose pose;
+    if (shared_)
+        pose = shared_->poses.get(t, poses.stations, evaluate);
+    else
+        evaluate(pose);
     if (poses.take) return poses.take(row, pose);
     result_.poses[i].resize(std::max(result_.poses[i].size(), row + 1));
     result_.poses[i][row] = std::move(pose);
@@ -166,8 +192,7 @@ void SampleRecorder::contact_step(const SegmentInterval& s) {
                      to = std::min(s.to, poses.times[pose_cursors_[i].order.back()]);
         for (const double t : instants) {
             if (!(t >= from && t <= to) || contact_poses_[i] == poses.contacts) continue;
-            evaluate_at(s, t);
-            put_pose(i, poses.times.size() + contact_poses_[i]++);
+            put_pose(s, t, i, poses.times.size() + contact_poses_[i]++);
         }
     }
 }

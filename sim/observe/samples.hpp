@@ -8,14 +8,15 @@
 #include "sim/observe/request.hpp"
 #include "sim/observe/result.hpp"
 #include "sim/observe/segment_interval.hpp"
+#include "sim/observe/shared_samples.hpp"
 
 namespace beamcam::sim {
 
 class SampleRecorder {
   public:
-    // All three must outlive it. The evaluator's foot search starts afresh at every sample, so that samples do not
-    // depend on each other.
-    SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result);
+    // All of them must outlive it. The evaluator's foot search starts afresh at every sample, so that samples do not
+    // depend on each other. `shared`: with the recorders of other requests; null when there are none.
+    SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result, SharedSamples* shared);
 
     void step(const SegmentInterval& s);
     void begin_contact() { contact_steps_ = 0; }
@@ -31,17 +32,21 @@ class SampleRecorder {
     };
     static Cursor ascending(const std::vector<double>& times);
     void evaluate_at(const SegmentInterval& s, double t);
+    // Valid until the next call.
+    const std::vector<double>& row(const SegmentInterval& s, double t, const std::vector<Channel>& channels);
     void sample_tables(const SegmentInterval& s);
     void refine_curves(const SegmentInterval& s, const std::vector<std::size_t>& before);
     void refine_curve(const SegmentInterval& s, std::size_t table, std::size_t before);
-    void put_pose(std::size_t request, std::size_t row);
+    void put_pose(const SegmentInterval& s, double t, std::size_t request, std::size_t row);
+    // Calls visit(t, row) for each of the times in the interval.
     template <class F>
-    void sweep(const std::vector<double>& times, Cursor& cursor, const SegmentInterval& s, F&& visit);
+    static void sweep(const std::vector<double>& times, Cursor& cursor, const SegmentInterval& s, F&& visit);
 
     const Request& request_;
     ChannelEvaluator& evaluator_;
     Result& result_;
-    std::vector<double> y_;
+    SharedSamples* shared_;
+    std::vector<double> y_, row_;
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
     struct RefinedRows {  // between the times of a table with a curve
         CurveRefiner refiner;

@@ -220,6 +220,13 @@ TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
     for (double share : {0.3, 1.0, 0.0}) requests.push_back(full_request(problem, share * end));
     requests.push_back({});
     requests[3].end_time = 0.97 * end;
+    // The instants of the second once more, some of them in two tables, with the same curve and poses in contact.
+    Request again = full_request(problem, end);
+    again.tables.push_back(again.tables.front());
+    again.tables.back().times.resize(9);
+    again.tables.back().curve = {{ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0}};
+    again.poses.front().contacts = 4;
+    requests.insert(requests.end(), 2, again);
     Effort effort;
     const std::vector<Result> together = simulate(problem, requests, {}, nullptr, &effort);
     EXPECT_EQ(effort.integrations, 1);
