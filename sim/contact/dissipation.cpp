@@ -67,12 +67,4 @@ double damping_factor(DampingLaw law, double c) {
     return std::ranges::find(kLaws, law, [](const LawRow& row) { return row.law.value; })->factor(c);
 }
 
-double effective_restitution(double d) {
-    if (d <= 0) return 1;
-    const auto f = [d](double e) { return restitution_residual(d, e); };
-    const double top = std::fmin(1.0, (1 - kPoleMargin) / d);
-    // The residual is positive at e = 0, negative at e = 1 if D < 1, and tends to −∞ as e → 1/D.
-    return f(top) < 0 ? find_root(f, 0.0, top) : top;
-}
-
 }  // namespace beamcam::sim

@@ -232,8 +232,6 @@ inline Vec2 disc_centre(const Cam& cam, double t) { return cam_pose(cam, t).disc
 double impact_depth(double exponent, double stiffness, double mass, double speed);
 // Dissipation factor D of F = Kδⁿ(1 + D δ̇/δ̇₋) for the pre-set restitution (S31).
 double damping_factor(DampingLaw law, double restitution);
-// The restitution that this contact has: the root e of D(1+e) = ln[(1+D)/(1−eD)] (S31).
-double effective_restitution(double damping_factor);
 
 // Changes model, basis and number of shapes. Added shapes take the last damping ratio; initial coordinates are kept as
 // far as they mean the same.

@@ -202,8 +202,6 @@ double scalar_slope_at_zero(F&& f, double h) {
     return (45 * (f(h) - f(-h)) - 9 * (f(2 * h) - f(-2 * h)) + (f(3 * h) - f(-3 * h))) / (60 * h);
 }
 
-inline double relative(double difference, double scale) { return std::fabs(difference) / scale; }
-
 // A printable name of a case for parameterized tests: letters and digits only.
 inline std::string label(const std::string& text) {
     std::string out;

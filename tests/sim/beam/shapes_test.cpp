@@ -28,15 +28,6 @@ double distance_to_identity(const Eigen::MatrixXd& m) {
     return (m - Eigen::MatrixXd::Identity(m.rows(), m.cols())).cwiseAbs().maxCoeff();
 }
 
-TEST(CantileverShapes, HaveThePublishedEigenvalues) {
-    // Young & Felgar 1949.
-    const double published[] = {1.875104068711961166445, 4.694091132974174576436, 7.854757438237612564861,
-                                10.99554073487546699067, 14.13716839104647058092, 17.27875953208823633354,
-                                20.42035225104125099442, 23.56194490180644350152};
-    const Shapes shapes = Shapes::cantilever(8, 1);
-    for (int i = 0; i < 8; ++i) EXPECT_NEAR(shapes.beta(i), published[i], 4e-16 * published[i]) << i + 1;
-}
-
 TEST(CantileverShapes, ScaleWithTheLength) {
     const Shapes one = Shapes::cantilever(5, 1), other = Shapes::cantilever(5, 0.037);
     double y[5], z[5];
@@ -89,20 +80,6 @@ TEST(CantileverShapes, HaveOrthogonalCurvatures) { expect_orthogonal_curvatures(
 struct Hub {
     double radius, inertia;  // in lengths, and in cubed lengths (I_h/ρA)
 };
-
-TEST(HubBeamShapes, HaveThePublishedHingedFreeEigenvalues) {
-    const double published[] = {3.926602312047918778239, 7.068582745628732088553, 10.21017612281303054547,
-                                13.35176877775409312421};
-    const Shapes shapes = Shapes::hub_beam(4, 1, 0, 0);
-    for (int i = 0; i < 4; ++i) EXPECT_NEAR(shapes.beta(i), published[i], 1e-15 * published[i]) << i + 1;
-}
-
-TEST(HubBeamShapes, HaveThePublishedFrequenciesWithAnInertHub) {
-    const double published[] = {6.963923552724, 22.9802389667, 62.02590927508};
-    const Shapes shapes = Shapes::hub_beam(3, 1, 0, 0.1);
-    for (int i = 0; i < 3; ++i)
-        EXPECT_NEAR(shapes.beta(i) * shapes.beta(i), published[i], 1e-10 * published[i]) << i + 1;
-}
 
 TEST(HubBeamShapes, AreOrthonormalForAnyHub) {
     for (const Hub& hub : {Hub{0, 0}, Hub{0.1, 0}, Hub{0.1, 0.02}, Hub{2, 0}, Hub{0, 5}, Hub{-0.3, 0}, Hub{-0.5, 0.01},

@@ -898,57 +898,7 @@ TEST(ExponentialContact, ADriveHoldsWhatTheContactPushes) {
     EXPECT_LT(r.energy_residual_max, 10 * p.solver.rtol * r.energy_scale);
 }
 
-TEST(ExponentialContact, MirrorsAMirroredScene) {
-    Problem p;
-    p.beam.modes = 3;
-    p.initial.angle = 0.5;
-    Problem mirrored = p;
-    mirrored.initial.angle = std::numbers::pi - 0.5;
-    mirrored.cam->centre.x *= -1;
-    mirrored.cam->speed *= -1;
-    mirrored.cam->phase = std::numbers::pi - p.cam->phase;
-    const std::vector<double> times{0.1, 0.25, 0.3, 0.35};
-    const Result a = solve(p, Method::exponential, 1e-10, 0.35, times),
-                 b = solve(mirrored, Method::exponential, 1e-10, 0.35, times);
-    for (std::size_t k = 0; k < times.size(); ++k)
-        EXPECT_NEAR(std::numbers::pi - b.tables[0].values[0][k], a.tables[0].values[0][k], 1e-9);
-}
-
 // ---- what must not change the motion -------------------------------------------------------------
-
-TEST(ExponentialRuns, AreBitwisePrefixesOfLongerRuns) {
-    for (const int modes : {2, 7}) {
-        Problem p;
-        p.beam.modes = modes;
-        std::vector<double> times;
-        for (int k = 1; k <= 40; ++k) times.push_back(0.3 * k / 40);
-        const Result brief = solve(p, Method::automatic, 1e-7, 0.3, times),
-                     full = solve(p, Method::automatic, 1e-7, 0.6, times);
-        EXPECT_EQ(brief.tables[0].values, full.tables[0].values);
-    }
-}
-
-TEST(ExponentialRuns, AreNotDisturbedByObservers) {
-    Problem p;
-    p.beam.modes = 3;
-    const std::vector<double> times{0.2, 0.28, 0.285, 0.4, 0.5};
-    const Result plain = solve(p, Method::automatic, 1e-7, 0.5, times);
-    p.solver.rtol = 1e-7;
-    p.solver.atol = 1e-10;
-    Request request;
-    request.tables.push_back({times, {channel("theta"), channel("energy_residual")}});
-    TableRequest all;
-    for (int k = 0; k < 300; ++k) all.times.push_back(0.5 * k / 300);
-    all.channels = all_channels(p);
-    request.tables.push_back(all);
-    request.extrema = {channel("theta_dot"), channel("contact_force"), channel("tip_deflection")};
-    request.poses.push_back({{0.1, 0.29}, 33});
-    const Result watched = simulate(p, request);
-    EXPECT_EQ(plain.tables[0].values, watched.tables[0].values);
-    ASSERT_EQ(plain.impacts.size(), watched.impacts.size());
-    for (std::size_t i = 0; i < plain.impacts.size(); ++i)
-        EXPECT_EQ(plain.impacts[i].t_start, watched.impacts[i].t_start);
-}
 
 }  // namespace
 }  // namespace beamcam::sim::testing
