@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <utility>
 
+#include "render/plot/narrow.hpp"
 #include "render/plot/reduce.hpp"
 
 namespace beamcam::render {
@@ -136,8 +138,18 @@ void Chart::draw_curves(Canvas& canvas, const Segment& segment) const {
 void Chart::draw_line(Canvas& canvas, const ChartCurve& curve, const Segment& segment) const {
     const auto piece = [&](const Range& rows, Color color) {
         const double width = (segment.past ? kPastLine : kFutureLine) * style_.unit;
-        canvas.polyline(points(curve.t, curve.v, {segment.view, rows, segment.past, segment.shift}));
-        canvas.stroke({color, width, dashes(curve.dash, style_.unit), curve.dash.empty() ? Cap::round : Cap::butt});
+        const std::vector<Vec2> all = points(curve.t, curve.v, {segment.view, rows, segment.past, segment.shift});
+        if (curve.dash.empty()) {
+            canvas.polyline(all);
+            return canvas.stroke({color, width});
+        }
+        const std::vector<double> dash = dashes(curve.dash, style_.unit);
+        const DashedCurve pieces = without_dashes_in_spikes(all, std::accumulate(dash.begin(), dash.end(), 0.0));
+        canvas.polyline(pieces.dashed);
+        canvas.stroke({color, width, dash, Cap::butt});
+        if (pieces.solid.empty()) return;
+        canvas.polyline(pieces.solid);
+        canvas.stroke({color, width});
     };
     if (!segment.past || curve.pale_within.empty())
         return piece(segment.rows, segment.past ? curve.color : curve.faint);

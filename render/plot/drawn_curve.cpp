@@ -2,9 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <set>
 #include <utility>
 
+#include "render/plot/narrow.hpp"
 #include "render/plot/reduce.hpp"
 
 namespace beamcam::render::figure {
@@ -165,8 +167,16 @@ void DrawnCurve::draw_tones(const PrintStyle& style, PageCanvas& sheet) const {
 void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
-    sheet.curve(s.every_point ? points_ : line_, pen);
-    pen.dash.clear();
+    const std::vector<Vec2>& line = s.every_point ? points_ : line_;
+    if (pen.dash.empty()) {
+        sheet.curve(line, pen);
+    } else {
+        const DashedCurve pieces =
+            without_dashes_in_spikes(line, std::accumulate(pen.dash.begin(), pen.dash.end(), 0.0));
+        sheet.curve(pieces.dashed, pen);
+        pen.dash.clear();
+        if (!pieces.solid.empty()) sheet.curve(pieces.solid, pen);
+    }
     for (const std::vector<Vec2>& band : bands_) {
         sheet.polyline(band);
         sheet.close();

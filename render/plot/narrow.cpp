@@ -1,0 +1,59 @@
+#include "render/plot/narrow.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kSteep = 3;  // length of a curve relative to that of its projection
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+
+bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
+
+bool is_function_of_x(const std::vector<Vec2>& points) {
+    double last = -std::numeric_limits<double>::infinity();
+    for (const Vec2 p : points) {
+        if (!is_finite(p)) continue;
+        if (p.x < last) return false;
+        last = p.x;
+    }
+    return true;
+}
+
+}  // namespace
+
+DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double period) {
+    if (points.size() < 3 || !is_function_of_x(points)) return {points, {}};
+    std::vector<double> length{0}, x;  // along the curve up to each point; gaps have no length
+    for (std::size_t i = 0; i < points.size(); ++i) {
+        const bool joined = i > 0 && is_finite(points[i]) && is_finite(points[i - 1]);
+        if (i > 0) length.push_back(length.back() + (joined ? norm(points[i] - points[i - 1]) : 0));
+        x.push_back(is_finite(points[i]) ? points[i].x : (x.empty() ? -1e300 : x.back()));
+    }
+    DashedCurve out;
+    const std::vector<Vec2>* open = nullptr;  // holds the last piece
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+        if (!is_finite(points[i]) || !is_finite(points[i + 1])) {
+            open = nullptr;
+            continue;
+        }
+        const double middle = (x[i] + x[i + 1]) / 2;
+        const auto first = std::ranges::lower_bound(x, middle - period / 2) - x.begin(),
+                   last = std::ranges::upper_bound(x, middle + period / 2) - x.begin() - 1;
+        const std::size_t from = std::min(static_cast<std::size_t>(first), i),
+                          to = std::max(static_cast<std::size_t>(last), i + 1);
+        const bool narrow = length[to] - length[from] > kSteep * std::max(period, x[to] - x[from]);
+        std::vector<Vec2>& piece = narrow ? out.solid : out.dashed;
+        if (open != &piece) {
+            if (!piece.empty()) piece.push_back({kNan, kNan});
+            piece.push_back(points[i]);
+        }
+        piece.push_back(points[i + 1]);
+        open = &piece;
+    }
+    return out;
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,19 @@
+// Narrow spikes of dashed curves, in which dashes would hide the peaks.
+#pragma once
+
+#include <vector>
+
+#include "render/draw/geometry.hpp"
+
+namespace beamcam::render {
+
+// The pieces of a curve, separated by NaN.
+struct DashedCurve {
+    std::vector<Vec2> dashed, solid;
+};
+
+// A piece is solid if the curve within one `period` of its dashes, measured along x, is more than three periods long.
+// Curves that are not functions of x stay dashed.
+DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double period);
+
+}  // namespace beamcam::render
