@@ -191,8 +191,9 @@ TimeFormat time_format(const std::vector<double>& times, double latest) {
     const auto rare = static_cast<std::ptrdiff_t>(steps.size() / 20);
     std::ranges::nth_element(steps, steps.begin() + rare);
     const double step = steps[static_cast<std::size_t>(rare)];
-    // One digit beyond the smallest step, so that each frame's reading differs; 9 is a nanosecond.
-    out.decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(step / out.unit))), 1, 9);
+    // One digit beyond the smallest step or, from three decimals on, as many as distinguish frames; 9 is a nanosecond.
+    const int least = -static_cast<int>(std::floor(std::log10(step / out.unit)));
+    out.decimals = std::clamp(std::max(std::min(least + 1, 3), least), 1, 9);
     return out;
 }
 

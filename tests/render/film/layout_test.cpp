@@ -138,6 +138,15 @@ TEST(Labels, FreezesLeaveTheClockItsThreeDecimals) {
     EXPECT_EQ(time_format(times).decimals, 3);
 }
 
+// Slow motion needs more than three decimals only if its frames are less than a millisecond apart.
+TEST(Labels, TheClockHasNoMoreDecimalsThanItNeeds) {
+    const auto decimals = [](double step) { return time_format({0.2, 0.2 + step, 0.2 + 2 * step}).decimals; };
+    EXPECT_EQ(decimals(0.1), 2);
+    EXPECT_EQ(decimals(1 / 60.0), 3);
+    EXPECT_EQ(decimals(0.0033), 3);
+    EXPECT_EQ(decimals(0.0005), 4);
+}
+
 TEST(Labels, SpeedsOfRotationAreWrittenAsTheUserWroteThem) {
     EXPECT_EQ(turning_speed(0.5, false), "0.5\u00A0rad/s");
     EXPECT_EQ(turning_speed(-10 * std::numbers::pi, true), "−300\u00A0rpm");
