@@ -30,6 +30,22 @@ const std::vector<FigureType>& table() {
 
 }  // namespace
 
+// Times below a tenth of a second are in milliseconds or less, as in films.
+static void shorten_times(std::vector<Panel>& panels) {
+    constexpr double kShort = 0.1;  // [s]
+    render::Extent times;
+    const auto is_in_seconds = [](const Panel& panel) { return panel.x.label == "$t$ / s"; };
+    for (const Panel& panel : panels) {
+        if (!is_in_seconds(panel)) continue;
+        for (const Series& series : panel.series) times.add(series.x);
+        for (const auto& cells : panel.cells) times.add(cells.x);
+        for (const auto& end : {panel.x.from, panel.x.to})
+            if (end) times.add({&*end, 1});
+    }
+    if (!times.any || std::max(std::abs(times.low), std::abs(times.high)) >= kShort) return;
+    for (Panel& panel : panels) panel.x.short_numbers = panel.x.short_numbers || is_in_seconds(panel);
+}
+
 FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
     studies.name_figure(name);
     FigureMaker make = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies);
@@ -37,6 +53,7 @@ FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Stu
         render::figure::Figure figure = make(results);
         figure.name = called;
         if (figure.title.empty()) figure.title = usual;
+        shorten_times(figure.panels);
         return figure;
     };
 }
