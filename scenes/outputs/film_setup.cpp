@@ -50,7 +50,7 @@ std::string paler_note(const render::FilmSetup& setup) {
     std::string note;
     for (const render::Range& lost : setup.unreliable) {
         note += note.empty() ? " " : ", ";
-        note += std::isinf(lost.high) ? fmt::format("{:.3g} s …", lost.low)
+        note += std::isinf(lost.high) ? fmt::format("> {:.3g} s", lost.low)
                                       : fmt::format("{:.3g}–{:.3g} s", lost.low, lost.high);
     }
     if (!setup.others.empty()) note.clear();
