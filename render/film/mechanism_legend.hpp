@@ -29,17 +29,27 @@ class MechanismLegend {
         double width = 6;  // of its line [design px]
         std::vector<double> dash = {};
     };
+    // Columns of names, and the size of everything in the legend.
+    struct Form {
+        int columns = 1;
+        double size = 1;
+    };
     std::vector<Entry> entries() const;
+    void place_names(Canvas& canvas, OccupancyGrid& room);
+    Vec2 size_of(Canvas& canvas, const Form& form) const;  // [px]
+    double widest_name(Canvas& canvas, double size) const;
     double sample() const;
     bool has_label() const;
     bool has_bar() const;
     void scale_bar(Canvas& canvas, const MechanismView& at) const;
-    void label(Canvas& canvas) const;
+    void names(Canvas& canvas) const;
     double scale_length(const MechanismView& at) const;
-    TextStyle label_style() const;
+    TextStyle label_style(double size) const;
+    double gap() const;  // around texts [px]
 
     const MechanismView& at_;
     std::optional<Box> label_, bar_;
+    Form form_;
 };
 
 }  // namespace beamcam::render
