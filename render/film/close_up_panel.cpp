@@ -12,7 +12,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kBelow = 1.35, kAbove = 1.9;  // displayed heights, relative to the largest penetration
+constexpr const char* kWidest = "00.0\u00A0mN";  // of the readings of forces
+constexpr double kBelow = 1.35, kAbove = 1.9;    // displayed heights, relative to the largest penetration
 
 class CloseUpPanel final : public FilmPanel {
   public:
@@ -219,25 +220,42 @@ class CloseUpPanel final : public FilmPanel {
         draw_reading(canvas, {plot_.right(), box_.y + 26 * u}, context_.translate(deep ? "penetration" : "gap"), amount,
                      "00.0\u00A0mm",
                      {.size = context_.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
-        // Up to three lines in the upper right corner, with a halo in the colour of most of their background.
-        const Color background = p.tint(p.grid, 0.35);
-        const bool over_beam = at(0, near.gap).y > plot_.y + 40 * u;
-        const Color behind = over_beam ? mix(background, p.motion, 0.30) : background;
+        draw_corner(canvas, pose, near);
+    }
+
+    // Up to three lines in the upper right corner, on a plate that hides the line of the beam's face.
+    void draw_corner(Canvas& canvas, const sim::Pose& pose, const sim::Nearest& near) const {
+        const Palette& p = *context_.palette;
+        const double u = context_.unit;
         const std::string count = collision_counter(pose.t);
-        const auto line = [&](int k) { return plot_.y + 2 * u + (1.1 + 1.3 * k) * context_.tick; };
         const double room = plot_.w - canvas.measure(context_.translate("beam"), {.size = context_.tick}).w - 40 * u;
-        TextStyle style{.size = context_.tick, .color = p.ink, .align = HAlign::right, .halo = behind};
-        if (!count.empty() && canvas.measure(count, style).w < room)
-            canvas.text({plot_.right() - 10 * u, line(0)}, count, style);
-        if (!near.touching || !(near.force > 0) || plot_.h < 120 * u) return;
-        const char* widest = "00.0\u00A0mN";
-        style.weight = Weight::medium;
-        if (canvas.measure(context_.translate("friction "), style).w + canvas.measure(widest, style).w > room) return;
-        draw_reading(canvas, {plot_.right() - 10 * u, line(1)}, context_.translate("force"), reading(near.force, "N"),
-                     widest, style);
-        if (near.friction != 0)
-            draw_reading(canvas, {plot_.right() - 10 * u, line(2)}, context_.translate("friction"),
-                         reading(std::abs(near.friction), "N"), widest, style);
+        TextStyle style{.size = context_.tick, .color = p.ink, .align = HAlign::right}, strong = style;
+        strong.weight = Weight::medium;
+        const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
+        const double read =
+            canvas.measure(context_.translate("friction "), strong).w + canvas.measure(kWidest, strong).w;
+        const bool has_force = near.touching && near.force > 0 && plot_.h >= 120 * u && read <= room;
+        const bool has_count = counted > 0 && counted < room, has_friction = has_force && near.friction != 0;
+        if (!has_count && !has_force) return;
+        const auto line = [&](int k) { return plot_.y + 2 * u + (1.1 + 1.3 * k) * context_.tick; };
+        const double right = plot_.right() - 10 * u,
+                     wide = std::max(has_count ? counted : 0, has_force ? read : 0) + 8 * u,
+                     bottom = line(has_friction ? 2
+                                   : has_force  ? 1
+                                                : 0) +
+                              0.4 * context_.tick;
+        const Color background = p.tint(p.grid, 0.35);
+        const bool over_beam = at(0, near.gap).y > (plot_.y + bottom) / 2;
+        canvas.rectangle(
+            {right - wide, plot_.y + 3 * u, plot_.right() - 3 * u - right + wide, bottom - plot_.y - 3 * u});
+        canvas.fill(over_beam ? mix(background, p.motion, 0.30) : background);
+        if (has_count) canvas.text({right, line(0)}, count, style);
+        if (has_force)
+            draw_reading(canvas, {right, line(1)}, context_.translate("force"), reading(near.force, "N"), kWidest,
+                         strong);
+        if (has_friction)
+            draw_reading(canvas, {right, line(2)}, context_.translate("friction"),
+                         reading(std::abs(near.friction), "N"), kWidest, strong);
     }
 
     // Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
