@@ -10,6 +10,8 @@
 
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/markup.hpp"
+#include "render/film/caption_band.hpp"
+#include "render/film/clock_line.hpp"
 #include "render/film/mechanism_panel.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
@@ -25,8 +27,7 @@ struct Film::Prepared {
     const MechanismPanel* mechanism = nullptr;       // the first mechanism panel
     Image background;                                // everything that never changes
     std::vector<Box> background_texts;
-    std::string widest_speed;  // widest text of all frames
-    bool steady = true;        // one speed throughout
+    std::optional<ClockLine> clock;
     bool title_cut = false;
 
     explicit Prepared(std::shared_ptr<const FilmSetup> setup) : context(std::move(setup)) {
@@ -37,8 +38,7 @@ struct Film::Prepared {
                 mechanism = static_cast<const MechanismPanel*>(panels.back().get());
         }
         draw_background();
-        widest_speed = context.translate(widest_speed_text(context.setup->speeds));
-        steady = steady_speed(context.setup->speeds);
+        if (shows(LayerOf::charts)) clock.emplace(context);
         for (std::size_t i = 0; i < panels.size(); ++i)
             for (std::size_t k = 0; k < i; ++k)
                 if (panels[i]->accumulated_box().overlaps(panels[k]->accumulated_box())) accumulate_apart = false;
@@ -50,7 +50,6 @@ struct Film::Prepared {
         const LayerOf drawn = context.setup->view.layer;
         return drawn == LayerOf::all || drawn == layer;
     }
-    void draw_clock(Canvas& canvas, int frame) const;
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
     std::vector<int> layer_epochs(int frame) const;
@@ -193,72 +192,6 @@ void Film::Prepared::draw_color_bars(Canvas& canvas) const {
 
 // ---- moving parts ------------------------------------------------------------------------------
 
-// Short forms: "×5" of "deflection ×5", "1/50" of "1/50 speed".
-static std::string short_form(std::string words) {
-    for (const std::string_view dispensable : {"deflection ", " speed", "挠度 ", " 倍速"})
-        if (const auto at = words.find(dispensable); at != std::string::npos) words.erase(at, dispensable.size());
-    return words;
-}
-
-// The clock, and beside it exaggeration and playback speed.
-void Film::Prepared::draw_clock(Canvas& canvas, int frame) const {
-    if (!context.places.clock || !shows(LayerOf::charts)) return;
-    const Box& b = *context.places.clock;
-    const double u = context.unit;
-    const FilmSetup& setup = *context.setup;
-    const TextStyle big{.size = 46 * u, .color = context.palette->ink, .weight = Weight::semibold};
-    const double last = setup.time(setup.frames() - 1);
-    const std::string text = clock_text(context.time, context.at(0, frame), last);
-    const double widest = canvas.measure(clock_text(context.time, last, last), big).w;
-    if (widest > b.w) return;
-    if (setup.view.show.clock) canvas.text({b.x, b.y + 40 * u}, text, big);
-    struct Pill {
-        std::string words, widest;
-        Color color;
-    };
-    std::vector<Pill> pills;
-    if (setup.view.show.legend && context.factor > 1 && context.places.first(PanelKind::mechanism)) {
-        const std::string words = context.translate("deflection ×") + power_text(context.factor);
-        pills.push_back({words, words, context.palette->motion});
-    }
-    if (setup.view.show.legend && !setup.speeds.empty())
-        pills.push_back({context.translate(speed_text(setup.speeds[static_cast<std::size_t>(frame)], steady)),
-                         widest_speed, context.palette->contact});
-    const bool clear = setup.view.transparent;  // unknown background: opaque pills
-    double letters = 20 * u;
-    const auto style_of = [&](const Pill& p) {
-        return TextStyle{.size = letters,
-                         .color = clear ? context.palette->paper : readable(*context.palette, p.color),
-                         .weight = Weight::medium,
-                         .align = HAlign::centre};
-    };
-    const auto width = [&](const Pill& p) {
-        const TextStyle style = style_of(p);
-        return std::max(canvas.measure(p.words, style).w, canvas.measure(p.widest, style).w) + 1.7 * letters;
-    };
-    const double first = b.x + (setup.view.show.clock ? widest + 36 * u : 0), gap = 14 * u;
-    const auto fit = [&] {
-        double all = first - gap;  // the same for all frames
-        for (const Pill& p : pills) all += gap + 1.9 * letters + canvas.measure(p.widest, style_of(p)).w;
-        return all <= b.right();
-    };
-    // Smaller letters rather than numbers without words.
-    if (!fit()) letters *= 0.8;
-    if (!fit()) {
-        letters = 20 * u;
-        for (Pill& p : pills) p.words = short_form(p.words), p.widest = short_form(p.widest);
-    }
-    double x = first;
-    for (const Pill& p : pills) {
-        const Box box{x, b.y + 6 * u, width(p), 36 * u};
-        x = box.right() + gap;
-        if (p.words.empty() || box.right() > b.right()) continue;
-        canvas.rounded(box, 18 * u);
-        canvas.fill(clear ? p.color : p.color.faded(0.14));
-        canvas.text({box.x + box.w / 2, b.y + 24 * u + 0.35 * letters}, p.words, style_of(p));
-    }
-}
-
 // ---- the film --------------------------------------------------------------------------------
 
 Film::Film(FilmSetup setup) : Film(std::make_shared<const FilmSetup>(std::move(setup))) {}
@@ -282,6 +215,7 @@ bool Film::states_exaggeration() const {
     return prepared_->context.setup->view.show.legend && prepared_->context.places.clock;
 }
 bool Film::has_mechanism() const { return prepared_->context.places.first(PanelKind::mechanism) != nullptr; }
+bool Film::shows_captions() const { return has_mechanism() || prepared_->context.places.captions; }
 bool Film::title_truncated() const { return prepared_->title_cut; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->context.counts; }
@@ -308,7 +242,9 @@ bool Film::repeats(int frame) const {
 void Film::Prepared::draw_moving(Canvas& canvas, int frame, Style style,
                                  const std::vector<std::unique_ptr<FilmPanel::State>>& states) const {
     for (std::size_t i = 0; i < panels.size(); ++i) panels[i]->draw(canvas, frame, style, states[i].get());
-    draw_clock(canvas, frame);
+    if (context.places.captions && shows(LayerOf::charts))
+        draw_caption_band(canvas, context, *context.places.captions, frame);
+    if (clock) clock->draw(canvas, frame);
 }
 
 // Created on first use: a film that is only copied never draws.

@@ -200,7 +200,8 @@ class Film {
     double exaggeration() const;
     bool exaggeration_reduced() const;  // below the requested factor, because the beam would enter the cam
     bool states_exaggeration() const;
-    bool has_mechanism() const;  // captions are in its panel
+    bool has_mechanism() const;
+    bool shows_captions() const;  // in the mechanism's panel or in a band of their own
     bool title_truncated() const;
     int empty_frames() const;  // frames in which the first mechanism is outside the camera's view
     const DrawingCounts& counts() const;

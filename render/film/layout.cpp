@@ -38,6 +38,7 @@ void spread(Layout& out, const std::vector<PanelSpec>& specs, const Box& area) {
 }
 
 constexpr double kScales = 560;       // width of two colour scales [design px]
+constexpr double kCaptionBand = 75;   // height: two lines of captions [design px]
 constexpr int kSeveral = 3;           // from this number on mechanisms get the whole width below the title
 constexpr double kPanelColumn = 540;  // width of the column of panels beside the mechanism [design px]
 // Several mechanisms leave no space over in a very wide picture: charts get a fifth of it.
@@ -102,6 +103,10 @@ Frame frame(int width, int height, bool beside, const Shown& shown) {
     }
     if (has_title || has_parameters) f.top += 10 * u;
     if (has_clock) f.bottom -= 10 * u;
+    if (shown.captions) {
+        out.captions = Box{margin, f.bottom - kCaptionBand * u, w - 2 * margin, kCaptionBand * u};
+        f.bottom -= (kCaptionBand + 10) * u;
+    }
     return f;
 }
 

@@ -43,11 +43,12 @@ struct LayoutNode {
 // Visible parts around the panels and within the mechanism. The panels take the space of hidden parts.
 struct Shown {
     bool title = true, parameters = true, clock = true;
-    bool legend = true;    // colour scales, exaggeration, playback speed
-    bool accuracy = true;  // the note in the corner
-    bool labels = true;    // angle, speed, force, scale bar
-    bool logo = false;     // an image in the clock's line
-    double size = 1;       // scale factor of letters, lines and marks
+    bool legend = true;     // colour scales, exaggeration, playback speed
+    bool accuracy = true;   // the note in the corner
+    bool labels = true;     // angle, speed, force, scale bar
+    bool logo = false;      // an image in the clock's line
+    bool captions = false;  // texts of events in a band of their own, in a picture without mechanism
+    double size = 1;        // scale factor of letters, lines and marks
     bool operator==(const Shown&) const = default;
 };
 
@@ -61,10 +62,11 @@ struct Layout {
     double tick = 17;          // size of letters at axes and scales [px]
     std::optional<Box> title;  // boxes of lines of text
     std::optional<Box> parameters;
-    std::optional<Box> clock;   // and exaggeration and speed beside it
-    std::optional<Box> scales;  // colour bars
-    std::optional<Box> note;    // accuracy
-    std::optional<Box> logo;    // beside the clock
+    std::optional<Box> clock;     // and exaggeration and speed beside it
+    std::optional<Box> scales;    // colour bars
+    std::optional<Box> note;      // accuracy
+    std::optional<Box> logo;      // beside the clock
+    std::optional<Box> captions;  // texts of events in a picture without mechanism
     std::vector<PanelSlot> panels;
 
     const PanelSlot* first(PanelKind kind) const;

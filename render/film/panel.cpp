@@ -108,7 +108,7 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     for (const FilmData& each : setup->data) data_labels.push_back(text_markup(each.label));
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
-    if (setup->layout) places = layout(setup->width, setup->height, *setup->layout, shown);
+    if (setup->layout) places = user_places(shown);
     if (!setup->layout || places.first(PanelKind::mechanism)) extent = view_extent_of(*this);
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
     unit = places.unit;
@@ -123,6 +123,15 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     }
     time = time_format(times, span.high);
     if (!(span.high > span.low)) span.high = span.low + time.unit;  // a single instant
+}
+
+// Captions get a band of their own if there is no mechanism to show them, unless a panel would no longer fit.
+Layout FilmContext::user_places(Shown shown) const {
+    Layout out = layout(setup->width, setup->height, *setup->layout, shown);
+    if (setup->callouts.empty() || out.first(PanelKind::mechanism)) return out;
+    shown.captions = true;
+    Layout with = layout(setup->width, setup->height, *setup->layout, shown);
+    return with.panels.size() == out.panels.size() && !with.first(PanelKind::mechanism) ? with : out;
 }
 
 // As high as the clock's line and at most a third as wide, in the corner; the colour scales move to the left.

@@ -77,6 +77,7 @@ struct FilmContext {
   private:
     void check() const;
     void choose_scales();
+    Layout user_places(Shown shown) const;
     void place_logo();
 };
 

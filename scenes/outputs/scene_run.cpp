@@ -204,8 +204,8 @@ void SceneRun::write_pictures(std::size_t picture) {
     if (film.exaggeration() > 1 && film.has_mechanism() && !film.states_exaggeration())
         context_.print("note: {} shows deflection ×{:g} without stating it; state it in the caption\n", p.file,
                        film.exaggeration());
-    if (!p.callouts.empty() && !film.has_mechanism())
-        context_.print("warning: {} shows no texts of events: they need the panel \"mechanism\"\n", p.file);
+    if (!p.callouts.empty() && !film.shows_captions())
+        context_.print("warning: {} shows no texts of events: {}\n", p.file, why_text_is_omitted(p.size));
     if (film.title_truncated())
         context_.print("warning: {} shows only the beginning of the title: {}\n", p.file, why_text_is_omitted(p.size));
     if (const int empty = film.empty_frames(); empty > 0)
