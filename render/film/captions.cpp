@@ -34,7 +34,7 @@ class Captions {
         for (const auto* label : {&placed.speed, &placed.angle})
             if (*label) labels.push_back(s.at.label_box(**label, s.view));
         if (placed.force)
-            labels.push_back(s.at.label_box(*placed.force, s.view, s.arrow ? s.arrow->foot : placed.force->base));
+            labels.push_back(s.at.label_box(force_place(s), s.view, s.arrow ? s.arrow->foot : placed.force->base));
     }
 
     void draw() const {

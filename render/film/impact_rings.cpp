@@ -15,6 +15,7 @@ constexpr std::ptrdiff_t kMostRings = 6;  // at once
 void ImpactRings::find(const MechanismView& at) {
     frames_ = kRing * at.context.setup->fps;
     labelled_ = at.labelled();
+    radius_ = at.problem().cam ? at.problem().cam->radius : 0;
     std::vector<double> times;
     for (int k = 0; k < at.context.frames(); ++k) times.push_back(at.context.at(at.member, k));
     for (const sim::Impact& impact : at.motion().impacts) {
@@ -57,17 +58,20 @@ void ImpactRings::draw(const MechanismScene& s) const {
 }
 
 // Of the collision's contacts so far. A longer contact shows its own force.
-std::optional<ForceArrow> ImpactRings::peak(int frame) const {
+std::optional<ForceArrow> ImpactRings::peak(int frame, const sim::Pose& pose) const {
     if (!labelled_) return std::nullopt;
     const Ring* latest = nullptr;
     for (const Ring& r : rings_)
-        if (frame >= r.frame && frame < r.frame + frames_ && (!latest || r.frame > latest->frame || !r.brief))
+        if (frame >= r.frame && frame < r.frame + frames_ && (!latest || r.frame >= latest->frame || !r.brief))
             latest = &r;
     if (!latest || !latest->brief) return std::nullopt;
     const ForceArrow* most = &latest->peak;
     for (const Ring& r : rings_)
         if (r.frame <= frame && r.collision == latest->collision && r.peak.force > most->force) most = &r.peak;
-    return most->force > 0 ? std::optional(*most) : std::nullopt;
+    if (!(most->force > 0)) return std::nullopt;
+    ForceArrow out = *most;
+    out.foot = pose.disc_centre + out.normal * radius_;
+    return out;
 }
 
 }  // namespace beamcam::render

@@ -13,8 +13,8 @@ class ImpactRings {
     void find(const MechanismView& at);  // collects the impacts of the motion
     void draw(const MechanismScene& s) const;
     // Peak force of a collision, as long as the ring of its latest contact is visible and that is shorter than two
-    // frames.
-    std::optional<ForceArrow> peak(int frame) const;
+    // frames; at the disc of the frame's pose, in the direction of the force.
+    std::optional<ForceArrow> peak(int frame, const sim::Pose& pose) const;
     bool change(int frame) const;  // a ring changes between the previous frame and this one
 
   private:
@@ -26,6 +26,7 @@ class ImpactRings {
         int collision = 0;
     };
     std::vector<Ring> rings_;
+    double radius_ = 0;      // of the disc [m]
     double frames_ = 1;      // lifetime of a ring
     bool labelled_ = false;  // peaks are shown, because their label says that they are peaks
 };

@@ -1,11 +1,12 @@
 #include "render/film/mechanism_labels.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "render/film/mechanism_cameras.hpp"
 #include "render/film/mechanism_marks.hpp"
+#include "render/film/swept_region.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -15,6 +16,7 @@ using std::numbers::pi;
 constexpr double kLabelFade = 0.2;           // duration of fading a label without a free place [s]
 constexpr double kFarthestLetter = 65;       // largest distance of θ from its arc [design px of the letter]
 constexpr double kLowestLetter = 1.2;        // largest angle of θ beyond the horizontal [rad]
+constexpr double kSameEpisode = 0.5;         // longest time without a force during which its label keeps its place [s]
 constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
 
 Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
@@ -40,82 +42,16 @@ std::string force_label(const MechanismView& at, const ForceArrow& arrow) {
     return peak_of + "$F$\u2009=\u2009" + reading(arrow.force, "N");
 }
 
-// ---- the swept region --------------------------------------------------------------------------
-
-SweptRegion::SweptRegion(const MechanismView& at, const Box& area, double cell) : room(area, cell), at_(at) {
-    const View& view = at.context.setup->view;
-    if (view.style != Style::solid) return;
-    for (const double way : {-1.0, 0.0, 1.0}) {
-        const auto seen = Perspective::looking({}, 2.4 * std::max(at.box.w, at.box.h), 1,
-                                               view.shot.yaw + way * view.swing, view.shot.pitch);
-        const Vec2 through = seen.to_pixels({0, 0, -0.5 * at.wide}) - seen.to_pixels({0, 0, 0.5 * at.wide});
-        const int steps = 1 + static_cast<int>(norm(through) / (2 * cell));
-        for (int i = 1; i <= steps; ++i) shifts_.push_back(through * (double(i) / steps));
-        if (view.swing == 0) break;
-    }
-}
-
-// In quadrilaterals of a few stations, from which the curve deviates by less than a pixel.
-void SweptRegion::add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back) {
-    const std::size_t step = face.size() > 40 ? 4 : 1;
-    for (std::size_t i = 0; i + 1 < face.size(); i += step) {
-        const std::size_t next = std::min(i + step, face.size() - 1);
-        add_piece({face[i], face[next], back[next], back[i]});
-    }
-}
-
-// Points of the edge move on straight lines between two frames.
-void SweptRegion::add_motion(const std::vector<Vec2>& from, const std::vector<Vec2>& to) {
-    const std::size_t step = from.size() > 40 ? 4 : 1;
-    if (from.size() != to.size()) return;
-    for (std::size_t i = 0; i + 1 < from.size(); i += step) {
-        const std::size_t next = std::min(i + step, from.size() - 1);
-        if (norm(from[next] - to[next]) > at_.look.depth * at_.look.camera.scale)
-            add_piece({from[i], from[next], to[next], to[i]});
-    }
-}
-
-void SweptRegion::add_piece(const std::array<Vec2, 4>& corners) {
-    room.cover_convex(corners);
-    for (const Vec2 by : shifts_)
-        room.cover_convex(std::array{corners[0] + by, corners[1] + by, corners[2] + by, corners[3] + by});
-}
-
-void SweptRegion::add_disc(Vec2 centre, double radius) {
-    room.cover_disc(centre, radius);
-    for (const Vec2 by : shifts_) room.cover_disc(centre + by, radius);
-}
-
-void SweptRegion::add_arrow(const ForceArrow& arrow) {
-    const Vec2 foot = at_.px(arrow.foot), n{arrow.normal.x, -arrow.normal.y};
-    const Vec2 side = Vec2{-n.y, n.x} * (8 * at_.marks), tip = foot + n * arrow_length(at_, arrow);
-    room.cover_convex(std::array{foot + side, tip + side, tip - side, foot - side});
-}
-
-void SweptRegion::add_fixed() {
-    for (const sim::Problem* p : at_.context.extent.problems) {
-        const Vec2 o = at_.px({0, 0});
-        const double hub = hub_radius(*p, at_.look.camera, at_.unit), half = support_half_width(hub, at_.marks);
-        add_disc(o, hub + 4 * at_.unit);
-        const double reach = support_reach(hub, at_.marks);
-        room.cover(Box{o.x - half, o.y, 2 * half, reach}, 1);
-        for (const Vec2 by : shifts_)
-            for (const double far : {1.0, 2.0, 3.0})  // the mount is deeper than the beam
-                room.cover(Box{o.x - half + far * by.x, o.y + far * by.y, 2 * half, reach}, 1);
-        room.cover(Box{at_.box.x, o.y - 3 * at_.unit, at_.box.w, 6 * at_.unit}, 1);  // the horizontal
-        if (p->cam && at_.problem().cam)
-            add_disc(at_.px(p->cam->centre),
-                     (p->cam->radius + p->cam->eccentricity) * at_.look.camera.scale + 4 * at_.unit);
-    }
-}
-
 // ---- places ------------------------------------------------------------------------------------
 
 namespace {
 
 class LabelPlacer {
   public:
-    LabelPlacer(const MechanismView& view, const LabelNeeds& all) : at(view), u(view.unit), needs(all) {}
+    LabelPlacer(const MechanismView& home, const MechanismCameras& seen_by, const LabelNeeds& all)
+        : at(home), cameras(seen_by), u(home.unit), needs(all) {
+        if (const auto projections = cameras.projections(); !projections.empty()) view = projections.front();
+    }
 
     // Radius at which the letter fits beside the arc, limited by the cam and the panel.
     double arc_radius() const {
@@ -144,11 +80,14 @@ class LabelPlacer {
         for (const Vec2 middle : {inside, beyond}) {
             if (middle == inside && radius <= at.hub() + 34 * letter) continue;
             LabelPlace out = place(room, about(middle, size), o, 3 * u);
-            const Vec2 way = at.px(out.middle) - o;
+            const Vec2 way = at.px(out.base) + out.offset - o;
             const double turned = side * std::atan2(-way.y, way.x);
             const double far = middle == inside ? std::abs(norm(way) - radius) : norm(way - Vec2{radius, 0});
             if (far > kFarthestLetter * letter || turned < -kLowestLetter || turned > least_angle()) continue;
-            out.base = at.look.camera.to_world(o + way * (radius / norm(way)));
+            const Vec2 on_arc = o + way * (radius / norm(way));
+            out.base = at.look.camera.to_world(on_arc);
+            out.offset = o + way - on_arc;
+            fade(out, room);
             return out;
         }
         return std::nullopt;
@@ -163,17 +102,20 @@ class LabelPlacer {
             if (cost < least) least = cost, way = each;
         }
         OccupancyGrid taken = room;
-        for_each_arrow_box(way, [&](const Box& box) { taken.cover(box, 1); });
+        for_each_arrow_box(way, [&](const Box& box) { taken.cover(box.inset(-3 * u), 1); });
         const double edge = speed_radius(at) - speed_gap(at);
-        return place(taken, speed_box(way, width), at.px(at.problem().cam->centre) + down(way) * edge);
+        LabelPlace out = place(taken, speed_box(way, width), axis() + down(way) * edge);
+        fade(out, taken);
+        return out;
     }
+
+    Box box(const LabelPlace& label) const { return at.label_box(label, view ? &*view : nullptr); }
 
     template <class Visit>
     void for_each_arrow_box(double way, const Visit& visit) const {
         if (at.problem().cam->speed == 0) return;
         const double radius = speed_radius(at), half = speed_span(at) / 2;
-        for (int i = -2; i <= 2; ++i)
-            visit(about(at.px(at.problem().cam->centre) + down(way + half * i / 2) * radius, Vec2{8, 8} * u));
+        for (int i = -2; i <= 2; ++i) visit(about(on(axis() + down(way + half * i / 2) * radius), Vec2{8, 8} * u));
     }
 
     // Beside the tip of the longest arrow, clear of the beam.
@@ -186,50 +128,73 @@ class LabelPlacer {
         measure(most);
         const std::size_t step = 1 + needs.arrows.size() / kMeasuredPushes;
         for (std::size_t i = 0; i < needs.arrows.size(); i += step) measure(needs.arrows[i]);
-        const Vec2 n{most.normal.x, -most.normal.y};
-        const double clear = force_label_distance(arrow_length(at, most), at.look.depth * at.look.camera.scale, u);
-        const Vec2 tip = at.px(most.foot) + n * clear;
-        const bool right = n.x > 0.5;  // on its left is the beam
-        const double gap = 14 * u + shrunk(width), size = label_size(at);
-        return place(room, {tip.x + (right ? gap : -gap - width), tip.y - size * 2 / 3, width, size * 4 / 3},
-                     at.px(most.foot));
+        const Vec2 size{width, label_size(at) * 4 / 3};
+        LabelPlace out = place(room, beside_tip(at, view ? &*view : nullptr, most, size), at.px(most.foot));
+        if (cameras.move())
+            pin(out);
+        else
+            fade(out, room);
+        return out;
     }
 
   private:
     double least_angle() const { return std::max({needs.angles.low, -needs.angles.high, 0.0}); }
 
     Box speed_box(double way, double width) const {
-        const Vec2 axis = at.px(at.problem().cam->centre);
         const bool right = std::cos(way) > 0;
-        const Vec2 to = axis + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u);
+        const Vec2 to = on(axis() + down(way + (right ? 0.04 : -0.04) * pi) * (speed_radius(at) + 16 * u));
         const double base = std::min(to.y + 12 * u, at.box.bottom() - 34 * u);  // above the scale bar
-        const double gap = 8 * u + shrunk(width);
-        const double size = label_size(at);
+        const double gap = 8 * u, size = label_size(at);
         return {to.x + (right ? gap : -gap - width), base - 0.844 * size, width, 1.048 * size};
     }
 
-    // Labels move towards their arrows in the solid view, where the mechanism is smaller than in the flat view.
-    double shrunk(double width) const { return at.context.setup->view.style == Style::solid ? 0.07 * width : 0; }
+    Vec2 axis() const { return at.px(at.problem().cam->centre); }
+    Vec2 on(Vec2 flat) const { return at.seen(flat, view ? &*view : nullptr); }
 
-    LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base, double clear = 0) const {
-        const Box found = room.nearest_free(preferred.inset(-u - clear - shrunk(preferred.w)));
-        const Camera& camera = at.look.camera;
-        LabelPlace out{camera.to_world(found.centre()), {preferred.w, preferred.h}, camera.to_world(base), {}};
-        if (room.covered(found) > 0) fade_where_met(out);
-        return out;
+    Box beside_tip(const MechanismView& now, const Perspective* seen_by, const ForceArrow& arrow, Vec2 size) const {
+        const Vec2 n{arrow.normal.x, -arrow.normal.y};
+        const double depth = now.look.depth * now.look.camera.scale;
+        const Vec2 tip =
+            now.seen(now.px(arrow.foot) + n * force_label_distance(arrow_length(now, arrow), depth, u), seen_by);
+        const bool right = n.x > 0.5;  // on its left is the beam
+        return {tip.x + (right ? 14 * u : -14 * u - size.x), tip.y - size.y / 2, size.x, size.y};
     }
 
-    void fade_where_met(LabelPlace& label) const {
-        const Box box = at.label_box(label, nullptr);
+    // `base`: in the flat view [px].
+    LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base, double clear = 0) const {
+        const Box found = room.nearest_free(preferred.inset(-u - clear));
+        const Vec2 on_base = at.look.camera.to_world(base);
+        return {on_base, found.centre() - on(at.px(on_base)), {preferred.w, preferred.h}, {}, {}};
+    }
+
+    // Covers the bodies at a frame, as its camera sees them, and the arrow of the force.
+    OccupancyGrid with_bodies(OccupancyGrid room, int frame, const ForceArrow* arrow = nullptr) const {
+        const MechanismView now = cameras.view(frame);
+        const std::optional<Perspective> seen_by = cameras.perspective(now, frame);
+        SweptRegion parts(now, std::move(room), seen_by ? std::vector{*seen_by} : std::vector<Perspective>());
+        const sim::Pose pose = at.context.pose(at.member, frame);
+        parts.add_shape(mechanism_shape(at.problem(), pose, at.drawn(at.member, pose), now.look, at.palette));
+        if (arrow) parts.add_arrow(*arrow);
+        return std::move(parts.room);
+    }
+
+    // The label is hidden in frames in which a moving part is in its place.
+    void fade(LabelPlace& label, const OccupancyGrid& room) const {
+        if (!cameras.move() && room.covered(box(label)) == 0) return;
         std::vector<int> met;
         for (int k = 0; k < at.context.frames(); ++k) {
-            SweptRegion now(at, box, 4 * u);
-            const sim::Pose pose = at.context.pose(at.member, k);
-            const DrawnBeam beam = at.drawn(at.member, pose);
-            const MechanismShape shape = mechanism_shape(at.problem(), pose, beam, at.look, at.palette);
-            now.add_beam(shape.face, shape.back);
-            if (now.room.covered(box.inset(0.01)) > 0) met.push_back(k);
+            const MechanismView now = cameras.view(k);
+            const std::optional<Perspective> seen_by = cameras.perspective(now, k);
+            if (meets_body(now.label_box(label, seen_by ? &*seen_by : nullptr), k)) met.push_back(k);
         }
+        fade_about(label, met);
+    }
+
+    bool meets_body(const Box& box, int frame) const {
+        return with_bodies(OccupancyGrid(box, 4 * u), frame).covered(box.inset(0.01)) > 0.01;
+    }
+
+    void fade_about(LabelPlace& label, const std::vector<int>& met) const {
         if (met.empty()) return;
         const double fade = kLabelFade * at.context.setup->fps;
         for (int k = 0; k < at.context.frames(); ++k) {
@@ -241,23 +206,53 @@ class LabelPlacer {
         }
     }
 
+    // Before a moving camera the label keeps a place in the picture as long as a force is shown.
+    void pin(LabelPlace& label) const {
+        const double most_apart = kSameEpisode * at.context.setup->fps;
+        label.pinned.resize(static_cast<std::size_t>(at.context.frames()));
+        std::vector<int> met;
+        for (std::size_t first = 0, end; first < needs.arrows.size(); first = end) {
+            end = first + 1;
+            while (end < needs.arrows.size() && needs.frames[end] - needs.frames[end - 1] <= most_apart) ++end;
+            const Box place = pinned_place(label.size, first, end);
+            for (std::size_t i = first; i < end; ++i) {
+                label.pinned[static_cast<std::size_t>(needs.frames[i])] = place.centre();
+                if (meets_body(place, needs.frames[i])) met.push_back(needs.frames[i]);
+            }
+        }
+        fade_about(label, met);
+    }
+
+    // The place nearest to the first of these arrows that no body meets while they are shown.
+    Box pinned_place(Vec2 size, std::size_t first, std::size_t end) const {
+        OccupancyGrid room(at.box.inset(4 * u), 4 * u);
+        for (std::size_t i = first; i < end; ++i)
+            room = with_bodies(std::move(room), needs.frames[i], &needs.arrows[i]);
+        const MechanismView now = cameras.view(needs.frames[first]);
+        const std::optional<Perspective> seen_by = cameras.perspective(now, needs.frames[first]);
+        const Box beside = beside_tip(now, seen_by ? &*seen_by : nullptr, needs.arrows[first], size);
+        return room.nearest_free(beside.inset(-4 * u)).inset(4 * u);
+    }
+
     const MechanismView& at;
+    const MechanismCameras& cameras;
     const double u;
     const LabelNeeds& needs;
+    std::optional<Perspective> view;  // the usual one of the solid view
 };
 
 }  // namespace
 
-MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, SweptRegion& swept,
-                             SweptRegion& in_contact) {
+MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
+                             SweptRegion& swept, SweptRegion& in_contact) {
     MechanismLabels out;
-    const LabelPlacer placer(at, needs);
+    const LabelPlacer placer(at, cameras, needs);
     out.arc_radius = placer.arc_radius();
     if (!at.labelled()) return out;
     Image scratch(1, 1);
     Canvas canvas(scratch, *at.context.fonts);
     const auto take = [&](const LabelPlace& label) {
-        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(at.label_box(label, nullptr), 1);
+        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.box(label), 1);
     };
     if (at.context.setup->view.style != Style::solid)
         for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.arc(out.arc_radius), 1);

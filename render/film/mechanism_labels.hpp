@@ -3,19 +3,19 @@
 // label without a free place fades out while a part moves through it.
 #pragma once
 
-#include <array>
 #include <numbers>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "render/draw/geometry.hpp"
-#include "render/plot/placement.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 
 struct MechanismView;
+class MechanismCameras;
+class SweptRegion;
 
 // A contact force as it is drawn.
 struct ForceArrow {
@@ -25,9 +25,10 @@ struct ForceArrow {
 };
 
 struct LabelPlace {
-    Vec2 middle, size;  // [m], [px]; in the view of the camera that shows everything
-    Vec2 base;  // the point beside which it is placed, at a distance in pixels that does not depend on the zoom [m]
+    Vec2 base;                   // the point beside which it is placed [m]
+    Vec2 offset, size;           // of its middle from the base as seen, whatever the zoom [px]
     std::vector<float> opacity;  // of each frame; empty: always 1
+    std::vector<Vec2> pinned;    // of each frame: its middle in the picture; empty: beside the base [px]
 
     double opacity_at(int frame) const { return opacity.empty() ? 1 : opacity[static_cast<std::size_t>(frame)]; }
 };
@@ -38,37 +39,17 @@ struct MechanismLabels {
     std::optional<LabelPlace> angle, speed, force;
 };
 
-// The part of the panel that moving parts cover at some frame, as cells of weight 1.
-class SweptRegion {
-  public:
-    SweptRegion(const MechanismView& at, const Box& area, double cell);
-
-    void add_beam(const std::vector<Vec2>& face, const std::vector<Vec2>& back);  // edges of a section [px]
-    void add_motion(const std::vector<Vec2>& from,
-                    const std::vector<Vec2>& to);  // swept by one of the edges between two frames
-    void add_disc(Vec2 centre, double radius);     // [px]
-    void add_arrow(const ForceArrow& arrow);
-    void add_fixed();  // hubs, supports, the horizontal, and the circles that discs sweep
-
-    OccupancyGrid room;
-
-  private:
-    void add_piece(const std::array<Vec2, 4>& corners);
-
-    const MechanismView& at_;
-    std::vector<Vec2> shifts_;  // displacements from the front of a body to its depth in the solid view [px]
-};
-
 struct LabelNeeds {
     Range angles;                    // range of θ over the film, as drawn [rad]
     double arc_room = 0;             // largest radius of the arc of θ that fits [px]
     std::vector<ForceArrow> arrows;  // of every frame with a force
+    std::vector<int> frames;         // … and these frames
 };
 
 // Places the labels and covers their boxes in both regions. `in_contact`: the region swept in frames that show a force,
 // which is all that the label of the force has to avoid.
-MechanismLabels place_labels(const MechanismView& at, const LabelNeeds& needs, SweptRegion& swept,
-                             SweptRegion& in_contact);
+MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
+                             SweptRegion& swept, SweptRegion& in_contact);
 
 // Texts of the labels.
 std::string speed_label(const MechanismView& at);

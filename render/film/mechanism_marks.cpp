@@ -13,29 +13,6 @@ namespace {
 using std::numbers::pi;
 constexpr double kFarLabel = 60, kFarLetter = 26;  // distance from which a label has a leader line [design px]
 
-// Whether the line intersects the box.
-bool meets(const Box& box, Vec2 from, Vec2 to) {
-    constexpr int kPieces = 32;
-    for (int i = 0; i <= kPieces; ++i)
-        if (const Vec2 at = from + (to - from) * (double(i) / kPieces); box.overlaps({at.x, at.y, 0.1, 0.1}))
-            return true;
-    return false;
-}
-
-// The place of the force's label. Before a near camera it moves away with the beam's back. If the edge of the view
-// moves it onto its arrow, it goes to the other side of the arrow.
-LabelPlace beside_arrow(const MechanismScene& s, const ForceArrow& arrow, Vec2 foot, Vec2 tip) {
-    LabelPlace label = *s.at.labels->force;
-    if (dot(label.middle - label.base, arrow.normal) > 0)
-        label.middle += arrow.normal * (s.at.look.depth * std::max(0.0, s.at.zoom() - 1));
-    const auto is_clear = [&] { return !meets(s.at.label_box(label, s.view, arrow.foot), foot, tip); };
-    if (!s.at.moved || is_clear()) return label;
-    const LabelPlace usual = label;
-    const Vec2 way = label.middle - label.base;
-    label.middle = label.base + arrow.normal * (2 * dot(way, arrow.normal)) - way;
-    return is_clear() ? label : usual;
-}
-
 // Draws the leader line of a label whose owner is far.
 void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base,
                  double far = kFarLabel) {
@@ -53,10 +30,8 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
     const Box box = s.at.label_box(label, s.view, base);
     if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
-    // In the solid view a halo over soft shadows would glow; a near camera, and one far aside, need it, where labels
-    // are over bodies.
-    constexpr double kAside = 0.75;  // cosine of the angle to the plane's normal
-    if (!s.view || s.at.moved || s.view->axes[2].z < kAside) style.halo = s.at.palette.paper.faded(opacity);
+    // In the solid view a halo over soft shadows would glow; a near camera needs it.
+    if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
     const double left = style.align == HAlign::centre ? box.centre().x : box.x;
     s.canvas.text({left, box.centre().y + 0.32 * style.size}, text, style);
     if (s.labels) s.labels->push_back(box);
@@ -110,7 +85,7 @@ void draw_angle_arc(const MechanismScene& s) {
     }
     if (!s.at.labels->angle) return;
     // A letter outside the sector of the angle gets a leader line to the start of the arc.
-    const Vec2 letter = s.at.px(s.at.labels->angle->middle) - o;
+    const Vec2 letter = s.at.px(s.at.labels->angle->base) + s.at.labels->angle->offset * s.at.zoom() - o;
     const double sense = angle < 0 ? -1 : 1, way = std::atan2(-letter.y, letter.x) * sense;
     const double turned = way < 0 ? way + 2 * pi : way;
     const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
@@ -264,14 +239,20 @@ static bool names_force(const MechanismScene& s, Vec2 foot) {
     return s.at.labelled() && s.at.shows(foot) && s.at.labels->force;
 }
 
+LabelPlace force_place(const MechanismScene& s) {
+    LabelPlace label = *s.at.labels->force;
+    if (s.arrow && !label.pinned.empty())
+        label.offset = label.pinned[static_cast<std::size_t>(s.frame)] - s.px(s.arrow->foot);
+    return label;
+}
+
 static Vec2 tip_of(const MechanismScene& s, const ForceArrow& arrow) {
     return s.on(s.at.px(arrow.foot) + Vec2{arrow.normal.x, -arrow.normal.y} * arrow_length(s.at, arrow));
 }
 
 void draw_force_leader(const MechanismScene& s) {
     if (!s.arrow || !names_force(s, s.px(s.arrow->foot))) return;
-    const Vec2 foot = s.px(s.arrow->foot), tip = tip_of(s, *s.arrow);
-    draw_leader(s, beside_arrow(s, *s.arrow, foot, tip), s.at.palette.contact, tip, s.arrow->foot);
+    draw_leader(s, force_place(s), s.at.palette.contact, tip_of(s, *s.arrow), s.arrow->foot);
 }
 
 void draw_force(const MechanismScene& s) {
@@ -284,8 +265,7 @@ void draw_force(const MechanismScene& s) {
     const double length = arrow_length(s.at, arrow);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (names_force(s, foot))
-        draw_label(s, beside_arrow(s, arrow, foot, tip), force_label(s.at, arrow), force_style(s.at), arrow.foot);
+    if (names_force(s, foot)) draw_label(s, force_place(s), force_label(s.at, arrow), force_style(s.at), arrow.foot);
 }
 
 }  // namespace beamcam::render

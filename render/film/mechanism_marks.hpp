@@ -30,6 +30,7 @@ TextStyle force_style(const MechanismView& at);
 // The force to draw: `peak` of a contact that just ended, or else the current force.
 std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
                                          const std::optional<ForceArrow>& peak);
+LabelPlace force_place(const MechanismScene& s);  // of the label of the force at this frame
 void draw_force_leader(const MechanismScene& s);
 void draw_force(const MechanismScene& s);
 // A colour for each bin around the disc, alpha 0 if it was never touched.

@@ -39,18 +39,19 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
     Offscreen seen, exposed;  // view of a moving camera; one of several exposures
 };
 
-MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot) : at_(context, slot), legend_(at_) {
+MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot)
+    : at_(context, slot), legend_(at_), cameras_(at_) {
     at_.labels = &labels_;
     rings_.find(at_);
     const double cell = std::max(1.5, 2 * at_.unit);
-    SweptRegion swept(at_, at_.box, cell), in_contact = swept;
+    SweptRegion swept(at_, OccupancyGrid(at_.box, cell), cameras_.projections()), in_contact = swept;
     add_survey(swept);
     in_contact.add_fixed(), swept.add_fixed();
-    const LabelNeeds needs = add_frames(swept, in_contact);
-    labels_ = place_labels(at_, needs, swept, in_contact);
+    std::vector<Followed> followed;
+    const LabelNeeds needs = add_frames(swept, in_contact, followed);
+    cameras_.follow(followed);
+    labels_ = place_labels(at_, cameras_, needs, swept, in_contact);
     legend_.place(std::move(swept.room));
-    find_shots();
-    if (context.setup->view.style == Style::solid) fit_solid_view();
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
@@ -91,8 +92,8 @@ static void add_measured(const MechanismView& at, const Pose& pose, const DrawnB
     }
 }
 
-LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact) {
-    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}};
+LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {
+    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}, {}};
     Bounds seen;
     std::vector<Vec2> before;
     for (int k = 0; k < at_.context.frames(); ++k) {
@@ -103,10 +104,10 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
         tip_path_.add_frame(tip, pose.theta, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
-        followed_.push_back({at_.look.camera.to_world(tip),
-                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
-                             at_.problem().cam ? pose.cam_centre : Vec2{}});
-        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k));
+        followed.push_back({at_.look.camera.to_world(tip),
+                            drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
+                            at_.problem().cam ? pose.cam_centre : Vec2{}});
+        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k, pose));
         for (SweptRegion* each : {&swept, &in_contact}) {
             if (each == &in_contact && !arrow) continue;
             each->add_beam(shape.face, shape.back);
@@ -114,7 +115,7 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
             if (arrow) each->add_arrow(*arrow);
         }
         if (at_.member == 0) add_measured(at_, pose, drawn, swept);
-        if (arrow) needs.arrows.push_back(*arrow);
+        if (arrow) needs.arrows.push_back(*arrow), needs.frames.push_back(k);
         before = shape.face;
         if (at_.problem().cam) {
             const sim::Cam& cam = *at_.problem().cam;
@@ -127,7 +128,7 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
     }
     for (int k = 0; k + 1 < at_.context.frames(); ++k)
         for (SweptRegion* each : {&swept, &in_contact})
-            each->room.cover(tip_path_.piece(at_, static_cast<std::size_t>(k)), 1);  // the trail
+            each->add_curve(tip_path_.piece(at_, static_cast<std::size_t>(k)));  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
     needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
     if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
@@ -136,18 +137,11 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
     return needs;
 }
 
-void MechanismPanel::find_shots() {
-    const FilmSetup& setup = *at_.context.setup;
-    const Shot& first = setup.view.shot;
-    if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
-    shots_ = camera_frames(first, setup.moves, at_.look.camera, at_.box, followed_, setup.fps);
-}
-
 // For the solid view this is an estimate: it is evaluated as if seen from the front.
 int MechanismPanel::empty_frames() const {
     int count = 0;
-    for (int k = 0; !shots_.empty() && k < at_.context.frames(); ++k) {
-        const Camera& camera = shots_[static_cast<std::size_t>(k)].camera;
+    for (int k = 0; cameras_.near() && k < at_.context.frames(); ++k) {
+        const Camera camera = cameras_.view(k).look.camera;
         const auto sees = [&](const Bounds& part) {  // a part of the mechanism [m]
             const Vec2 corner = camera.to_pixels({part.x0, part.y1});
             return at_.box.overlaps(
@@ -171,7 +165,7 @@ int MechanismPanel::empty_frames() const {
 // ---- the background --------------------------------------------------------------------------
 
 void MechanismPanel::draw_background(Canvas& canvas) const {
-    if (!shots_.empty()) return;
+    if (cameras_.near()) return;
     draw_still(canvas, at_);
     legend_.draw(canvas, at_);
 }
@@ -186,51 +180,8 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
-static double solid_distance(const Box& box) { return 2.4 * std::max(box.w, box.h); }  // a mild perspective
-
-// Seen from far aside, bodies in perspective may need more room than from the front: the picture is reduced and moved.
-void MechanismPanel::fit_solid_view() {
-    const View& view = at_.context.setup->view;
-    const Vec2 middle = at_.box.centre(), hinge = at_.px({0, 0});
-    const double half = at_.wide / 2, hub = at_.hub(), foot = support_reach(hub, at_.unit);
-    Bounds seen;  // from the centre of the panel, at zoom 1 [px]
-    const auto add_all = [&](double yaw, double pitch) {
-        const auto from = Perspective::looking({}, solid_distance(at_.box), 1, yaw, pitch);
-        const auto add = [&](Vec2 p, double z) { seen.add(from.to_pixels({p.x - middle.x, middle.y - p.y, z})); };
-        for (const std::vector<Vec2>& strip : at_.context.extent.strips)
-            for (const Vec2 p : strip) add(at_.px(p), half), add(at_.px(p), -half);
-        for (int i = 0; at_.problem().cam && i < 32; ++i) {
-            const sim::Cam& cam = *at_.problem().cam;
-            const Vec2 rim = cam.centre + sim::unit(2 * pi * i / 32) * (cam.radius + cam.eccentricity);
-            add(at_.px(rim), 0.62 * at_.wide), add(at_.px(rim), -0.62 * at_.wide);
-        }
-        for (const double x : {-1.5 * hub, 1.5 * hub})
-            for (const double z : {-3 * half, 1.5 * half}) add(hinge + Vec2{x, foot}, z), add(hinge + Vec2{x, -hub}, z);
-    };
-    for (const double way : {-1.0, 0.0, 1.0}) add_all(view.shot.yaw + way * view.swing, view.shot.pitch);
-    for (const CameraMove& move : at_.context.setup->moves) add_all(move.shot.yaw, move.shot.pitch);
-    const Box all = seen.box();
-    const double w = at_.box.w / 2, h = at_.box.h / 2, zoom = solid_zoom_;
-    if (zoom * std::max(-all.x, all.right()) <= w && zoom * std::max(-all.y, all.bottom()) <= h) return;
-    constexpr double kMargin = 0.96;
-    solid_zoom_ = std::min({zoom, kMargin * at_.box.w / all.w, kMargin * at_.box.h / all.h});
-    solid_shift_ = all.centre() * -solid_zoom_;
-}
-
-// A near camera is not shifted.
-Perspective MechanismPanel::view_of(const MechanismView& at, int frame) const {
-    const View& view = at.context.setup->view;
-    const double turn = 2 * pi * frame / std::max(1, at.context.frames());
-    double yaw = view.shot.yaw, pitch = view.shot.pitch;
-    if (!shots_.empty())
-        yaw = shots_[static_cast<std::size_t>(frame)].yaw, pitch = shots_[static_cast<std::size_t>(frame)].pitch;
-    const Vec2 shift = solid_shift_ * std::clamp(2 - at.zoom(), 0.0, 1.0);
-    return Perspective::looking(at.box.centre() + shift, solid_distance(at.box) * at.zoom(), solid_zoom_,
-                                yaw + view.swing * std::sin(turn), pitch);
-}
-
 bool MechanismPanel::whole_path() const {
-    return at_.context.setup->view.tip_path && at_.context.setup->view.style != Style::solid && shots_.empty();
+    return at_.context.setup->view.tip_path && at_.context.setup->view.style != Style::solid && !cameras_.near();
 }
 
 void MechanismPanel::accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const {
@@ -246,8 +197,8 @@ void MechanismPanel::accumulate(Canvas& kept, const Image& background, int frame
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<ThreadState*>(state);
-    if (shots_.empty()) return draw_moving(canvas, at_, frame, style, threads);
-    const MechanismView at = at_.with_camera(shots_[static_cast<std::size_t>(frame)]);
+    if (!cameras_.near()) return draw_moving(canvas, at_, frame, style, threads);
+    const MechanismView at = cameras_.view(frame);
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
         draw_still(inside, at);
         draw_moving(inside, at, frame, style, threads);
@@ -261,9 +212,9 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const DrawnBeam drawn = at.drawn(at.member, pose);
     const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
     threads.trace.advance_to(pose.t);
-    const Perspective perspective = view_of(at, frame);
-    const Perspective* view = style == Style::solid ? &perspective : nullptr;
-    const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame));
+    const std::optional<Perspective> perspective = cameras_.perspective(at, frame);
+    const Perspective* view = perspective ? &*perspective : nullptr;
+    const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame, pose));
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, arrow, labels};
     draw_tip_path(s);
     if (at.ghosts) draw_ghost_bodies(s);
@@ -275,14 +226,12 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         });
     };
     draw_force_leader(s);  // behind the bodies, so that it crosses no letter
-    if (style == Style::solid) {
-        bodies();
-    } else {
+    if (!s.view) {
         draw_angle_arc(s);
         draw_base_line(s);
     }
     draw_cam_speed(s);
-    if (style != Style::solid) bodies();
+    bodies();
     if (!s.view && one) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
@@ -293,6 +242,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
 }
 
 void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const {
+    if (s.view && style != Style::solid) return;  // only the labels are needed
     switch (style) {
         case Style::solid:
             return threads.lit.draw_solid(s, rim_colors(s.at, threads.trace, s.pose.t));
@@ -341,10 +291,7 @@ void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
 
 // The camera, fading labels and the rings of impacts change while time is frozen.
 bool MechanismPanel::animates_while_paused(int frame) const {
-    const View& view = at_.context.setup->view;
-    const auto now = static_cast<std::size_t>(frame);
-    if (view.style == Style::solid && view.swing != 0) return true;
-    if (!shots_.empty() && !(shots_[now] == shots_[now - 1])) return true;
+    if (cameras_.move_at(frame)) return true;
     for (const auto* label : {&labels_.angle, &labels_.speed, &labels_.force})
         if (*label && (*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1)) return true;
     return rings_.change(frame);
@@ -353,8 +300,7 @@ bool MechanismPanel::animates_while_paused(int frame) const {
 std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {
     std::vector<Box> out;
     auto state = make_state();
-    const MechanismView at = shots_.empty() ? at_ : at_.with_camera(shots_[static_cast<std::size_t>(frame)]);
-    draw_moving(canvas, at, frame, Style::flat, static_cast<ThreadState&>(*state), &out);
+    draw_moving(canvas, cameras_.view(frame), frame, Style::flat, static_cast<ThreadState&>(*state), &out);
     return out;
 }
 

@@ -6,9 +6,10 @@
 
 #include "render/film/impact_rings.hpp"
 #include "render/film/lit_mechanism.hpp"
+#include "render/film/mechanism_cameras.hpp"
 #include "render/film/mechanism_legend.hpp"
+#include "render/film/swept_region.hpp"
 #include "render/film/tip_path.hpp"
-#include "render/plot/placement.hpp"
 
 namespace beamcam::render {
 
@@ -27,17 +28,12 @@ class MechanismPanel final : public FilmPanel {
     std::vector<Box> legend() const { return legend_.boxes(); }
     // Boxes of the labels of angle, speed and force in a frame, by drawing its flat view [px].
     std::vector<Box> labels(Canvas& canvas, int frame) const;
-    const Camera& camera(int frame) const {
-        return shots_.empty() ? at_.look.camera : shots_[static_cast<std::size_t>(frame)].camera;
-    }
+    Camera camera(int frame) const { return cameras_.view(frame).look.camera; }
     int empty_frames() const;  // frames in which no part of the mechanism is in the camera's view
     DrawnBeam beam(int frame) const { return at_.beam_of(at_.member, frame); }
 
   private:
     struct ThreadState;  // a FilmPanel::State
-    Perspective view_of(const MechanismView& at, int frame) const;
-    void find_shots();
-    void fit_solid_view();
     void draw_still(Canvas& canvas, const MechanismView& at) const;
     void draw_bodies(const MechanismScene& s, Style style, ThreadState& threads) const;
     void draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const;
@@ -45,7 +41,7 @@ class MechanismPanel final : public FilmPanel {
                      std::vector<Box>* labels = nullptr) const;
 
     void add_survey(SweptRegion& swept) const;
-    LabelNeeds add_frames(SweptRegion& swept, SweptRegion& in_contact);
+    LabelNeeds add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed);
 
     bool view_strobes() const { return at_.context.setup->view.strobe; }
     bool whole_path() const;  // draw all of the tip's path on an accumulated layer, instead of a trail
@@ -53,14 +49,11 @@ class MechanismPanel final : public FilmPanel {
 
     MechanismView at_;
     MechanismLegend legend_;
-    Vec2 solid_shift_;         // of the projection in the solid view, so that everything is in the panel [px]
-    double solid_zoom_ = 0.9;  // of the solid view; nearer parts are larger than in the flat view
-    Box lit_box_;              // contains the lit mechanism at all frames, shadows included; whole pixels
+    MechanismCameras cameras_;
+    Box lit_box_;  // contains the lit mechanism at all frames, shadows included; whole pixels
     MechanismLabels labels_;
     TipPath tip_path_;
     ImpactRings rings_;
-    std::vector<Followed> followed_;  // of every frame
-    std::vector<CameraFrame> shots_;  // of every frame; empty: the camera always shows everything
 };
 
 }  // namespace beamcam::render

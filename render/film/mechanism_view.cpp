@@ -57,15 +57,8 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
 }
 
 Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base) const {
-    const Vec2 beside = px(base.value_or(label.base));
-    Vec2 middle = px(label.middle);
-    if (moved) middle = beside + (middle - beside) * (1 / zoom());
+    const Vec2 middle = seen(px(moved ? base.value_or(label.base) : label.base), view) + label.offset;
     Box place{middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
-    if (view) {
-        const Vec2 end{std::clamp(beside.x, place.x, place.right()), std::clamp(beside.y, place.y, place.bottom())};
-        const Vec2 shift = seen(end, view) - end;
-        place.x += shift.x, place.y += shift.y;
-    }
     if (moved) {
         const Box within = box.inset(4 * unit);
         place.x = std::max(within.x, std::min(place.x, within.right() - place.w));

@@ -130,13 +130,13 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     const auto cylinder = [&](Vec2 centre, double radius, double from, double to, double chamfer, Color color) {
         bodies.cylinder({centre, radius, from, to, sides(radius), chamfer}, color);
     };
-    cylinder(hinge, shape.pin, 0.7 * wide, 0.7 * wide + 4 * unit, 1.5 * unit, palette.pin);
-    cylinder(hinge, shape.hub, -0.7 * wide, 0.7 * wide, 3 * unit, mix(metal, rgb(0xFFFFFF), 0.15));
+    cylinder(hinge, shape.pin, kHubDepth * wide, kHubDepth * wide + 4 * unit, 1.5 * unit, palette.pin);
+    cylinder(hinge, shape.hub, -kHubDepth * wide, kHubDepth * wide, 3 * unit, mix(metal, rgb(0xFFFFFF), 0.15));
     bodies.bar(face, back, shape.colors, half);
     if (shape.disc) {
         const DiscShape& d = *shape.disc;
-        const double thick = 0.62 * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
-        cylinder(up(d.axis), 0.8 * d.bore, -1.5 * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
+        const double thick = kDiscDepth * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
+        cylinder(up(d.axis), 0.8 * d.bore, -kMountDepth * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
         cylinder(up(d.centre), std::min(4 * unit, 0.06 * d.radius), thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
         cylinder(up(d.mark), d.mark_radius, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.45));
         bodies.cylinder({up(d.centre), d.radius, -thick, thick, rim.empty() ? sides(d.radius) : kMostSides, chamfer,
@@ -145,13 +145,13 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
     }
     // The bearing block, behind the beam, and the shaft through it.
     const double foot = shape.hub + 30 * unit;
-    cylinder(hinge, 0.8 * shape.hub, -1.5 * wide, -0.7 * wide, 2 * unit, mix(metal, rgb(0), 0.12));
-    bodies.box({hinge.x - 1.5 * shape.hub, hinge.y - foot - 10 * unit, -1.5 * wide},
+    cylinder(hinge, 0.8 * shape.hub, -kMountDepth * wide, -kHubDepth * wide, 2 * unit, mix(metal, rgb(0), 0.12));
+    bodies.box({hinge.x - 1.5 * shape.hub, hinge.y - foot - 10 * unit, -kMountDepth * wide},
                {hinge.x + 1.5 * shape.hub, hinge.y - foot, 0.75 * wide}, mix(metal, rgb(0), 0.3));
-    bodies.box({hinge.x - 0.8 * shape.hub, hinge.y - foot, -1.5 * wide},
+    bodies.box({hinge.x - 0.8 * shape.hub, hinge.y - foot, -kMountDepth * wide},
                {hinge.x + 0.8 * shape.hub, hinge.y, -0.75 * wide}, mix(metal, rgb(0), 0.12));
     const Box picture{0, 0, box.w, box.h};
-    const double wall = -1.55 * wide;
+    const double wall = kWallDepth * wide;
     add_wall(scene.mesh, shadowed_tiles(bodies, view, wall, scene.reach, picture), view, wall);
     scene.wall = scene.mesh.corners.size();
     append(scene.mesh, bodies);

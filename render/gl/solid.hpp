@@ -34,6 +34,9 @@ struct Perspective {
 inline constexpr Vec3 kLightNear{-0.4096, 0.5898, 0.6962}, kLightRight{0.8619, 0, 0.5071},
     kLightUp{0.2991, 0.8076, -0.5084};
 
+// Depths of the bodies, from the plane of motion, and of the wall behind them, relative to the width of the beam.
+inline constexpr double kDiscDepth = 0.62, kHubDepth = 0.7, kMountDepth = 1.5, kWallDepth = -1.55;
+
 struct SolidScene {
     Perspective view;
     Mesh mesh;             // the nearest bodies come first among the bodies, so that hidden pixels are not shaded

@@ -31,9 +31,9 @@ void OccupancyGrid::cover(const Cells& c, double weight) {
 
 void OccupancyGrid::cover(const Box& box, double weight) { cover(touched(box), weight); }
 
-void OccupancyGrid::cover_row(int row, double from, double to) {
+void OccupancyGrid::cover_row(int row, double from, double to, double weight) {
     const Cells c = touched({from, area_.y, to - from, 0});
-    cover(Cells{c.left, row, c.right, row + 1}, 1);
+    cover(Cells{c.left, row, c.right, row + 1}, weight);
 }
 
 void OccupancyGrid::cover(std::span<const Vec2> curve, double weight) {
@@ -51,7 +51,7 @@ void OccupancyGrid::cover(std::span<const Vec2> curve, double weight) {
     }
 }
 
-void OccupancyGrid::cover_convex(std::span<const Vec2> corners) {
+void OccupancyGrid::cover_convex(std::span<const Vec2> corners, double weight) {
     Bounds all;
     for (Vec2 p : corners) all.add(p);
     const Cells c = touched(all.box());
@@ -68,7 +68,7 @@ void OccupancyGrid::cover_convex(std::span<const Vec2> corners) {
             part.add(at(top)), part.add(at(bottom));
             if (!(b.y > a.y)) part.add(b);
         }
-        if (part.x0 <= part.x1) cover_row(row, part.x0, part.x1);
+        if (part.x0 <= part.x1) cover_row(row, part.x0, part.x1, weight);
     }
 }
 
@@ -77,7 +77,7 @@ void OccupancyGrid::cover_disc(Vec2 centre, double radius) {
     for (int row = c.top; row < c.bottom; ++row) {
         const double top = top_of(row), off = std::clamp(centre.y, top, top + cell_) - centre.y;
         const double half = std::sqrt(std::max(0.0, radius * radius - off * off));
-        cover_row(row, centre.x - half, centre.x + half);
+        cover_row(row, centre.x - half, centre.x + half, 1);
     }
 }
 

@@ -14,8 +14,8 @@ class OccupancyGrid {
 
     // A shape covers every cell that it touches; a cell has the largest of its weights.
     void cover(const Box& box, double weight = 4);
-    void cover(std::span<const Vec2> curve, double weight = 1);  // NaN breaks it
-    void cover_convex(std::span<const Vec2> corners);            // in their order
+    void cover(std::span<const Vec2> curve, double weight = 1);           // NaN breaks it
+    void cover_convex(std::span<const Vec2> corners, double weight = 1);  // in their order
     void cover_disc(Vec2 centre, double radius);
 
     // The sum of the weights of the cells that the box touches; 1e6 if it leaves the area.
@@ -36,7 +36,7 @@ class OccupancyGrid {
     };
     Cells touched(const Box& box) const;
     void cover(const Cells& cells, double weight);
-    void cover_row(int row, double from, double to);
+    void cover_row(int row, double from, double to, double weight);
     double top_of(int row) const { return area_.y + row * cell_; }
     double weight(const Cells& cells) const;
     void sum() const;

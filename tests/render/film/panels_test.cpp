@@ -887,6 +887,19 @@ TEST(Labels, NoArcNoLetter) {
     EXPECT_EQ(Film(setup).geometry(0).labels.size() + 1, usual);
 }
 
+// A small picture makes the clock smaller rather than stating a number without its words.
+TEST(Clock, BecomesSmallerToLeaveRoomForWords) {
+    FilmSetup setup = test::flat_film({.duration = 0.5}, 200, 200);
+    setup.view.exaggeration = 5;
+    const FrameGeometry g = Film(setup).geometry(3);
+    ASSERT_TRUE(g.layout.clock);
+    double right = 0, widest = 0;
+    for (const Box& text : g.texts)
+        if (text.overlaps(*g.layout.clock)) right = std::max(right, text.right()), widest = std::max(widest, text.w);
+    EXPECT_LE(right, g.layout.clock->right());
+    EXPECT_GT(widest, 50);  // "deflection ×5"; "×5" and the clock are narrower
+}
+
 // The names of motions are beside the readings only if no mechanism carries them.
 TEST(Comparisons, NameEachMotionOnce) {
     const auto texts_of_heading = [](std::optional<LayoutNode> layout) {
@@ -1320,7 +1333,7 @@ TEST(Perspective, FromTheFrontThePlaneOfMotionIsTheFlatView) {
     EXPECT_NEAR(nearer.y, 300 - 62.5, 1e-9);
 }
 
-// In a view from the side distances shrink but text does not: labels are still beside their owners.
+// In a view from the side distances shrink but text does not: labels keep their distance from their owners.
 TEST(Perspective, LabelsStandBesideTheirArrows) {
     FilmSetup setup = test::synthetic_film({.duration = 0.1});
     setup.width = 1280, setup.height = 720;
@@ -1329,12 +1342,11 @@ TEST(Perspective, LabelsStandBesideTheirArrows) {
     const Vec2 base = at.box.centre() + Vec2{30, 40};
     for (const double side : {-1.0, 1.0})
         for (const double yaw : {-0.9, 0.0, 0.5}) {
-            const Vec2 size{120, 20}, middle = base + Vec2{side * 80, 0};  // 20 px between base and label
             const auto view = Perspective::looking(at.box.centre(), 2.4 * at.box.w, 0.9, yaw, 0.2);
-            const LabelPlace label{at.look.camera.to_world(middle), size, at.look.camera.to_world(base), {}};
+            const LabelPlace label{at.look.camera.to_world(base), {side * 80, 0}, {120, 20}, {}, {}};
             const Box box = at.label_box(label, &view);
             const double gap = side > 0 ? box.x - at.seen(base, &view).x : at.seen(base, &view).x - box.right();
-            EXPECT_NEAR(gap, 20 * 0.9 * std::cos(yaw), 2) << side << ", " << yaw;
+            EXPECT_NEAR(gap, 20, 1e-9) << side << ", " << yaw;
             EXPECT_NEAR(box.w, 120, 1e-9);
         }
 }

@@ -1,0 +1,38 @@
+// The cameras of a mechanism's panel: the one that shows everything, the moving one of each frame, and in the solid
+// view their projections.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "render/film/camera.hpp"
+#include "render/film/mechanism_view.hpp"
+
+namespace beamcam::render {
+
+class MechanismCameras {
+  public:
+    explicit MechanismCameras(const MechanismView& home);
+    // `parts`: of every frame.
+    void follow(const std::vector<Followed>& parts);
+
+    bool near() const { return !shots_.empty(); }  // at some frame the view is not the one that shows everything
+    bool move() const;                             // during the film
+    bool move_at(int frame) const;                 // since the previous frame
+    MechanismView view(int frame) const;
+    // Of the solid view; none in flat and lit films.
+    std::optional<Perspective> perspective(const MechanismView& at, int frame) const;
+    // The usual projection and those at the ends of the swing; empty in flat and lit films.
+    std::vector<Perspective> projections() const;
+
+  private:
+    void fit_solid_view();
+    Perspective looking(const MechanismView& at, double yaw, double pitch) const;
+
+    const MechanismView& home_;
+    Vec2 solid_shift_;                // of the projection in the solid view, so that everything is in the panel [px]
+    double solid_zoom_ = 0.9;         // of the solid view; nearer parts are larger than in the flat view
+    std::vector<CameraFrame> shots_;  // of every frame; empty: the camera always shows everything
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,163 @@
+// Labels of the mechanism never lie over moving parts, from any side and with any camera.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+
+#include "render/film/impact_rings.hpp"
+#include "render/film/mechanism_cameras.hpp"
+#include "render/film/panel.hpp"
+#include "tests/render/synthetic.hpp"
+
+namespace beamcam::render {
+namespace {
+
+// Any point of the label is inside the triangle, or a corner of the triangle inside the label.
+bool meets(const Box& label, const std::array<Vec2, 3>& triangle) {
+    if (std::ranges::any_of(triangle, [&](Vec2 p) { return label.contains({p.x, p.y, 0, 0}); })) return true;
+    constexpr int kAlong = 24, kDown = 6;
+    for (int i = 0; i <= kAlong; ++i)
+        for (int j = 0; j <= kDown; ++j) {
+            const Vec2 p{label.x + label.w * i / kAlong, label.y + label.h * j / kDown};
+            int left = 0, right = 0;
+            for (std::size_t k = 0; k < 3; ++k) {
+                const double side = cross(triangle[(k + 1) % 3] - triangle[k], p - triangle[k]);
+                left += side > 0, right += side < 0;
+            }
+            if (left == 0 || right == 0) return true;
+        }
+    return false;
+}
+
+// The visible faces of a piece of the beam, or in the flat view the piece itself.
+bool meets_beam(const Box& label, const MechanismView& at, const DrawnBeam& beam, const Perspective* view) {
+    const Vec2 middle = at.box.centre();
+    for (std::size_t i = 0; i + 1 < beam.line.size(); ++i) {
+        std::vector<Vec2> corners;
+        for (const double z : {-0.5, 0.5})
+            for (const Vec2 p : {beam.face(i), beam.face(i + 1), beam.back(i + 1), beam.back(i)}) {
+                const Vec2 flat = at.px(p);
+                corners.push_back(view ? view->to_pixels({flat.x - middle.x, middle.y - flat.y, z * at.wide}) : flat);
+            }
+        Bounds around;
+        for (const Vec2 p : corners) around.add(p);
+        if (!label.overlaps(around.box())) continue;
+        // Every triangle of corners is inside the convex piece.
+        for (std::size_t a = 0; a < corners.size(); ++a)
+            for (std::size_t b = a + 1; b < corners.size(); ++b)
+                for (std::size_t c = b + 1; c < corners.size(); ++c)
+                    if (meets(label, {corners[a], corners[b], corners[c]})) return true;
+    }
+    return false;
+}
+
+struct Labelled {
+    int labels = 0, over_beam = 0;
+    std::vector<Box> places;
+};
+
+Labelled labels_of(const FilmSetup& setup, int step) {
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const MechanismView home(context, *context.places.first(PanelKind::mechanism));
+    MechanismCameras cameras(home);
+    std::vector<Followed> followed;
+    for (int k = 0; k < context.frames(); ++k) {
+        const sim::Pose pose = context.pose(0, k);
+        const DrawnBeam beam = home.drawn(0, pose);
+        const Vec2 tip = (beam.face(beam.line.size() - 1) + beam.back(beam.line.size() - 1)) * 0.5;
+        followed.push_back({tip, beam.contact ? beam.contact->on_disc : tip, pose.cam_centre});
+    }
+    cameras.follow(followed);
+    Film film(setup);
+    Labelled out;
+    for (int k = 0; k < film.frames(); k += step) {
+        const FrameGeometry g = film.geometry(k);
+        const MechanismView at = cameras.view(k);
+        const auto view = cameras.perspective(at, k);
+        for (const Box& label : g.labels) {
+            ++out.labels;
+            out.over_beam += meets_beam(label, at, g.beam, view ? &*view : nullptr);
+            if (std::ranges::find(out.places, label) == out.places.end()) out.places.push_back(label);
+        }
+    }
+    return out;
+}
+
+FilmSetup film_of(Style style) {
+    FilmSetup setup = test::synthetic_film({.duration = 1});
+    setup.width = 1280, setup.height = 720;
+    setup.view.style = style;
+    return setup;
+}
+
+TEST(MechanismLabels, AreClearOfBodiesSeenFromAnySide) {
+    for (const double yaw : {-1.1, 0.42, 1.1})
+        for (const double pitch : {-0.4, 0.9}) {
+            FilmSetup setup = film_of(Style::solid);
+            setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
+            const Labelled seen = labels_of(setup, 3);
+            EXPECT_EQ(seen.over_beam, 0) << yaw << ", " << pitch;
+            EXPECT_EQ(seen.places.size(), 2U) << yaw << ", " << pitch;  // the speed and the force
+        }
+}
+
+TEST(MechanismLabels, AreClearOfBodiesWhileTheViewSwings) {
+    FilmSetup setup = film_of(Style::solid);
+    setup.view.swing = 0.4;
+    const Labelled seen = labels_of(setup, 3);
+    EXPECT_EQ(seen.over_beam, 0);
+    EXPECT_GT(seen.labels, 10);
+}
+
+TEST(MechanismLabels, AreClearOfBodiesBeforeANearCamera) {
+    for (const Style style : {Style::flat, Style::solid})
+        for (const Anchor::Kind follow : {Anchor::Kind::tip, Anchor::Kind::contact})
+            for (const double zoom : {2.0, 6.0}) {
+                FilmSetup setup = film_of(style);
+                setup.view.shot.zoom = zoom, setup.view.shot.follow.kind = follow;
+                EXPECT_EQ(labels_of(setup, 3).over_beam, 0) << int(style) << ", " << int(follow) << ", " << zoom;
+            }
+}
+
+// The arrow of a peak that is held stays on the disc, which moves on.
+TEST(ImpactRings, ThePeakStaysOnTheDisc) {
+    FilmSetup setup = film_of(Style::flat);
+    sim::Impact impact;
+    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
+    setup.impacts = {impact};
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const MechanismView at(context, *context.places.first(PanelKind::mechanism));
+    ImpactRings rings;
+    rings.find(at);
+    int held = 0;
+    for (int k = 0; k < context.frames(); ++k) {
+        const sim::Pose pose = context.pose(0, k);
+        const auto peak = rings.peak(k, pose);
+        if (!peak) continue;
+        ++held;
+        EXPECT_NEAR(norm(peak->foot - pose.disc_centre), setup.problem.cam->radius, 1e-12) << k;
+    }
+    EXPECT_GT(held, 10);
+}
+
+// The names of many motions stay inside their panel, in whatever form.
+TEST(MechanismLegend, StaysWithinItsPanel) {
+    for (const auto& [width, height] : {std::pair{1280, 720}, {640, 360}, {320, 180}, {200, 200}}) {
+        FilmSetup setup = test::synthetic_film({.duration = 0.2});
+        setup.width = width, setup.height = height;
+        setup.view.style = Style::flat;
+        setup.label = "ω = 0";
+        for (int i = 1; i < 8; ++i)
+            setup.others.push_back(setup), setup.others.back().label = "ω = " + std::to_string(i);
+        setup.comparison = Comparison::ghosts;
+        const FrameGeometry g = Film(setup).geometry(0);
+        const Box panel = g.layout.first(PanelKind::mechanism)->box;
+        for (const Box& each : g.legend) EXPECT_TRUE(panel.contains(each)) << width << "×" << height;
+        if (width >= 640) {
+            EXPECT_FALSE(g.legend.empty()) << width << "×" << height;
+        }
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::render
