@@ -102,19 +102,28 @@ std::span<const double> rows_within(const ChartCurve& curve, Range time) {
                                       static_cast<std::size_t>(std::max(to - from, 0L)));
 }
 
+// The time that the chart shows in some frame.
+Range shown_time(const FilmContext& context, const PanelSpec& spec) {
+    const double first = context.at(0, 0), last = context.at(0, context.frames() - 1);
+    if (!spec.window) return context.span;
+    return {window_around(first, *spec.window).low, window_around(last, *spec.window).high};
+}
+
 // The axis of a film is that of all its windows.
 Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vector<ChartCurve>& curves) {
     Extent all;
     const Channel channel = spec.channels.front();
     const auto see = [&](double v) { all.add({&v, 1}); };
     const bool still = context.frames() == 1;  // a still shows only its past, which the chart contains
+    const Range time = shown_time(context, spec);
     for (const ChartCurve& curve : curves)
-        all.add(still && spec.window ? rows_within(curve, window_around(context.at(0, 0), *spec.window))
-                                     : std::span<const double>(curve.v));
+        all.add(spec.window ? rows_within(curve, time) : std::span<const double>(curve.v));
     for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
         const Motion& one = context.motion(m);
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
-            see(context.shown_factor(channel) * (still ? one.pose(0).theta : one.surveyed(k).theta));
+            if (const sim::Pose pose = still ? one.pose(0) : one.surveyed(k);
+                still || (pose.t >= time.low && pose.t <= time.high))
+                see(context.shown_factor(channel) * pose.theta);
     }
     const auto& [any, low, high] = all;
     if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
@@ -138,23 +147,23 @@ Color curve_color(const FilmContext& context, Channel channel, std::size_t i, in
 }
 
 // The places of impulsive impacts, which last no time and have no force that could color them.
-void add_impulses(const FilmContext& context, int member, ChartContent& c, Extent& places) {
+void add_impulses(const FilmContext& context, int member, const Range& shown, ChartContent& c, Extent& places) {
     if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
     const Palette& p = *context.palette;
     const Color color = context.members() > 1 ? context.member_color(member) : p.contact;
     for (const sim::Impact& impact : context.motion(member).impacts) {
         if (impact.t_start < c.time.low || impact.t_start > c.time.high) continue;
-        places.add({&impact.x, 1});
+        if (impact.t_start >= shown.low && impact.t_start <= shown.high) places.add({&impact.x, 1});
         c.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
     }
 }
 
 // The places of contact as dots.
-void add_places(const FilmContext& context, ChartContent& c) {
+void add_places(const FilmContext& context, const Range& shown, ChartContent& c) {
     Extent places;
     for (int m = 0; m < context.members(); ++m)
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
-            places.add({&s.x, 1});
+            if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
             if (s.t < c.time.low || s.t > c.time.high) continue;
             const Palette& p = *context.palette;
             Color color = context.members() > 1 ? context.member_color(m)
@@ -163,7 +172,7 @@ void add_places(const FilmContext& context, ChartContent& c) {
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.dots.push_back({s.t, s.x, color, faint});
         }
-    for (int m = 0; m < context.members(); ++m) add_impulses(context, m, c, places);
+    for (int m = 0; m < context.members(); ++m) add_impulses(context, m, shown, c, places);
     const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 2e-4 * length);
     c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
@@ -291,7 +300,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     c.filled = single && is_force(first) && context.members() == 1;
     if (is_force(first)) c.reading_unit = c.unit;
     c.value = range_of(context, spec, c.curves);
-    if (single && dotted) add_places(context, c);
+    if (single && dotted) add_places(context, shown_time(context, spec), c);
     add_data(context, spec, c);
     const bool of_contact = is_force(first) || first.kind == ChannelKind::contact_x;
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };

@@ -959,7 +959,8 @@ TEST(Strips, AWindowInAStillHasItsOwnRange) {
         return c.value.high - c.value.low;
     };
     EXPECT_LT(range(1, 0.02), 0.3 * range(1, {}));
-    EXPECT_EQ(range(20, 0.02), range(20, {}));
+    EXPECT_LT(range(1, 0.02), range(20, 0.02));
+    EXPECT_LT(range(20, 0.02), 0.8 * range(20, {}));  // the chart also contains the motion before the film
 }
 
 // Arrows are proportional to the force, in the mechanism and in the close-up.
