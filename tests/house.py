@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Checks the structure of the source tree: the top-level entries, the order of includes, the use of libraries, and that every
-cited equation is in sim/MODEL.md. Prints each violation as file:line and fails if there is one.
+"""Checks the structure of the source tree: the top-level entries, the order of includes, the use of libraries, that every
+cited equation is in sim/MODEL.md, and that every test named by a source or document exists. Prints each violation as file:line and fails if there is one.
 
 house.py ROOT            checks the tree
 house.py --self-test     checks that the checks can fail
@@ -38,6 +38,8 @@ PRIVATE_LIBRARIES = [
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")
+TEST = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
+NAMED_TEST = re.compile(r"`(\w+\.[A-Z]\w*[a-z]\w*)`")
 
 
 def sources(room):
@@ -126,7 +128,19 @@ def check_equations(root):
                     yield f"{path.relative_to(root)}:{number}: equation {cited} is not in sim/MODEL.md"
 
 
-CHECKS = [check_top_level, check_one_way, check_folders, check_private_libraries, check_equations]
+def check_named_tests(root):
+    """`Suite.Name`, where Suite is one of the project's; files such as `sim/MODEL.md` have no such suite."""
+    tests = [match for path in sources(root / "tests") for match in TEST.findall(path.read_text(encoding="utf-8"))]
+    known, suites = {".".join(test) for test in tests}, {suite for suite, _ in tests}
+    documents = [p for p in sorted(root.rglob("*.md")) if p.relative_to(root).parts[0] in TOP_LEVEL]
+    for path in [p for room in ROOMS for p in sources(root / room)] + documents:
+        for number, line in enumerate(path.read_text(encoding="utf-8").splitlines(), 1):
+            for name in NAMED_TEST.findall(line):
+                if name.split(".")[0] in suites and name not in known:
+                    yield f"{path.relative_to(root)}:{number}: no test is named {name}"
+
+
+CHECKS = [check_top_level, check_one_way, check_folders, check_private_libraries, check_equations, check_named_tests]
 
 
 def self_test():
@@ -143,12 +157,14 @@ def self_test():
         ("render/a.cpp", "extern \"C\" {\n  #include <libavcodec/avcodec.h>\n}\n", check_private_libraries),
         ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
         ("sim/a.cpp", "// θ̈ (S99)\n", check_equations),
+        ("scenes/a.cpp", '"`Modes.ArePrinted`"', check_named_tests),
     ]
     for name, text, guard in breaches:
         with tempfile.TemporaryDirectory() as directory:
             root = pathlib.Path(directory)
-            for room in ROOMS:
+            for room in ROOMS + ["tests"]:
                 (root / room).mkdir()
+            (root / "tests/a.cpp").write_text("TEST(Modes, AreComputed) {}  // `Modes.AreComputed`\n", encoding="utf-8")
             (root / "sim/MODEL.md").write_text("(S1)", encoding="utf-8")
             (root / "sim/solver.cpp").write_text("#include <cvode/cvode.h>  // (S1)\n", encoding="utf-8")
             if found := [breach for check in CHECKS for breach in check(root)]:

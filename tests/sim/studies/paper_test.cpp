@@ -4,6 +4,10 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
+#include <vector>
+
+#include "sim/beam/modes.hpp"
 
 namespace beamcam::sim {
 namespace {
