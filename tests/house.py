@@ -21,7 +21,7 @@ ROOMS = ["sim", "render", "output", "scenes"]
 FOLDERS = {
     "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "orbit", "sweep", "studies"],
     "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
-    "output": ["files", "data", "image", "film"],
+    "output": ["files", "json", "data", "image", "film"],
     "scenes": ["scene", "figures", "format", "motions", "sweep", "plan", "outputs", "regression", "commands"],
 }
 
@@ -30,11 +30,11 @@ PRIVATE_LIBRARIES = [
     ("SUNDIALS", re.compile(r"^(cvode|arkode|nvector|sunmatrix|sunlinsol|sunnonlinsol|sundials)/"), {"sim": 1}),
     ("OSMesa or EGL", re.compile(r"^(GL/osmesa\.h|EGL/)"), {"render": 2}),
     ("FFmpeg", re.compile(r"^(libav\w+|libsw\w+)/"), {"output": 4}),
-    ("libnetcdf", re.compile(r"^netcdf"), {"output": 1}),
+    ("libnetcdf", re.compile(r"^netcdf"), {"output": 4}),
     ("HDF5", re.compile(r"^hdf5"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
-    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2, "scenes": 2}),
+    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2}),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/records.hpp"
+#include "output/data/file_records.hpp"
 #include "output/files/descriptor.hpp"
 
 namespace beamcam::output {

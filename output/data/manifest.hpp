@@ -17,8 +17,8 @@
 #include <string>
 #include <vector>
 
+#include "output/data/file_records.hpp"
 #include "output/data/journal.hpp"
-#include "output/data/records.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/target.hpp"
 

@@ -1,59 +1,63 @@
 #include "output/data/orbit_records.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <complex>
 #include <limits>
-#include <nlohmann/json.hpp>
 #include <numeric>
+
+#include "output/json/tree.hpp"
 
 namespace beamcam::output {
 
 namespace {
 
-using OrbitJson = nlohmann::ordered_json;
-
-std::string records_text(const OrbitJson& json) { return json.dump(2) + "\n"; }
-
 constexpr double kUndefined = std::numeric_limits<double>::quiet_NaN();
 
-OrbitJson state_json(const sim::PeriodicOrbit& orbit) {
+Node state_node(const sim::PeriodicOrbit& orbit) {
     const sim::Initial& at = orbit.initial;
-    OrbitJson state = {{"cam_phase", orbit.cam_phase},
-                       {"cam_angle", orbit.section},
-                       {"theta", at.angle},
-                       {"theta_dot", at.angular_velocity}};
+    Node state = object_node({{"cam_phase", orbit.cam_phase},
+                              {"cam_angle", orbit.section},
+                              {"theta", at.angle},
+                              {"theta_dot", at.angular_velocity}});
     for (std::size_t k = 0; k < at.q.size(); ++k) {
-        state["q" + std::to_string(k + 1)] = at.q[k];
-        state["q" + std::to_string(k + 1) + "_dot"] = at.q_dot[k];
+        add(state, "q" + std::to_string(k + 1), at.q[k]);
+        add(state, "q" + std::to_string(k + 1) + "_dot", at.q_dot[k]);
     }
     return state;
 }
 
-OrbitJson orbit_json(const sim::PeriodicOrbit& orbit) {
-    OrbitJson touches = OrbitJson::array(), multipliers = OrbitJson::array();
+// `out`: the keys before those of the orbit.
+Node orbit_node(const sim::PeriodicOrbit& orbit, Node out = object_node()) {
+    Node touches = array_node(), multipliers = array_node();
     for (const sim::OrbitImpact& impact : orbit.impacts)
-        touches.push_back({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}, {"x", impact.x}});
-    for (const std::complex<double>& m : orbit.multipliers) multipliers.push_back({m.real(), m.imag()});
-    return {{"period", orbit.turns},           {"duration", orbit.period},
-            {"impacts", orbit.impacts.size()}, {"stable", orbit.stable()},
-            {"chatters", orbit.chatters()},    {"always_touching", orbit.always_touching()},
-            {"residual", orbit.residual},      {"multipliers", std::move(multipliers)},
-            {"state", state_json(orbit)},      {"touches", std::move(touches)}};
+        touches.items.push_back(
+            object_node({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}, {"x", impact.x}}));
+    for (const std::complex<double>& m : orbit.multipliers)
+        multipliers.items.push_back(array_node({m.real(), m.imag()}));
+    add(out, "period", orbit.turns);
+    add(out, "duration", orbit.period);
+    add(out, "impacts", orbit.impacts.size());
+    add(out, "stable", orbit.stable());
+    add(out, "chatters", orbit.chatters());
+    add(out, "always_touching", orbit.always_touching());
+    add(out, "residual", orbit.residual);
+    add(out, "multipliers", std::move(multipliers));
+    add(out, "state", state_node(orbit));
+    add(out, "touches", std::move(touches));
+    return out;
 }
 
-OrbitJson joined(OrbitJson head, const OrbitJson& tail) {
-    head.update(tail);
-    return head;
-}
-
-OrbitJson branch_json(const sim::Branch& branch) {
-    OrbitJson points = OrbitJson::array();
+Node branch_node(const sim::Branch& branch) {
+    Node points = array_node();
     for (const sim::BranchPoint& point : branch.points)
-        points.push_back(joined({{"value", point.parameter}}, orbit_json(point.orbit)));
+        points.items.push_back(orbit_node(point.orbit, object_node({{"value", point.parameter}})));
     const sim::PeriodicOrbit& orbit = branch.points.front().orbit;
-    return {{"period", orbit.turns},
-            {"impacts", orbit.impacts.size()},
-            {"ends", {branch.first_end, branch.last_end}},
-            {"points", std::move(points)}};
+    Node out = object_node({{"period", orbit.turns},
+                            {"impacts", orbit.impacts.size()},
+                            {"ends", array_node({branch.first_end, branch.last_end})}});
+    add(out, "points", std::move(points));
+    return out;
 }
 
 void add_rows(ColumnTable& table, double branch, double index, double value, const sim::PeriodicOrbit& orbit) {
@@ -83,61 +87,56 @@ void add_rows(ColumnTable& table, double branch, double index, double value, con
 }  // namespace
 
 std::string exponents_json(const sim::Exponents& e) {
-    OrbitJson all = OrbitJson::array();
+    Node all = array_node(), units = object_node();
+    for (const char* rate : {"value", "error", "history", "sum", "impacts_per_second"}) add(units, rate, "1/s");
+    add(units, "slowest_impact", "m/s");
+    add(units, "doubt", "1/s");
+    for (const char* time : {"time", "history_time"}) add(units, time, "s");
     for (std::size_t i = 0; i < e.lambda.size(); ++i)
-        all.push_back({{"value", e.lambda[i]}, {"error", e.error[i]}, {"history", e.history[i]}});
-    return records_text({{"units",
-                          {{"value", "1/s"},
-                           {"error", "1/s"},
-                           {"history", "1/s"},
-                           {"sum", "1/s"},
-                           {"impacts_per_second", "1/s"},
-                           {"slowest_impact", "m/s"},
-                           {"doubt", "1/s"},
-                           {"time", "s"},
-                           {"history_time", "s"}}},
-                         {"exponents", std::move(all)},
-                         {"sum", std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0)},
-                         {"chaotic", e.chaos() == sim::Chaos::doubtful ? OrbitJson(nullptr) : OrbitJson(e.chaotic())},
-                         {"settled", e.settled},
-                         {"transient", e.transient},
-                         {"time", e.duration},
-                         {"impacts", e.impacts},
-                         {"impacts_per_second", static_cast<double>(e.impacts) / e.duration},
-                         {"near_grazing", e.near_grazing},
-                         {"slowest_impact", e.slowest_impact},
-                         {"doubt", e.doubt},
-                         {"history_time", e.time},
-                         {"warnings", e.warnings}});
+        all.items.push_back(object_node({{"value", e.lambda[i]}, {"error", e.error[i]}, {"history", e.history[i]}}));
+    return to_text(object_node({{"units", std::move(units)},
+                                {"exponents", std::move(all)},
+                                {"sum", std::accumulate(e.lambda.begin(), e.lambda.end(), 0.0)},
+                                {"chaotic", e.chaos() == sim::Chaos::doubtful ? Node() : Node(e.chaotic())},
+                                {"settled", e.settled},
+                                {"transient", e.transient},
+                                {"time", e.duration},
+                                {"impacts", e.impacts},
+                                {"impacts_per_second", static_cast<double>(e.impacts) / e.duration},
+                                {"near_grazing", e.near_grazing},
+                                {"slowest_impact", e.slowest_impact},
+                                {"doubt", e.doubt},
+                                {"history_time", e.time},
+                                {"warnings", e.warnings}}));
 }
 
 std::string orbits_json(const BranchTable& table) {
-    OrbitJson orbits = OrbitJson::array(), branches = OrbitJson::array(), events = OrbitJson::array();
-    for (const sim::PeriodicOrbit& orbit : table.orbits) orbits.push_back(orbit_json(orbit));
+    Node orbits = array_node(), branches = array_node(), events = array_node();
+    for (const sim::PeriodicOrbit& orbit : table.orbits) orbits.items.push_back(orbit_node(orbit));
     for (const sim::Branch& branch : table.branches) {
         for (const sim::SpecialPoint& point : branch.special)
-            events.push_back(joined({{"kind", name(point.change)},
-                                     {"value", point.at.parameter},
-                                     {"uncertainty", point.uncertainty},
-                                     {"branch", branches.size()}},
-                                    orbit_json(point.at.orbit)));
-        branches.push_back(branch_json(branch));
+            events.items.push_back(orbit_node(point.at.orbit, object_node({{"kind", name(point.change)},
+                                                                           {"value", point.at.parameter},
+                                                                           {"uncertainty", point.uncertainty},
+                                                                           {"branch", branches.items.size()}})));
+        branches.items.push_back(branch_node(branch));
     }
     const bool over = !table.key.empty();
-    OrbitJson units = {{"value", over ? OrbitJson(table.unit) : OrbitJson(nullptr)},
-                       {"period", "turns of the cam"},
-                       {"duration", "s"},
-                       {"cam_angle", "rad"},
-                       {"approach", "m/s"},
-                       {"x", "m"},
-                       {"theta", "rad"},
-                       {"theta_dot", "rad/s"}};
-    return records_text({{"units", std::move(units)},
-                         {"parameter", over ? OrbitJson(table.key) : OrbitJson(nullptr)},
-                         {"start", over ? OrbitJson(table.start) : OrbitJson(nullptr)},
-                         {"orbits", std::move(orbits)},
-                         {"branches", std::move(branches)},
-                         {"events", std::move(events)}});
+    Node units = object_node({{"value", over ? Node(table.unit) : Node()},
+                              {"period", "turns of the cam"},
+                              {"duration", "s"},
+                              {"cam_angle", "rad"},
+                              {"approach", "m/s"},
+                              {"x", "m"},
+                              {"theta", "rad"},
+                              {"theta_dot", "rad/s"}});
+    Node out = object_node({{"units", std::move(units)},
+                            {"parameter", over ? Node(table.key) : Node()},
+                            {"start", over ? Node(table.start) : Node()}});
+    add(out, "orbits", std::move(orbits));
+    add(out, "branches", std::move(branches));
+    add(out, "events", std::move(events));
+    return to_text(out);
 }
 
 ColumnTable orbit_columns(const BranchTable& branches, std::vector<std::pair<std::string, std::string>> attributes) {

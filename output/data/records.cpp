@@ -1,31 +1,16 @@
 #include "output/data/records.hpp"
 
-#include <nlohmann/json.hpp>
+#include <algorithm>
 #include <numbers>
-#include <sstream>
-#include <type_traits>
+#include <stdexcept>
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
+#include "output/json/tree.hpp"
 
 namespace beamcam::output {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-// Messages may quote bytes of the user that are not UTF-8; they become U+FFFD.
-std::string text_of(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-// A value of any member below; absent values, NaN and infinities are null.
-template <typename T>
-Json json_of(const T& value) {
-    return value;
-}
-template <typename T>
-Json json_of(const std::optional<T>& value) {
-    return value ? Json(*value) : Json(nullptr);
-}
 
 // Calls visit(name, value) for every field, in the order of JSON and CSV.
 template <typename Visit>
@@ -73,13 +58,11 @@ void for_each_field(const sim::Collision& c, Visit visit) {
 }
 
 template <typename Record>
-Json array_of(const std::vector<Record>& records) {
-    Json list = Json::array();
+Node array_of(const std::vector<Record>& records) {
+    Node list = array_node();
     for (const Record& record : records) {
-        Json object = Json::object();
-        for_each_field(record,
-                       [&object](const std::string& name, const auto& value) { object[name] = json_of(value); });
-        list.push_back(std::move(object));
+        Node& object = list.items.emplace_back(object_node());
+        for_each_field(record, [&object](const std::string& name, const auto& value) { add(object, name, value); });
     }
     return list;
 }
@@ -90,20 +73,22 @@ void append_cell(std::string& line, const std::optional<double>& value) {
     if (value) append_number(line, *value);
 }
 
-Json units(const sim::Problem& problem) {
-    Json map = Json::object();
-    for (const sim::Channel channel : sim::all_channels(problem)) map[sim::name(channel)] = sim::unit(channel, problem);
+Node units(const sim::Problem& problem) {
+    Node map = object_node();
+    for (const sim::Channel channel : sim::all_channels(problem))
+        add(map, sim::name(channel), sim::unit(channel, problem));
     return map;
 }
 
-Json extrema_of(const sim::Result& result, const std::vector<sim::Channel>& channels) {
+Node extrema_of(const sim::Result& result, const std::vector<sim::Channel>& channels) {
     if (channels.size() != result.extrema.size())
         throw std::logic_error("summary: " + std::to_string(channels.size()) + " channels for " +
                                std::to_string(result.extrema.size()) + " extrema");
-    Json map = Json::object();
+    Node map = object_node();
     for (std::size_t i = 0; i < channels.size(); ++i) {
         const sim::Extremum& e = result.extrema[i];
-        map[sim::name(channels[i])] = {{"min", e.min}, {"t_min", e.t_min}, {"max", e.max}, {"t_max", e.t_max}};
+        add(map, sim::name(channels[i]),
+            object_node({{"min", e.min}, {"t_min", e.t_min}, {"max", e.max}, {"t_max", e.t_max}}));
     }
     return map;
 }
@@ -117,73 +102,45 @@ double largest_residual(const sim::Result& result, const std::vector<sim::Channe
     return largest;
 }
 
-void add_reproducibility(const sim::Result& result, Json& json) {
-    json["reproducible_until"] = *result.reproducible_until;
-    Json& lost = json["not_reproducible"] = Json::array();
+void add_reproducibility(const sim::Result& result, Node& out) {
+    add(out, "reproducible_until", result.reproducible_until);
+    Node lost = array_node();
     for (const sim::Interval& interval : result.not_reproducible)
-        lost.push_back({json_of(interval.from), json_of(interval.to)});
-    if (result.reproducible_again_from) json["reproducible_again_from"] = *result.reproducible_again_from;
-    json["compared_with"] = result.compared_with;
-    json["reproducibility"] = result.reproducibility;
+        lost.items.push_back(array_node({interval.from, interval.to}));
+    add(out, "not_reproducible", std::move(lost));
+    if (result.reproducible_again_from) add(out, "reproducible_again_from", result.reproducible_again_from);
+    add(out, "compared_with", result.compared_with);
+    add(out, "reproducibility", result.reproducibility);
 }
 
-constexpr const char* kManifestFormat = "beamcam manifest 1";
-
-Json json_of(const FileRecord& made) {
-    Json entry = {{"sha256", made.sha256}, {"size", made.size}};
-    const auto add = [&entry](const char* key, const std::string& text) {
-        if (!text.empty()) entry[key] = text;
-    };
-    add("version", made.origin.version);
-    add("scene", made.origin.scene);
-    add("inputs", made.origin.inputs);
-    add("stamp", made.stamp);
-    return entry;
+Node timing_node(const sim::Timing& time) {
+    if (time.repeats == 0) return {};
+    return object_node({{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}});
 }
 
-// Nothing if the entry is invalid.
-std::optional<FileRecord> file_record_of(const Json& entry) {
-    if (!entry.is_object()) return {};
-    const Json digest = entry.value("sha256", Json()), size = entry.value("size", Json());
-    if (!digest.is_string() || !size.is_number_unsigned()) return {};
-    const auto text = [&entry](const char* key) {
-        const Json value = entry.value(key, Json());
-        return value.is_string() ? value.get<std::string>() : std::string();
-    };
-    return FileRecord{digest.get<std::string>(), size.get<std::uintmax_t>(),
-                      Origin{text("inputs"), text("version"), text("scene")}, text("stamp")};
-}
-
-std::string line_of(const Json& json) { return json.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n"; }
-
-Json json_of(const sim::Timing& time) {
-    if (time.repeats == 0) return nullptr;
-    return {{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}};
-}
-
-// `head`: the keys that identify the row.
-Json accuracy_row(Json head, const sim::AccuracyRow& row) {
-    head["error"] = json_of(row.error);
+// `out`: the keys that identify the row.
+Node accuracy_row(Node out, const sim::AccuracyRow& row) {
+    add(out, "error", row.error);
     if (!row.error) {
-        head["note"] = row.note;
-        return head;
+        add(out, "note", row.note);
+        return out;
     }
-    head["trusted_until"] = row.trusted_until;
-    head["seconds"] = json_of(row.time);
-    head["steps"] = row.steps;
-    head["rhs_evaluations"] = row.rhs_evaluations;
-    head["impacts"] = row.impacts;
-    head["touch_error"] = json_of(row.touch_error);
-    return head;
+    add(out, "trusted_until", row.trusted_until);
+    add(out, "seconds", timing_node(row.time));
+    add(out, "steps", row.steps);
+    add(out, "rhs_evaluations", row.rhs_evaluations);
+    add(out, "impacts", row.impacts);
+    add(out, "touch_error", row.touch_error);
+    return out;
 }
 
 }  // namespace
 
 std::string impacts_json(const sim::Result& result) {
-    Json json;
-    json["impacts"] = array_of(result.impacts);
-    json["collisions"] = array_of(result.collisions);
-    return text_of(json);
+    Node out = object_node();
+    add(out, "impacts", array_of(result.impacts));
+    add(out, "collisions", array_of(result.collisions));
+    return to_text(out);
 }
 
 std::string impacts_csv(const sim::Result& result) {
@@ -214,27 +171,32 @@ void write_impacts(const Target& file, const sim::Result& result) {
 
 namespace {
 
-void add_part(const Agreement::Part& part, Json& out) {
-    out["rows"] = part.rows;
+void add_part(const Agreement::Part& part, Node& out) {
+    add(out, "rows", part.rows);
     if (part.rows == 0) return;
-    out["rms"] = part.rms, out["largest"] = part.largest, out["t_largest"] = part.t_largest;
-    out["highest"] = part.highest;
+    add(out, "rms", part.rms), add(out, "largest", part.largest), add(out, "t_largest", part.t_largest);
+    add(out, "highest", part.highest);
 }
 
 // Differences are measured minus computed, in the channel's unit.
-Json json_of(const Agreement& each, const char* unit) {
-    Json out{{"label", each.label}, {"file", each.file}, {"channel", sim::name(each.channel)}, {"unit", unit}};
+Node agreement_node(const Agreement& each, const char* unit) {
+    Node out =
+        object_node({{"label", each.label}, {"file", each.file}, {"channel", sim::name(each.channel)}, {"unit", unit}});
     add_part(each.whole, out);
-    Json& collisions = out["collisions"] = Json::array();
+    Node collisions = array_node();
     for (const auto& after : each.collisions) {
-        collisions.push_back({{"collision", after.collision}, {"t_start", after.t_start}});
-        add_part(after, collisions.back());
+        collisions.items.push_back(object_node({{"collision", after.collision}, {"t_start", after.t_start}}));
+        add_part(after, collisions.items.back());
     }
+    add(out, "collisions", std::move(collisions));
     if (!each.beyond) return out;
-    const auto both = [](const Agreement::Statistics& s) { return Json{{"mean", s.mean}, {"deviation", s.deviation}}; };
-    out["not_reproducible"] = {{"rows", each.beyond->rows},
-                               {"measured", both(each.beyond->measured)},
-                               {"computed", both(each.beyond->computed)}};
+    const auto both = [](const Agreement::Statistics& s) {
+        return object_node({{"mean", s.mean}, {"deviation", s.deviation}});
+    };
+    add(out, "not_reproducible",
+        object_node({{"rows", each.beyond->rows},
+                     {"measured", both(each.beyond->measured)},
+                     {"computed", both(each.beyond->computed)}}));
     return out;
 }
 
@@ -243,135 +205,76 @@ Json json_of(const Agreement& each, const char* unit) {
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema, const Work* work,
                          const std::vector<Agreement>& data) {
-    Json json;
-    json["units"] = units(problem);
-    json["model"] = sim::name(problem.beam.model);
-    json["modes"] = problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes;
-    json["end_time"] = result.end_time;
-    json["steps"] = result.counters.steps;
-    Json& steps = json["steps_by_method"] = Json::object();
-    for (const auto& [method, count] : result.steps_by_method) steps[std::string(sim::name(method))] = count;
-    json["rhs_evaluations"] = result.counters.rhs_evaluations;
-    json["wall_seconds"] = result.wall_seconds;
-    Json& zeros = json["events"]["theta_zero"] = Json::array();
+    Node steps = object_node(), zeros = array_node(), agreements = array_node(), counts = object_node();
+    for (const auto& [method, count] : result.steps_by_method) add(steps, sim::name(method), count);
     for (const sim::ZeroCrossing& zero : result.theta_zero)
-        zeros.push_back({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
-    json["extrema"] = extrema_of(result, extrema);
-    json["energy_residual_max"] = largest_residual(result, extrema);
-    json["energy_scale"] = result.energy_scale;
-    json["impacts"] = result.impacts.size();
-    json["collisions"] = result.collisions.size();
-    if (result.reproducible_until) add_reproducibility(result, json);
-    for (const Agreement& each : data) json["data"].push_back(json_of(each, unit(each.channel, problem)));
-    json["warnings"] = result.warnings;
-    if (work) for_each_count(*work, [&](const char* name, long count) { json["work"][name] = count; });
-    return text_of(json);
+        zeros.items.push_back(object_node({{"t", zero.t}, {"theta_dot", zero.theta_dot}}));
+    for (const Agreement& each : data) agreements.items.push_back(agreement_node(each, unit(each.channel, problem)));
+    if (work) for_each_count(*work, [&](const char* name, long count) { add(counts, name, count); });
+
+    Node out = object_node({{"units", units(problem)},
+                            {"model", sim::name(problem.beam.model)},
+                            {"modes", problem.beam.model == sim::ModelKind::rigid ? 0 : problem.beam.modes},
+                            {"end_time", result.end_time},
+                            {"steps", result.counters.steps},
+                            {"steps_by_method", std::move(steps)},
+                            {"rhs_evaluations", result.counters.rhs_evaluations},
+                            {"wall_seconds", result.wall_seconds},
+                            {"events", object_node({{"theta_zero", std::move(zeros)}})},
+                            {"extrema", extrema_of(result, extrema)},
+                            {"energy_residual_max", largest_residual(result, extrema)},
+                            {"energy_scale", result.energy_scale},
+                            {"impacts", result.impacts.size()},
+                            {"collisions", result.collisions.size()}});
+    if (result.reproducible_until) add_reproducibility(result, out);
+    if (!data.empty()) add(out, "data", std::move(agreements));
+    add(out, "warnings", result.warnings);
+    if (work) add(out, "work", std::move(counts));
+    return to_text(out);
 }
 
 std::string modes_json(const std::vector<sim::Mode>& modes) {
-    Json all = Json::array();
+    Node all = array_node();
     for (const sim::Mode& mode : modes) {
-        Json shape = Json::array();
-        for (const sim::Vec2& at : mode.shape) shape.push_back({at.x, at.y});
-        all.push_back({{"omega", mode.omega},
-                       {"hz", mode.omega / (2 * std::numbers::pi)},
-                       {"shape", std::move(shape)},
-                       {"q", mode.q}});
+        Node shape = array_node();
+        for (const sim::Vec2& at : mode.shape) shape.items.push_back(array_node({at.x, at.y}));
+        all.items.push_back(object_node({{"omega", mode.omega},
+                                         {"hz", mode.omega / (2 * std::numbers::pi)},
+                                         {"shape", std::move(shape)},
+                                         {"q", array_node({mode.q.begin(), mode.q.end()})}}));
     }
-    return Json{{"modes", std::move(all)}}.dump(2) + "\n";
+    return to_text(object_node({{"modes", std::move(all)}}));
 }
 
 std::string accuracy_json(const sim::Accuracy& a) {
-    Json work = Json::array(), modes = Json::array(), models = Json::array(), contact = Json::array();
+    Node work = array_node(), modes = array_node(), models = array_node(), contact = array_node();
     for (const auto& row : a.work)
-        work.push_back(accuracy_row({{"method", sim::name(row.method)}, {"rtol", row.rtol}}, row));
-    for (const auto& row : a.modes) modes.push_back(accuracy_row({{"modes", row.modes}}, row));
-    for (const auto& row : a.models) models.push_back(accuracy_row({{"model", sim::name(row.model)}}, row));
-    for (const auto& row : a.contact) contact.push_back(accuracy_row({{"change", row.change}}, row));
-    Json all = {{"of", a.of_tip ? "tip_deflection / length" : "theta"},
-                {"units", {{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}}},
-                {"end_time", a.end_time},
-                {"until", a.until},
-                {"reference_error", a.reference_error},
-                {"target", a.target},
-                {"time_integration", work},
-                {"modes", {{"against", a.most_modes}, {"rows", modes}}},
-                {"models", {{"against", sim::name(a.best_model)}, {"until", a.models_until}, {"rows", models}}},
-                {"contact", contact},
-                {"recommendation", nullptr}};
+        work.items.push_back(accuracy_row(object_node({{"method", sim::name(row.method)}, {"rtol", row.rtol}}), row));
+    for (const auto& row : a.modes) modes.items.push_back(accuracy_row(object_node({{"modes", row.modes}}), row));
+    for (const auto& row : a.models)
+        models.items.push_back(accuracy_row(object_node({{"model", sim::name(row.model)}}), row));
+    for (const auto& row : a.contact) contact.items.push_back(accuracy_row(object_node({{"change", row.change}}), row));
+    Node recommendation;
     if (const auto& r = a.recommendation)
-        all["recommendation"] = {{"rtol", r->rtol},   {"modes", r->modes},     {"until", r->until},
-                                 {"error", r->error}, {"seconds", r->seconds}, {"text", r->text}};
-    return all.dump(2) + "\n";
-}
-
-std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    Json plates = Json::array(), cases = Json::array();
-    for (const sim::CaseGrid& grid : campaign.grids)
-        plates.push_back({{"title", grid.title},
-                          {"row_title", grid.row_title},
-                          {"column_title", grid.column_title},
-                          {"rows", grid.rows},
-                          {"columns", grid.columns}});
-    for (std::size_t i = 0; i < results.size(); ++i) {
-        const sim::StressCase& one = campaign.cases[i];
-        const sim::StressResult& r = results[i];
-        cases.push_back({{"plate", one.grid},
-                         {"row", one.row},
-                         {"column", one.column},
-                         {"variant", one.variant},
-                         {"outcome", name(r.outcome)},
-                         {"closure", r.closure},
-                         {"steps_per_second", r.steps_per_second},
-                         {"steps", r.steps},
-                         {"impacts", r.impacts},
-                         {"reached", r.reached},
-                         {"words", r.message}});
-    }
-    return text_of({{"plates", std::move(plates)}, {"cases", std::move(cases)}});
-}
-
-std::string manifest_json(const FileRecords& files) {
-    Json json;
-    json["format"] = kManifestFormat;
-    json["files"] = Json::object();
-    for (const auto& [name, made] : files) json["files"][name] = json_of(made);
-    return text_of(json);
-}
-
-std::optional<FileRecords> parse_manifest(const std::string& text) {
-    const Json json = Json::parse(text, nullptr, /*allow_exceptions=*/false);
-    if (!json.is_object() || json.value("format", Json()) != kManifestFormat) return {};
-    const Json entries = json.value("files", Json());
-    if (!entries.is_object()) return {};
-    FileRecords files;
-    for (const auto& item : entries.items()) {
-        const auto made = file_record_of(item.value());
-        if (!made) return {};
-        files[item.key()] = *made;
-    }
-    return files;
-}
-
-std::string journal_line(const std::string& temporary) { return line_of({{"temporary", temporary}}); }
-
-std::string journal_line(const std::string& name, const FileRecord& made) {
-    return line_of({{"name", name}, {"made", json_of(made)}});
-}
-
-JournalLines parse_journal(const std::string& text) {
-    JournalLines all;
-    std::istringstream lines(text);
-    for (std::string line; std::getline(lines, line);) {
-        const Json json = Json::parse(line, nullptr, /*allow_exceptions=*/false);
-        if (!json.is_object()) continue;
-        const Json temporary = json.value("temporary", Json()), name = json.value("name", Json());
-        if (temporary.is_string()) all.temporaries.push_back(temporary.get<std::string>());
-        if (!name.is_string()) continue;
-        if (const auto made = file_record_of(json.value("made", Json())))
-            all.placed.emplace_back(name.get<std::string>(), *made);
-    }
-    return all;
+        recommendation = object_node({{"rtol", r->rtol},
+                                      {"modes", r->modes},
+                                      {"until", r->until},
+                                      {"error", r->error},
+                                      {"seconds", r->seconds},
+                                      {"text", r->text}});
+    return to_text(object_node(
+        {{"of", a.of_tip ? "tip_deflection / length" : "theta"},
+         {"units", object_node({{"error", "rad"}, {"seconds", "s"}, {"trusted_until", "s"}, {"touch_error", "s"}})},
+         {"end_time", a.end_time},
+         {"until", a.until},
+         {"reference_error", a.reference_error},
+         {"target", a.target},
+         {"time_integration", std::move(work)},
+         {"modes", object_node({{"against", a.most_modes}, {"rows", std::move(modes)}})},
+         {"models",
+          object_node({{"against", sim::name(a.best_model)}, {"until", a.models_until}, {"rows", std::move(models)}})},
+         {"contact", std::move(contact)},
+         {"recommendation", std::move(recommendation)}}));
 }
 
 }  // namespace beamcam::output

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <map>
 
+#include "output/json/tree.hpp"
+
 namespace beamcam::output {
 namespace {
 
@@ -91,6 +93,32 @@ std::string stress_csv(const sim::Campaign& campaign, const std::vector<sim::Str
                             r.impacts, r.reached, quoted(r.message));
     }
     return text;
+}
+
+std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    Node plates = array_node(), cases = array_node();
+    for (const sim::CaseGrid& grid : campaign.grids)
+        plates.items.push_back(object_node({{"title", grid.title},
+                                            {"row_title", grid.row_title},
+                                            {"column_title", grid.column_title},
+                                            {"rows", grid.rows},
+                                            {"columns", grid.columns}}));
+    for (std::size_t i = 0; i < results.size(); ++i) {
+        const sim::StressCase& one = campaign.cases[i];
+        const sim::StressResult& r = results[i];
+        cases.items.push_back(object_node({{"plate", one.grid},
+                                           {"row", one.row},
+                                           {"column", one.column},
+                                           {"variant", one.variant},
+                                           {"outcome", name(r.outcome)},
+                                           {"closure", r.closure},
+                                           {"steps_per_second", r.steps_per_second},
+                                           {"steps", r.steps},
+                                           {"impacts", r.impacts},
+                                           {"reached", r.reached},
+                                           {"words", r.message}}));
+    }
+    return to_text(object_node({{"plates", std::move(plates)}, {"cases", std::move(cases)}}));
 }
 
 }  // namespace beamcam::output

@@ -1,4 +1,4 @@
-// The results of a stress campaign as text and CSV. (JSON: output/data/records.hpp.)
+// The results of a stress campaign as text, CSV and JSON.
 #pragma once
 
 #include <string>
@@ -14,5 +14,8 @@ std::string stress_text(const sim::Campaign& campaign, const std::vector<sim::St
 
 // One line a case: plate, row, column, variant, outcome, closure, steps_per_second, steps, impacts, reached, words.
 std::string stress_csv(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
+
+// {"plates": […], "cases": [{"plate", "row", "column", "variant", "outcome", "closure", "steps_per_second", …}, …]}
+std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
 
 }  // namespace beamcam::output

@@ -21,9 +21,6 @@ class Spool {
     // Bytes that were never written are zero. From any number of threads while none writes. Throws IoError.
     void read(std::uint64_t at, std::span<std::byte> into) const;
 
-    std::uint64_t size() const { return size_; }
-    bool on_disk() const { return bool(file_); }
-
   private:
     void move_to_file();
     void read_back();

@@ -92,16 +92,16 @@ void add_encoder(EncoderRecipe& r, const VideoOptions& o) {
 
 // Options by which a film with a variable frame rate has the right duration.
 void keep_durations(EncoderRecipe& r, const VideoOptions& o) {
-    const FrameRate fps = frame_rate(o.fps);
     // The duration of an MP4 is that of its packets in decoding order, which must be the display order.
     if (o.codec == Codec::h264) r.encoder_options.emplace_back("bf", "0");
     if (o.codec == Codec::hevc)
         std::ranges::find(r.encoder_options, "x265-params", &OptionList::value_type::first)->second += ":bframes=0";
     // Otherwise the last picture would last as long as the previous one.
     if (o.codec == Codec::gif)
-        r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps)));
+        r.container_options.emplace_back("final_delay", std::to_string(std::lround(100 / o.fps.value())));
     if (o.codec == Codec::apng)
-        r.container_options.emplace_back("final_delay", std::to_string(fps.base) + "/" + std::to_string(fps.rate));
+        r.container_options.emplace_back("final_delay",
+                                         std::to_string(o.fps.denominator) + "/" + std::to_string(o.fps.numerator));
 }
 
 }  // namespace
@@ -117,7 +117,9 @@ const char* container_of(std::string_view ending) {
 }
 
 EncoderRecipe encoder_recipe(const VideoOptions& o, const std::string& ending) {
-    EncoderRecipe r{container_of(ending), {}, "", PixelLayout::yuv420, {}, {}, {}};
+    EncoderRecipe r;
+    static_cast<FilmSettings&>(r) = o;
+    r.container = container_of(ending);
     add_encoder(r, o);
     r.missing = std::string("the FFmpeg libraries on this machine have no ") + title(o.codec) + " encoder (";
     for (const std::string& encoder : r.encoders) r.missing += (encoder == r.encoders.front() ? "" : " or ") + encoder;

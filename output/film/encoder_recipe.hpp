@@ -12,13 +12,9 @@
 
 namespace beamcam::output {
 
-struct EncoderRecipe {
-    const char* container;
-    std::vector<std::string> encoders;
-    const char* pixel_format;
-    PixelLayout layout;
-    OptionList encoder_options, container_options;
-    std::string missing;  // message if FFmpeg has none of the encoders
+// Without the names of the file and without the palette.
+struct EncoderRecipe : EncoderSettings {
+    PixelLayout layout = PixelLayout::yuv420;
 };
 
 // An encoder of the FFmpeg on this machine.

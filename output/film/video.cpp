@@ -1,15 +1,11 @@
 #include "output/film/video.hpp"
 
 #include <algorithm>
-#include <array>
-#include <atomic>
 #include <cmath>
 #include <condition_variable>
-#include <cstdlib>
 #include <deque>
 #include <exception>
 #include <mutex>
-#include <numeric>
 #include <optional>
 #include <system_error>
 #include <thread>
@@ -19,8 +15,8 @@
 #include "output/film/encoder_recipe.hpp"
 #include "output/film/palette.hpp"
 #include "output/film/pixel_layout.hpp"
+#include "output/film/video_encoder.hpp"
 #include "output/film/video_library.hpp"
-#include "render/base/limits.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::output {
@@ -28,73 +24,8 @@ namespace beamcam::output {
 namespace {
 
 constexpr double kLongestHold = 5;  // [s]
-constexpr std::array kPresets = {"ultrafast", "superfast", "veryfast", "faster",   "fast",
-                                 "medium",    "slow",      "slower",   "veryslow", "placebo"};
-std::string preset_names() {
-    std::string text;
-    for (const char* preset : kPresets) text += (text.empty() ? "" : ", ") + std::string(preset);
-    return text;
-}
-
-// Upper limit for all encoders but SVT-AV1: `threads`, and some for look-ahead and filters.
-constexpr int kThreadsOfEncoder = 16;
-
-// SVT-AV1 waits forever if some of its threads cannot start. It started 90 threads on two cores; more cores, more
-// threads.
-int threads_of_svt_av1() { return std::min(64 + 32 * static_cast<int>(std::thread::hardware_concurrency()), 256); }
-
-// Whether SVT-AV1 gets the memory that it needs. On two cores the process used an address space of 1.4 GB for 320x180
-// pixels, 2.2 for 1280x720, 2.7 for 1920x1080, 5.0 for 3840x2160, with 8 MB for the stack of each thread. The process
-// keeps this memory for the next encoder.
-bool has_memory_for_svt_av1(int width, int height) {
-    static std::atomic<std::size_t> taken = 0;
-    constexpr std::size_t kThread = 10 << 20, kPixel = 350;  // [bytes]
-    const std::size_t need = kThread * static_cast<std::size_t>(threads_of_svt_av1()) +
-                             kPixel * static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
-    if (need <= taken) return true;
-    if (!render::has_memory(need)) return false;
-    taken = need;
-    return true;
-}
 
 }  // namespace
-
-void silence_encoder_logs() { setenv("SVT_LOG", "1", 0); }
-
-FrameRate frame_rate(double fps) {
-    if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
-    // 23.976, 23.98, 29.97, 59.94 …: usual decimals differ from n·1000/1001 by less than 0.005; no integer rate does.
-    for (int whole : {24, 30, 48, 60, 72, 90, 96, 100, 120, 144, 240})
-        if (std::abs(fps - whole * 1000.0 / 1001) < 0.005) return {whole * 1000, 1001};
-    FrameRate best{static_cast<int>(std::lround(fps)), 1};
-    for (int base = 1; base <= 1000; ++base) {
-        const FrameRate candidate{static_cast<int>(std::lround(fps * base)), base};
-        if (std::abs(candidate.value() - fps) < std::abs(best.value() - fps) - 1e-12 * fps) best = candidate;
-    }
-    return best;
-}
-
-std::vector<std::string> problems(const VideoOptions& o, std::string_view ending) {
-    std::vector<std::string> found;
-    for (std::string problem : {format_problem(ending, o.codec, o.transparent),
-                                size_problem(o.codec, o.width, o.height), rate_problem(o.codec, o.fps)})
-        if (!problem.empty()) found.push_back(std::move(problem));
-    const auto quality = quality_scale(o.codec);
-    if (o.crf && !quality)
-        found.push_back(std::string(title(o.codec)) + " has no crf, because its quality is fixed; remove it");
-    else if (o.crf && (*o.crf < 0 || *o.crf > quality->worst))
-        found.push_back("crf " + std::to_string(*o.crf) + " is not possible; use 0 (best) to " +
-                        std::to_string(quality->worst) + ", " + std::to_string(quality->usual) + " looks lossless");
-    if (o.codec == Codec::gif && (o.palette.empty() || o.palette.size() > 256))
-        found.push_back("a GIF needs a palette of 1 to 256 colours");
-    if (std::find(kPresets.begin(), kPresets.end(), o.preset) == kPresets.end())
-        found.push_back("unknown preset \"" + o.preset + "\"; use one of " + preset_names());
-    if (o.threads < 1 || o.threads > 4)
-        found.push_back(
-            std::to_string(o.threads) +
-            " encoder threads are not possible; use 1 to 4, because with more the film depends on their number");
-    return found;
-}
 
 // A converted picture: a frame of the module.
 struct VideoInput::Slot {
@@ -138,68 +69,21 @@ struct VideoWriter::Impl {
         try {
             worker = std::thread([this] { work(); });
         } catch (const std::system_error&) {
-            throw no_thread();
+            throw no_encoder_thread(file.target());
         }
     }
 
     ~Impl() { stop(true); }
 
-    IoError no_thread() const {
-        return IoError("cannot write " + file.target().string() + ": no thread can be started for the encoder; " +
-                       render::kThreadRemedy);
-    }
-
     void open() {
-        const EncoderRecipe recipe = encoder_recipe(options, file.target().extension().string());
-        layout = recipe.layout;
         if (options.variable_rate) {
-            longest_hold = std::lround(kLongestHold * options.fps);
+            longest_hold = std::lround(kLongestHold * options.fps.value());
             options.metadata["beamcam-rate-mode"] = "variable";  // `concat` checks it
         }
         if (!options.palette.empty()) table.emplace(options.palette);
-        const VideoLibrary& library = video_library();
-        if (options.codec == Codec::av1 && library.has_encoder("libsvtav1")) {
-            if (!has_memory_for_svt_av1(options.width, options.height)) throw std::bad_alloc();
-            if (!render::can_start_threads(threads_of_svt_av1())) throw no_thread();
-        }
-        try {
-            encoder = library.open_encoder(settings(recipe));
-        } catch (const CodecFailure& error) {                       // for reasons unknown to format_problem
-            if (render::memory_is_short()) throw std::bad_alloc();  // encoders do not report it
-            if (!render::can_start_threads(kThreadsOfEncoder)) throw no_thread();
-            throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " rejects films of " +
-                                    std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                    " pixels here (" + error.what() +
-                                    "); choose a smaller size, or write frames (NAME-####.png)");
-        }
-    }
-
-    EncoderSettings settings(const EncoderRecipe& recipe) const {
-        const FrameRate fps = frame_rate(options.fps);
-        EncoderSettings settings;
-        settings.file = file.temporary_path();
-        settings.named = file.target();
-        settings.width = options.width;
-        settings.height = options.height;
-        settings.rate = fps.rate;
-        settings.rate_base = fps.base;
-        settings.threads = options.threads;
-        settings.container = recipe.container;
-        settings.encoders = recipe.encoders;
-        settings.pixel_format = recipe.pixel_format;
-        settings.encoder_options = recipe.encoder_options;
-        settings.container_options = recipe.container_options;
-        settings.missing = recipe.missing;
-        if (layout == PixelLayout::indices) {
-            auto& colors = settings.palette.emplace();
-            colors.fill(0xff000000U);
-            std::ranges::copy(options.palette, colors.begin());
-        }
-        settings.metadata.assign(options.metadata.begin(), options.metadata.end());
-        settings.chapters = options.chapters;
-        settings.subtitles = options.subtitles;
-        settings.subtitle_language = options.subtitle_language;
-        return settings;
+        OpenedEncoder opened = open_encoder(options, file);
+        layout = opened.layout;
+        encoder = std::move(opened.encoder);
     }
 
     // Slots for one more input.

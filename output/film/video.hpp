@@ -7,9 +7,7 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,33 +23,9 @@ namespace beamcam::output {
 // Makes encoders print only errors, unless the environment sets it. To be called before any thread starts.
 void silence_encoder_logs();
 
-// Frames per second as a fraction: 29.97 means 30000/1001.
-struct FrameRate {
-    int rate = 60, base = 1;  // rate / base
-    double value() const { return double(rate) / base; }
-    double time_of(long frame) const { return double(frame) * base / rate; }  // [s]
-    bool operator==(const FrameRate&) const = default;
-};
-// The broadcast rates n·1000/1001 for their usual decimals, otherwise the nearest fraction with a base up to 1000.
-// Throws UnsupportedOption outside 0.1…1000.
-FrameRate frame_rate(double fps);
-
-struct VideoOptions {
-    int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
-    double fps = 60;                  // [1/s]
-    Codec codec = Codec::h264;
+struct VideoOptions : FilmSettings, Encoding {
     bool transparent = false;            // with the alpha of the pictures
-    std::optional<int> crf;              // 0 (large, nearly perfect) … the codec's worst; absent: its usual one
-    std::string preset = "veryfast";     // x264's, ultrafast … placebo
     std::vector<std::uint32_t> palette;  // of a GIF: 1 to 256 colours from PaletteMaker
-    int threads = 4;                     // 1…4 of the encoder; with more, the bits depend on their number
-    // Variable frame rate: a repeated picture is encoded once and shown longer, for up to 5 s; then, and at the end of
-    // the film, it is encoded again.
-    bool variable_rate = false;
-    std::map<std::string, std::string> metadata;
-    std::vector<Chapter> chapters;          // in increasing order; containers without chapters ignore them
-    std::vector<Chapter> subtitles;         // in increasing order, apart; in .mp4, .mov, .mkv and .webm
-    std::string subtitle_language = "eng";  // ISO 639-2
 };
 // All problems of these options, each with a remedy. `ending` with the dot.
 std::vector<std::string> problems(const VideoOptions& options, std::string_view ending = ".mp4");

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdint>
 
+#include "output/files/errors.hpp"
+
 namespace beamcam::output {
 namespace {
 
@@ -134,6 +136,19 @@ std::string rate_problem(Codec codec, double fps) {
                "use 50, 25 or 20, or a .webp or .apng file for " +
                plain(fps);
     return {};
+}
+
+FrameRate frame_rate(double fps) {
+    if (const std::string problem = rate_problem(Codec::h264, fps); !problem.empty()) throw UnsupportedOption(problem);
+    // 23.976, 23.98, 29.97, 59.94 …: usual decimals differ from n·1000/1001 by less than 0.005; no integer rate does.
+    for (int whole : {24, 30, 48, 60, 72, 90, 96, 100, 120, 144, 240})
+        if (std::abs(fps - whole * 1000.0 / 1001) < 0.005) return {whole * 1000, 1001};
+    FrameRate best{static_cast<int>(std::lround(fps)), 1};
+    for (int denominator = 1; denominator <= 1000; ++denominator) {
+        const FrameRate candidate{static_cast<int>(std::lround(fps * denominator)), denominator};
+        if (std::abs(candidate.value() - fps) < std::abs(best.value() - fps) - 1e-12 * fps) best = candidate;
+    }
+    return best;
 }
 
 }  // namespace beamcam::output

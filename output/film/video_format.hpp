@@ -1,4 +1,4 @@
-// Formats of films: the codecs of each kind of file, and their limits.
+// Formats of films: the codecs of each kind of file, their settings and limits.
 //
 //   .mp4   h264, av1, hevc  talks, the web; no transparency but hevc's, even sides
 //   .webm  vp9, av1         the web; vp9 also with transparency; even sides
@@ -13,7 +13,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace beamcam::output {
 
@@ -25,6 +24,26 @@ std::optional<Codec> codec_named(std::string_view name);
 // The default codec of files with this ending (with its dot); nothing: no film has this ending.
 std::optional<Codec> default_codec(std::string_view ending);
 bool goes_into(Codec codec, std::string_view ending);
+
+// Frames per second as a fraction: 29.97 means 30000/1001.
+struct FrameRate {
+    int numerator = 60, denominator = 1;  // both > 0, in lowest terms
+    double value() const { return static_cast<double>(numerator) / denominator; }
+    bool operator==(const FrameRate&) const = default;
+};
+// The broadcast rates n·1000/1001 for their usual decimals, otherwise the nearest fraction with a denominator up to
+// 1000. Throws UnsupportedOption outside 0.1…1000.
+FrameRate frame_rate(double fps);
+
+// How the pictures of a film are encoded.
+struct Encoding {
+    Codec codec = Codec::h264;
+    std::optional<int> crf;           // 0 (large, nearly perfect) … the codec's worst; absent: its usual one
+    std::string preset = "veryfast";  // x264's
+    // Variable frame rate: a repeated picture is encoded once and shown longer, for up to 5 s; then, and at the end of
+    // the film, it is encoded again.
+    bool variable_rate = false;
+};
 
 struct QualityScale {
     int usual, worst;  // crf: 0 is best

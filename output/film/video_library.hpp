@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "output/files/errors.hpp"
+#include "output/film/video_format.hpp"
 
 namespace beamcam::output {
 
@@ -37,12 +38,19 @@ struct Chapter {
     std::string title;
 };
 
-struct EncoderSettings {
-    std::filesystem::path file;   // exists; it is overwritten
-    std::filesystem::path named;  // its name in messages
-    int width = 0, height = 0;    // [px]
-    int rate = 0, rate_base = 1;  // frames per second = rate / rate_base
-    int threads = 1;
+// Of a film, and of its encoder.
+struct FilmSettings {
+    int width = 1920, height = 1080;  // [px], 16…16384; even where the codec needs it
+    FrameRate fps;
+    std::map<std::string, std::string> metadata;
+    std::vector<Chapter> chapters;          // in increasing order; containers without chapters ignore them
+    std::vector<Chapter> subtitles;         // in increasing order, apart; in .mp4, .mov, .mkv and .webm
+    std::string subtitle_language = "eng";  // ISO 639-2
+};
+
+struct EncoderSettings : FilmSettings {
+    std::filesystem::path file;                             // exists; it is overwritten
+    std::filesystem::path named;                            // its name in messages
     std::string container;                                  // FFmpeg's name of the muxer
     std::vector<std::string> encoders;                      // FFmpeg's names; the first that exists is used
     std::string pixel_format;                               // FFmpeg's name
@@ -50,10 +58,6 @@ struct EncoderSettings {
     OptionList container_options;                           //
     std::string missing;                                    // message if none of these encoders exists
     std::optional<std::array<std::uint32_t, 256>> palette;  // 0xAARRGGBB, for "pal8"
-    OptionList metadata;
-    std::vector<Chapter> chapters;
-    std::vector<Chapter> subtitles;
-    std::string subtitle_language = "eng";
 };
 
 // The planes of a frame that the caller fills; unused planes are null.

@@ -2,7 +2,6 @@
 #include "scenes/commands/cli.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -18,12 +17,12 @@
 #include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "output/film/video.hpp"
+#include "output/json/source.hpp"
 #include "render/base/error.hpp"
 #include "render/base/limits.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
-#include "scenes/format/source.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/scene/version.hpp"

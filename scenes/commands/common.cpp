@@ -80,10 +80,7 @@ void add_shard(Command& app, std::optional<std::string>& shard) {
                "Part 1 makes the other outputs. auto: the part of this array task of Slurm, Grid Engine or PBS");
 }
 
-Selection shard_argument(const std::string& text) {
-    const SweepPart part = part_argument(text, std::getenv);
-    return {{}, static_cast<int>(part.part) + 1, static_cast<int>(part.parts)};
-}
+Selection shard_argument(const std::string& text) { return {{}, shard_of(text, std::getenv)}; }
 
 Scene with_default_output(Scene scene) {
     if (scene.outputs.empty()) scene.outputs.push_back(default_film(scene));

@@ -6,12 +6,12 @@
 #include <sstream>
 
 #include "output/film/video_reader.hpp"
+#include "output/json/tree.hpp"
 #include "render/base/versions.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/commands/child.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/scene/version.hpp"

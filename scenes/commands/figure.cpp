@@ -1,13 +1,12 @@
 // `beamcam figure`: one figure for print.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <optional>
 
+#include "output/json/source.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/figures/figure_types.hpp"
-#include "scenes/format/source.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/outputs/run.hpp"
 

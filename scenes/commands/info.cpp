@@ -13,8 +13,8 @@
 #include "output/film/video_reader.hpp"
 #include "output/image/document_metadata.hpp"
 #include "output/image/png_reader.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/tree.hpp"
 
 namespace beamcam::scenes {
 namespace {

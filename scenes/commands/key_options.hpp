@@ -9,8 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "output/json/tree.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/tree.hpp"
 
 namespace beamcam::scenes {
 

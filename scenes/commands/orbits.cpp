@@ -9,17 +9,16 @@
 #include "output/data/orbit_records.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"
+#include "scenes/commands/key_range.hpp"
 #include "scenes/commands/orbit_text.hpp"
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/command_figures.hpp"
-#include "scenes/format/suggest.hpp"
 #include "scenes/format/units.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/scene/version.hpp"
 #include "scenes/sweep/problem_family.hpp"
 #include "scenes/sweep/swept_rows.hpp"
-#include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -32,36 +31,6 @@ struct OrbitsArguments {
     int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000, row = 0;
     double step = 0.01;
 };
-
-// "cam.speed=40:60"
-struct KeyRange {
-    sim::NumberKey key;
-    double from = 0, to = 0;
-};
-
-KeyRange range_argument(const std::string& over, const sim::Problem& problem) {
-    const std::size_t equals = over.find('='), colon = over.find(':', equals);
-    if (equals == std::string::npos || colon == std::string::npos || over.find(':', colon + 1) != std::string::npos)
-        throw UsageError(fmt::format("--over {}: write KEY=FROM:TO, for example cam.speed=40:60", over));
-    const std::string path = over.substr(0, equals), option = "--over " + over;
-    const std::vector<sim::NumberKey> keys = sim::number_keys(problem);
-    const auto key = std::ranges::find(keys, path, &sim::NumberKey::path);
-    if (key == keys.end()) {
-        std::vector<std::string> known;
-        for (const sim::NumberKey& each : keys) known.push_back(each.path);
-        throw SceneError(fmt::format("{}: {} is no number of this scene{}", option, in_quotes(path),
-                                     suggestion_or_list(path, known)));
-    }
-    if (key->whole)
-        throw UsageError(
-            fmt::format("{}: {} takes whole numbers alone, and an orbit is followed over a key that varies "
-                        "continuously; give sweep --over {} a list of them",
-                        option, path, path));
-    KeyRange range{*key, signed_argument(option, over.substr(equals + 1, colon - equals - 1), key->dimension),
-                   signed_argument(option, over.substr(colon + 1), key->dimension)};
-    if (!(range.from < range.to)) throw UsageError(fmt::format("{}: the range must ascend", option));
-    return range;
-}
 
 // The scene's value if it lies in the range, else its middle.
 double start_value(const OrbitsArguments& args, const KeyRange& range) {

@@ -7,9 +7,9 @@
 
 #include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/format/keys.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/outputs/run.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"

@@ -5,7 +5,6 @@
 #include <atomic>
 
 #include "output/data/manifest.hpp"
-#include "output/data/records.hpp"
 #include "output/data/stress_report.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/interrupt.hpp"

@@ -3,16 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
 #include <memory>
 
 #include "output/files/numbers.hpp"
-#include "output/film/video_format.hpp"
 #include "output/image/png_reader.hpp"
 #include "render/plot/user_text.hpp"
 #include "scenes/scene/files.hpp"
-#include "scenes/scene/film_times.hpp"
 
 namespace beamcam::scenes {
 
@@ -79,23 +76,6 @@ void infer_units(ObjectReader& r, render::Units& units) {
     units.rpm = first_ends_in({{"cam", "speed"}, {"hub", "drive", "speed"}, {"initial", "angular_velocity"}}, {"rpm"});
 }
 
-static bool needs_cam(const render::Anchor& anchor) {
-    return anchor.kind == render::Anchor::Kind::contact || anchor.kind == render::Anchor::Kind::cam;
-}
-
-void check_camera(ObjectReader& r, const View& view) {
-    for (const char* key : {"yaw", "pitch", "swing"})
-        if (r.has(key) && view.style != render::Style::solid)
-            r.warn(key, " has an effect in the solid view only; add \"style\": \"solid\"");
-    const auto check = [&](const render::Anchor& follow, const std::string& key) {
-        if (needs_cam(follow) && !r.context().scene.problem.cam)
-            r.reject(key, ": the scene has no cam to follow; follow the tip, the hub or a place");
-    };
-    check(view.shot.follow, "follow");
-    for (std::size_t i = 0; i < view.keyframes.size(); ++i)
-        if (view.keyframes[i].follow) check(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i));
-}
-
 void check_view(ObjectReader& r, const View& view) {
     if (r.has("exposures") && view.poses() == 1)
         r.warn("exposures", " has no effect without a \"shutter\" or \"strobe\"");
@@ -140,128 +120,6 @@ void check_picture(ObjectReader& r, Picture& picture) {
             fmt::format("{} = \"ghosts\" has no effect without \"compare\", or several scenes for `beamcam render`",
                         r.path("comparison")));
     check_layout(r, picture);
-}
-
-// ---- films -------------------------------------------------------------------------------------
-
-std::string problem_with_span(const FrameSpan& span, double end_time) {
-    const double to = span.to.value_or(end_time), fps = span.fps.value();
-    if (span.from_event || span.to_event) return {};
-    if (!span.real_time()) {
-        if (to > span.from) return {};  // the number of frames depends on the motion
-        return fmt::format("the film begins at {1:g} s and ends at {0:g} s; \"to\" must be later than \"from\"", to,
-                           span.from);
-    }
-    const double first = std::round(span.from * fps), last = std::round(to * fps);
-    if (!(last > first))
-        return fmt::format("no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
-                           to > span.from ? "increase \"to\" or \"fps\"" : "\"to\" must be later than \"from\"");
-    if (last - first > kMostFrames)
-        return fmt::format(
-            "{:.0f} frames are too many: an output has at most {:.0f}; use \"from\" and \"to\", or reduce \"fps\"",
-            last - first, kMostFrames);
-    return {};
-}
-
-void check_speed(ObjectReader& r, const Speed& speed) {
-    if (r.diagnostics().failed(r.object_name())) return;
-    for (std::size_t i = 1; i < speed.intervals.size(); ++i) {
-        const Instant &before = speed.intervals[i - 1].to, &from = speed.intervals[i].from;
-        const std::string key = fmt::format("intervals.{}.from", i);
-        if (before.kind == Instant::Kind::time && from.kind == Instant::Kind::time && from.t < before.t)
-            r.reject(key,
-                     " = {:g} s is before the end of the previous interval, {:g} s; list the intervals in order of "
-                     "time, without overlap",
-                     from.t, before.t);
-    }
-    for (std::size_t i = 0; speed.around && i < speed.around->collisions.size(); ++i)
-        if (const double number = speed.around->collisions[i]; number != std::round(number)) {
-            const std::string key = fmt::format("collisions.{}", i);
-            r.reject(key, " = {:g} must be a whole number", number);
-        }
-}
-
-namespace {
-
-// Instants outside a film are only warnings, so that a film can be shortened.
-void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, double end) {
-    const auto check = [&](const std::string& key, const Instant& at, const char* consequence) {
-        if (at.kind == Instant::Kind::time && (at.t < span.from || at.t > end))
-            r.warn(key, " = {:g} s is outside the film from {:g} s to {:g} s: {}", at.t, span.from, end, consequence);
-    };
-    const auto readable = [&](const char* key) { return !r.diagnostics().failed(r.path(key)); };
-    for (std::size_t i = 0; i < span.events.size() && readable("events"); ++i)
-        check(fmt::format("events.{}.at", i), span.events[i].at, "it is not shown");
-    for (std::size_t i = 0; i < span.speed.intervals.size() && readable("speed"); ++i) {
-        const SpeedInterval& each = span.speed.intervals[i];
-        check(fmt::format("speed.intervals.{}.from", i), each.from, "the interval is cut there");
-        check(fmt::format("speed.intervals.{}.to", i), each.to, "the interval is cut there");
-    }
-    for (std::size_t i = 0; i < view.keyframes.size() && readable("view"); ++i) {
-        const Instant& at = view.keyframes[i].at;
-        const std::string key = fmt::format("view.camera.keyframes.{}.at", i);
-        check(key, at, "the film does not show the arrival of the camera");
-        if (i == 0 || at.kind != Instant::Kind::time) continue;
-        const Instant& before = view.keyframes[i - 1].at;
-        if (before.kind == Instant::Kind::time && at.t <= before.t)
-            r.reject(key, " = {:g} s is not after the previous keyframe, {:g} s; list the keyframes in order of time",
-                     at.t, before.t);
-    }
-}
-
-}  // namespace
-
-void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) {
-    const Diagnostics& diagnostics = r.diagnostics();
-    if (diagnostics.failed(r.path("from")) || diagnostics.failed(r.path("to")) || diagnostics.failed("time")) return;
-    if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
-        return r.reject_object("to", ": {}", problem);
-    check_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
-    const sim::Problem& shown = picture.compare.empty() ? r.context().scene.problem : picture.compare.front().problem;
-    for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)
-        if (const auto& anchor = span.events[i].anchor; anchor && needs_cam(*anchor)) {
-            const std::string key = fmt::format("events.{}.anchor", i);
-            r.reject(key, ": the scene has no cam; anchor the text to the tip, the hub or a place");
-        }
-}
-
-void set_default_codec(PictureOutput& video) {
-    video.encoding.codec =
-        output::default_codec(std::filesystem::path(video.file).extension().string()).value_or(output::Codec::h264);
-}
-
-namespace {
-
-// Rules between codec, container and picture.
-void check_format(ObjectReader& r, const PictureOutput& video) {
-    const std::string ending = std::filesystem::path(video.file).extension().string();
-    const output::Codec codec = video.encoding.codec;
-    const auto reject = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.reject(key, ": {}", problem);
-    };
-    if (const std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
-        return r.fail(r.place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
-                      fmt::format("{}: {}", r.object_name(), problem));
-    reject("size", output::size_problem(codec, video.size.width, video.size.height));
-    reject("fps", output::rate_problem(codec, video.span.fps.value()));
-    if (r.has("preset") && codec != output::Codec::h264)
-        reject("preset", fmt::format("only H.264 has presets, {} has none; remove the key", title(codec)));
-    const auto quality = output::quality_scale(codec);
-    if (r.has("crf") && !quality)
-        reject("crf", fmt::format("{} has no crf; remove the key", title(codec)));
-    else if (quality && video.encoding.crf.value_or(0) > quality->worst)
-        r.reject("crf", " = {} is outside 0 … {}, the range of {}", *video.encoding.crf, quality->worst, title(codec));
-}
-
-}  // namespace
-
-void check_video(ObjectReader& r, PictureOutput& video) {
-    constexpr FrameRate kGifRate{25, 1};  // default of a GIF
-    if (video.encoding.codec == output::Codec::gif && !r.has("fps")) video.span.fps = kGifRate;
-    if (!video.encoding.crf)
-        if (const auto quality = output::quality_scale(video.encoding.codec)) video.encoding.crf = quality->usual;
-    check_span(r, video.span, video);
-    check_format(r, video);
 }
 
 // ---- tables, files -----------------------------------------------------------------------------

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 #include "sim/problem/keys.hpp"
 
 namespace beamcam::scenes {

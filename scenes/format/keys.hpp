@@ -8,10 +8,9 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/problem/keys.hpp"
 

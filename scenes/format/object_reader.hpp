@@ -11,10 +11,10 @@
 #include <utility>
 #include <vector>
 
+#include "output/json/source.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/format/keys.hpp"
 #include "scenes/format/scene_files.hpp"
-#include "scenes/format/source.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/format/units.hpp"
 
 namespace beamcam::scenes {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "scenes/format/source.hpp"
-#include "scenes/format/tree.hpp"
+#include "output/json/source.hpp"
+#include "output/json/tree.hpp"
 
 namespace beamcam::scenes {
 

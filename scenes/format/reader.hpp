@@ -7,9 +7,9 @@
 #include <string>
 #include <vector>
 
+#include "output/json/source.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/format/scene_files.hpp"
-#include "scenes/format/source.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {

@@ -2,14 +2,13 @@
 // too many files are errors that list the files.
 #pragma once
 
-#include <cstddef>
 #include <filesystem>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 
 namespace beamcam::scenes {
 

@@ -10,7 +10,7 @@
 #include <numbers>
 #include <vector>
 
-#include "scenes/format/source.hpp"
+#include "output/json/source.hpp"
 #include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {

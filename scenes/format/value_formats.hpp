@@ -10,6 +10,24 @@
 
 namespace beamcam::scenes {
 
+// The format of `value`, which is a T or a std::optional<T>. `read` returns the T, or reports why there is none.
+template <class Value, class Read, class Write>
+ValueFormat format_of(Value& value, const char* type, std::string schema, Read read, Write write) {
+    const auto write_present = [&value, write]() -> std::optional<Node> {
+        if constexpr (requires { value.has_value(); })
+            return value ? write(*value) : std::nullopt;
+        else
+            return write(value);
+    };
+    const auto read_into = [&value, read](ObjectReader& r, const Node& node, const std::string& key) {
+        if (const auto given = read(r, node, key)) value = *given;
+    };
+    return {type, std::move(schema), read_into, write_present};
+}
+
+// The text of a string; empty: the node is none.
+inline std::string word_in(const Node& node) { return node.kind == Node::Kind::string ? node.text : ""; }
+
 // A relative path with one of these endings. `numbered`: with '#' for the number of a frame.
 ValueFormat file_format(std::string& file, std::initializer_list<const char*> endings, bool numbered = false);
 // The key "file" of an output; without it the name is that of the scene and `ending`.
@@ -40,6 +58,7 @@ ValueFormat channels_format(std::vector<sim::Channel>& channels);
 ValueFormat grouped_channels_format(std::vector<SeriesPanel>& panels);  // one panel for each unit
 ValueFormat abscissa_format(std::string& against);  // "t", "turns", "phase", "frequency" or a channel
 
+inline constexpr sim::Range kFromStart{0, sim::Range::kInfinity, false, false, "is negative; times begin at 0"};
 inline constexpr sim::Range kSpeedRange{1e-6, 1000, false, false,
                                         "is outside 1e-06 … 1000; 1 is real time, 0.1 a tenth of it"};
 

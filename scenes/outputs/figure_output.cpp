@@ -1,6 +1,5 @@
 // Output "figure": a figure for print, made by its type.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "render/plot/style.hpp"
 #include "scenes/figures/figure_types.hpp"
@@ -161,7 +160,7 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     }
     prepare_figure(planned, planner.scene(), how);
     if (figure_type(figure)->of_sweep()) {
-        if (planner.selection().shards > 1)
+        if (!planner.selection().shard.whole())
             return planner.skip(file, "a part of a sweep has no diagram; join the parts with `beamcam collect` first");
         planner.require_sweep(file);
     }

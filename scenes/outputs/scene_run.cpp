@@ -102,12 +102,8 @@ void SceneRun::compute_sweep() {
     if (is_stdout(plan_.sweep)) {
         sweep_ = std::make_unique<SweepRun>(scene_);
     } else {
-        const Selection& selection = context_.options.selection;
         const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
-        sweep_ = std::make_unique<SweepRun>(
-            scene_,
-            SweepPart{static_cast<std::uint64_t>(selection.shard - 1), static_cast<std::uint64_t>(selection.shards)},
-            store);
+        sweep_ = std::make_unique<SweepRun>(scene_, context_.options.selection.shard, store);
         if (sweep_->dropped_others())
             context_.print("discarded the points in {}: they are of another sweep or another version of beamcam\n",
                            store.string());

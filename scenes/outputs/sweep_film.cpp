@@ -149,7 +149,7 @@ class SweepFilm {
     output::VideoOptions options() const {
         output::VideoOptions options;
         options.width = how_.size.width, options.height = how_.size.height;
-        options.fps = how_.fps.value();
+        options.fps = how_.fps;
         options.codec = *output::default_codec(std::filesystem::path(how_.file).extension().string());
         options.crf = how_.crf;
         options.metadata = film_metadata(to_json(grid_.scene()), scene_.title);
@@ -268,7 +268,7 @@ void SweepFilmOutput::visit(SceneVisitor& v) {
 }
 
 void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
-    if (planner.selection().shards > 1)
+    if (!planner.selection().shard.whole())
         return planner.skip(file, "a part of a sweep has no film; join the parts with `beamcam collect` first");
     DataFile film{output, file, "sweep-film", {}};
     film.content = fmt::format("{} of {} × {}", counted(frames_of(*this), "frame"), size.width, size.height);

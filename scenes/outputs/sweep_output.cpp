@@ -1,5 +1,4 @@
 // Output "sweep": the samples of all points of the scene's sweep, as NetCDF-4, CSV or NPZ.
-#include <fmt/format.h>
 
 #include <iostream>
 
@@ -23,11 +22,11 @@ void SweepOutput::visit(SceneVisitor& v) {
 
 void SweepOutput::plan(Planner& planner, std::size_t output) const {
     DataFile data{output, file, "sweep", {}};
-    if (const Selection& selection = planner.selection(); selection.shards > 1) {
+    if (const Shard& shard = planner.selection().shard; !shard.whole()) {
         if (!file.ends_with(".nc"))
             return planner.skip(file, "parts of a sweep must be .nc files, which `beamcam collect` joins");
-        data.file = shard_file(file, selection.shard, selection.shards);
-        data.part = fmt::format("{}/{}", selection.shard, selection.shards);
+        data.file = shard_file(file, shard);
+        data.part = shard.text();
     }
     for (const SweptKey& over : planner.scene().sweep->over)
         data.content += (data.content.empty() ? "over " : " and ") + over.key;

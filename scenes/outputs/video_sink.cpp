@@ -145,12 +145,10 @@ output::VideoOptions video_options(const Pictures& p) {
     output::VideoOptions video;
     video.width = p.size.width;
     video.height = p.size.height;
-    video.fps = p.span.fps.value();
-    video.codec = p.encoding.codec;
-    video.transparent = p.view.transparent;
-    video.crf = p.encoding.crf;
-    video.preset = p.encoding.preset;
+    video.fps = p.span.fps;
+    static_cast<Encoding&>(video) = p.encoding;
     video.variable_rate = p.encoding.variable_rate && p.part.empty();
+    video.transparent = p.view.transparent;
     if (video.codec == output::Codec::gif) video.palette = {0xffffffff};
     return video;
 }

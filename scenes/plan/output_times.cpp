@@ -197,9 +197,11 @@ void choose_frames(Pictures& p, const FilmTimes& times) {
     if (p.kind != Pictures::Kind::still && p.selection.frames) {
         from = std::max(begin, p.selection.frames->first);
         to = std::min(end, p.selection.frames->second);
-    } else if (p.kind != Pictures::Kind::still && p.selection.shards > 1) {
-        from = begin + count * (p.selection.shard - 1) / p.selection.shards;
-        to = begin + count * p.selection.shard / p.selection.shards;
+    } else if (p.kind != Pictures::Kind::still) {
+        const auto number = static_cast<long>(p.selection.shard.number),
+                   all = static_cast<long>(p.selection.shard.count);
+        from = begin + count * (number - 1) / all;
+        to = begin + count * number / all;
     }
     if (p.kind == Pictures::Kind::video && (from > begin || to < end))
         p.part = fmt::format("{}:{} of {}:{}", from, to, begin, end);

@@ -16,11 +16,12 @@
 
 #include "output/files/target.hpp"
 #include "output/files/work.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/studies.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/motions/history.hpp"
 #include "scenes/motions/progress.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/run/simulate.hpp"
 
@@ -28,8 +29,8 @@ namespace beamcam::scenes {
 
 // The part of the work that this run does: a range of frames, or one of several shards.
 struct Selection {
-    std::optional<std::pair<long, long>> frames;  // numbers of the frames of films and sequences, half open
-    int shard = 1, shards = 1;                    // 1 <= shard <= shards
+    std::optional<std::pair<long, long>> frames = {};  // numbers of the frames of films and sequences, half open
+    Shard shard = {};
 };
 
 // Results of earlier runs. up_to_date.hpp finds them, so that `plan` reads no files.

@@ -6,7 +6,6 @@
 
 #include "scenes/motions/motion_store.hpp"
 #include "scenes/plan/output_times.hpp"
-#include "scenes/scene/files.hpp"
 #include "sim/base/counted.hpp"
 #include "sim/observe/recorder_set.hpp"
 
@@ -74,7 +73,7 @@ Plan Planner::make() {
         if (existing_.finished.contains(i)) {
             ++finished_;
             skip(file_of(output), "up to date");
-        } else if (selection_.shard > 1 && !is_shared(output)) {
+        } else if (selection_.shard.number > 1 && !is_shared(output)) {
             skip(file_of(output), "the first shard writes it");
         } else {
             std::visit([&](const auto& each) { each.plan(*this, i); }, output);
@@ -127,8 +126,7 @@ void Planner::add(Pictures p, double end) {
     p.end_time = end;
     p.selection = selection_;
     if (const auto found = existing_.frames.find(p.output); found != existing_.frames.end()) p.existing = found->second;
-    if (p.kind == Pictures::Kind::video && selection_.shards > 1)
-        p.file = shard_file(p.file, selection_.shard, selection_.shards);
+    if (p.kind == Pictures::Kind::video && !selection_.shard.whole()) p.file = shard_file(p.file, selection_.shard);
     const bool still = p.kind == Pictures::Kind::still;
     p.collisions = shows_collisions(p, scene_.problem);
     const bool moves_by_events = std::ranges::any_of(p.view.keyframes, &Instant::is_event, &Keyframe::at);

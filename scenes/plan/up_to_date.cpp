@@ -63,7 +63,7 @@ class UpToDateCheck {
 
     // A film without its poster is not up to date. The part that has the poster may depend on events.
     bool lacks_poster(const Pictures& p) {
-        const bool has = p.times_known ? p.makes_poster() : p.selection.shards <= 1;
+        const bool has = p.times_known ? p.makes_poster() : p.selection.shard.whole();
         return !p.poster_file.empty() && has && !is_up_to_date(p.poster_file, p.output);
     }
 

@@ -7,7 +7,7 @@
 
 #include "output/files/numbers.hpp"
 #include "output/files/standard_output.hpp"
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/regression/references.hpp"
 
 namespace beamcam::scenes {

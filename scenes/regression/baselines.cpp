@@ -1,15 +1,14 @@
 #include "scenes/regression/baselines.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <fnmatch.h>
 
 #include <algorithm>
 
+#include "output/json/tree.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/format/suggest.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {

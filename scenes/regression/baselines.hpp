@@ -17,7 +17,7 @@
 #include <string_view>
 #include <vector>
 
-#include "scenes/format/source.hpp"
+#include "output/json/source.hpp"
 #include "scenes/regression/tolerance.hpp"
 #include "scenes/scene/scene.hpp"
 

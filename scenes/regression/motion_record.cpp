@@ -9,7 +9,7 @@
 #include "output/data/records.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <sstream>
 #include <utility>
 
 #include "output/files/atomic_file.hpp"
@@ -16,55 +15,16 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kMarker = ".beamcam-reference", *kMarkerFormat = "beamcam reference 1";
-constexpr const char *kStaging = ".beamcam-update", *kUpdateFormat = "beamcam update 1";
-constexpr const char *kTasks = "tasks", *kText = "baselines.json", *kNew = "new";
+constexpr const char* kStaging = ".beamcam-update";
 
 [[noreturn]] void fail(const fs::path& file, const char* why) {
     throw output::WouldOverwrite(fmt::format("{} {}; move it, or replace it with --force", file.string(), why));
 }
 
-// Empty when there is no file.
-std::string digest_of(const fs::path& file) {
-    return output::path_exists(file) ? output::sha256_of_file(file) : std::string();
-}
-
-void remove_file(const fs::path& file) {
-    std::error_code error;
-    fs::remove(file, error);
-    if (error) throw output::write_error(file, error.value());
-}
-
-// The lines after the first one, which names the format. Their last word may contain spaces.
-std::vector<std::istringstream> lines_of(const fs::path& file, const char* format) {
-    std::istringstream text(output::read_file(file));
-    std::string line;
-    if (!std::getline(text, line) || line != format)
-        throw output::IoError(fmt::format("cannot read {}: it is damaged; restore it or remove it", file.string()));
-    std::vector<std::istringstream> lines;
-    while (std::getline(text, line)) lines.emplace_back(line);
-    return lines;
-}
-
-std::string word_of(std::istringstream& line) {
-    std::string word;
-    line >> word;
-    return word == "-" ? std::string() : word;
-}
-std::string rest_of(std::istringstream& line) {
-    std::string rest;
-    std::getline(line >> std::ws, rest);
-    return rest;
-}
-const char* word(const std::string& digest) { return digest.empty() ? "-" : digest.c_str(); }
-
 std::string marker_text(const ReferenceFiles& files) {
     std::string text = fmt::format("{}\n", kMarkerFormat);
     for (const auto& [name, file] : files) text += fmt::format("{} {} {}\n", file.sha256, word(file.pixels), name);
     return text;
-}
-
-bool is_file_name(const std::string& name) {
-    return !name.empty() && name != "." && name != ".." && name.find('/') == std::string::npos;
 }
 
 std::vector<std::string> files_in(const fs::path& folder) {
@@ -74,102 +34,6 @@ std::vector<std::string> files_in(const fs::path& folder) {
     std::sort(names.begin(), names.end());
     return names;
 }
-
-// ---- tasks of an update ----------------------------------------------------------------------
-
-using Task = ReferenceUpdate::Task;
-
-struct Tasks {
-    fs::path baselines;         // relative to the references
-    std::string before, after;  // digests of the baselines
-    std::vector<Task> files;
-};
-
-std::string text_of(const Tasks& tasks) {
-    std::string text =
-        fmt::format("{}\n{} {} {}\n", kUpdateFormat, tasks.before, tasks.after, tasks.baselines.string());
-    for (const Task& task : tasks.files)
-        text += fmt::format("{} {} {}/{}\n", word(task.before), word(task.after), task.entry, task.name);
-    return text;
-}
-
-Tasks read_tasks(const fs::path& list) {
-    Tasks tasks;
-    for (std::istringstream& line : lines_of(list, kUpdateFormat)) {
-        const std::string before = word_of(line), after = word_of(line);
-        if (tasks.after.empty()) {
-            tasks.before = before, tasks.after = after, tasks.baselines = rest_of(line);
-        } else {
-            const fs::path file = rest_of(line);  // entry/name
-            const std::string entry = file.parent_path().string(), name = file.filename().string();
-            if (is_file_name(entry) && is_file_name(name)) tasks.files.push_back({entry, name, before, after});
-        }
-    }
-    return tasks;
-}
-
-// Carries out the tasks that a staging folder lists; skips those that are done already.
-class TaskRunner {
-  public:
-    TaskRunner(const fs::path& references, output::Journal& journal)
-        : references_(references),
-          staging_(references / kStaging),
-          journal_(journal),
-          tasks_(read_tasks(staging_ / kTasks)),
-          baselines_((references_ / tasks_.baselines).lexically_normal()) {}
-
-    const fs::path& baselines() const { return baselines_; }
-
-    void carry_out() {
-        write_baselines();
-        for (const Task& task : tasks_.files) carry_out(task);
-    }
-
-  private:
-    [[noreturn]] void give_up(const fs::path& file) const {
-        throw output::WouldOverwrite(
-            fmt::format("{} was changed after an update of the references was interrupted; restore it, or remove {} to "
-                        "abandon the update",
-                        file.string(), staging_.string()));
-    }
-
-    // Comes first: as long as the new text is in the staging folder, no reference is changed.
-    void write_baselines() {
-        const fs::path text = staging_ / kText;
-        if (!output::path_exists(text)) return;
-        const std::string now = digest_of(baselines_);
-        if (now != tasks_.before && now != tasks_.after) give_up(baselines_);
-        if (now != tasks_.after) {
-            output::Target target(baselines_);
-            target.before_creation = [this](const fs::path& temporary) {
-                journal_.add(output::journal_line(temporary.filename().string()));
-            };
-            output::write_file(target, output::read_file(text));
-        }
-        remove_file(text);
-    }
-
-    void carry_out(const Task& task) {
-        const fs::path folder = references_ / task.entry, file = folder / task.name,
-                       source = staging_ / kNew / task.entry / task.name;
-        const std::string now = digest_of(file);
-        if (now == task.after) return;
-        if (now != task.before) {
-            if (task.after.empty()) return;  // now it is the user's file
-            give_up(file);
-        }
-        if (task.after.empty()) return remove_file(file);
-        output::ensure_directory(folder);
-        std::error_code error;
-        fs::rename(source, file, error);
-        if (error) throw output::write_error(file, error.value());
-    }
-
-    const fs::path references_, staging_;
-    output::Journal& journal_;
-    const Tasks tasks_;
-    const fs::path baselines_;
-};
 
 // beamcam's staging folder contains a journal, or is empty if the run was killed between two system calls.
 bool is_own_staging(const fs::path& staging) { return !output::journals_in(staging).empty() || fs::is_empty(staging); }
@@ -212,10 +76,10 @@ std::string ReferenceUpdate::recover(const fs::path& references) {
             fmt::format("{} was not made by beamcam; move it, updates need this name", staging.string()));
     const std::vector<fs::path> journals = output::journals_in(staging);
     if (!std::all_of(journals.begin(), journals.end(), output::is_abandoned)) return {};  // in progress
-    const bool listed = output::path_exists(staging / kTasks);
+    const bool listed = output::path_exists(staging / kUpdateTasks);
     if (listed) {
         output::Journal own(staging);
-        TaskRunner runner(references, own);
+        TaskRunner runner(references, staging, own);
         for (const fs::path& journal : journals)
             output::remove_temporaries(runner.baselines().parent_path(),
                                        output::parse_journal(output::read_file(journal)));
@@ -236,7 +100,7 @@ ReferenceUpdate::~ReferenceUpdate() {
     if (!journal_) return;
     // Tasks that are listed must be completed: by the next run if this one could not.
     std::error_code ignored;
-    if (!fs::exists(staging_ / kTasks, ignored)) remove_staging(staging_, ignored);
+    if (!fs::exists(staging_ / kUpdateTasks, ignored)) remove_staging(staging_, ignored);
 }
 
 void ReferenceUpdate::start() {
@@ -249,7 +113,7 @@ void ReferenceUpdate::start() {
     journal_ = std::make_unique<output::Journal>(staging_);
 }
 
-fs::path ReferenceUpdate::staged(const std::string& entry) const { return staging_ / kNew / entry; }
+fs::path ReferenceUpdate::staged(const std::string& entry) const { return staging_ / kNewFiles / entry; }
 
 fs::path ReferenceUpdate::replace(const std::string& entry) { return open(entry, false); }
 fs::path ReferenceUpdate::extend(const std::string& entry) { return open(entry, true); }
@@ -281,18 +145,19 @@ void ReferenceUpdate::drop(const std::string& entry) {
 void ReferenceUpdate::commit(const std::string& expected, const std::string& text,
                              const std::map<std::string, std::map<std::string, std::string>>& pixels) {
     const std::lock_guard lock(mutex_);
-    Tasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
+    UpdateTasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
     for (const auto& [entry, keeps_others] : entries_) add_tasks(entry, keeps_others, pixels.at(entry), tasks.files);
     if (output::read_file(baselines_) != expected) fail(baselines_, "was changed during the update");
     if (!journal_) return output::write_file(baselines_, text);  // no reference changes
-    output::write_file(staging_ / kText, text);
-    output::write_file(staging_ / kTasks, text_of(tasks));
-    TaskRunner(references_, *journal_).carry_out();
+    output::write_file(staging_ / kNewBaselines, text);
+    output::write_file(staging_ / kUpdateTasks, text_of(tasks));
+    TaskRunner(references_, staging_, *journal_).carry_out();
     remove_staging(staging_);
 }
 
 void ReferenceUpdate::add_tasks(const std::string& entry, bool keeps_others,
-                                const std::map<std::string, std::string>& pixels, std::vector<Task>& tasks) const {
+                                const std::map<std::string, std::string>& pixels,
+                                std::vector<UpdateTask>& tasks) const {
     const fs::path folder = folder_of(entry), fresh_folder = staged(entry);
     const ReferenceFiles old = marked_files(folder);
     ReferenceFiles fresh;

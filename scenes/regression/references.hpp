@@ -15,7 +15,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/journal.hpp"
+#include "scenes/regression/update_tasks.hpp"
 
 namespace beamcam::scenes {
 
@@ -53,16 +53,11 @@ class ReferenceUpdate {
     void commit(const std::string& expected, const std::string& text,
                 const std::map<std::string, std::map<std::string, std::string>>& pixels);
 
-    // One file becomes another one: `before` and `after` are digests, empty where there is no file.
-    struct Task {
-        std::string entry, name, before, after;
-    };
-
   private:
     void start();
     std::filesystem::path open(const std::string& entry, bool keeps_others);
     void add_tasks(const std::string& entry, bool keeps_others, const std::map<std::string, std::string>& pixels,
-                   std::vector<Task>& tasks) const;
+                   std::vector<UpdateTask>& tasks) const;
     std::filesystem::path folder_of(const std::string& entry) const { return references_ / entry; }
     std::filesystem::path staged(const std::string& entry) const;
 

@@ -6,7 +6,7 @@
 
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "scenes/regression/report.hpp"
 

@@ -3,21 +3,18 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <map>
-#include <span>
 
+#include "scenes/regression/sample_blocks.hpp"
+#include "scenes/regression/sweep_table.hpp"
 #include "sim/base/counted.hpp"
-#include "sim/sweep/attractor.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 using sim::AttractorClass;
 
-constexpr std::size_t kBlocks = 10;
-constexpr std::size_t kFewestBlocks = 5;  // with samples; fewer give no estimate of the error
 // Significant difference of two means over ten blocks. Student's t exceeds 8 in one of five million pairs; but of 200
 // 000 pairs of quantities of chaotic motions with different initial states, one reached 8.4 (intermittent motion).
 constexpr double kSureErrors = 10;
@@ -25,118 +22,11 @@ constexpr double kSureErrorsOfAll = 8;     // the same of sums over all points
 constexpr std::size_t kMostOfOrbit = 500;  // compared samples of a periodic motion: its whole orbit
 constexpr std::size_t kMostLines = 4;
 
-using Column = std::span<const double>;
-
-bool same(double x, double y) { return x == y || (std::isnan(x) && std::isnan(y)); }
-
-// The rows of a point's samples; a point without samples has one row, too.
-struct PointRows {
-    std::size_t begin = 0, end = 0;
-    std::size_t size() const { return end - begin; }
-};
-
-class SweepTable {
-  public:
-    // Throws IoError if the table is not that of a sweep.
-    explicit SweepTable(const output::NamedTable& table) : table_(table), t_(column("t")), kinds_(column("class")) {
-        const std::vector<double>& sample = column("sample");
-        for (std::size_t row = 0; row < sample.size(); ++row) {
-            if (points_.empty() || !(sample[row] > 0)) points_.push_back({row, row});
-            points_.back().end = row + (std::isnan(sample[row]) ? 0 : 1);
-            if (!(kinds_[row] >= 0 && kinds_[row] < double(sim::names(AttractorClass()).size())))
-                throw output::IoError(
-                    fmt::format("the record of the sweep is damaged: there is no class {}", kinds_[row]));
-        }
-        axes_.assign(table.names.begin(), std::ranges::find(table.names, "seed"));
-        for (auto name = std::ranges::find(table.names, "sample") + 1; name != table.names.end(); ++name)
-            if (*name != "t" && *name != "cam_angle") values_.push_back(*name), columns_.emplace_back(column(*name));
-    }
-
-    const std::vector<PointRows>& points() const { return points_; }
-    // Columns of the samples, without those that grow with time.
-    const std::vector<std::string>& values() const { return values_; }
-    Column all(std::size_t value) const { return columns_[value]; }
-    Column samples(const PointRows& point, std::size_t value) const {
-        return columns_[value].subspan(point.begin, point.size());
-    }
-    Column times(const PointRows& point) const { return t_.subspan(point.begin, point.size()); }
-    AttractorClass kind(const PointRows& point) const { return static_cast<AttractorClass>(int(kinds_[point.begin])); }
-    double at(const PointRows& point, const std::string& name) const { return column(name)[point.begin]; }
-    std::string place(const PointRows& point) const {
-        std::string text;
-        for (const std::string& axis : axes_) text += fmt::format("{} = {:.9g}, ", axis, at(point, axis));
-        return text + fmt::format("seed {:g}", at(point, "seed"));
-    }
-    bool same_rows(const PointRows& own, const SweepTable& other, const PointRows& its) const {
-        if (own.size() != its.size()) return false;
-        return std::ranges::all_of(table_.names, [&](const std::string& name) {
-            const std::size_t rows = std::max<std::size_t>(own.size(), 1);
-            return std::ranges::equal(Column(column(name)).subspan(own.begin, rows),
-                                      Column(other.column(name)).subspan(its.begin, rows), same);
-        });
-    }
-
-  private:
-    const std::vector<double>& column(const std::string& name) const {
-        if (const std::vector<double>* found = table_.find(name)) return *found;
-        throw output::IoError(fmt::format("the record of the sweep is damaged: it has no column {}", name));
-    }
-
-    const output::NamedTable& table_;
-    const Column t_, kinds_;
-    std::vector<PointRows> points_;
-    std::vector<std::string> axes_, values_;
-    std::vector<Column> columns_;  // of the values
-};
-
 bool has_period(AttractorClass kind) {
     return kind == AttractorClass::rest || kind == AttractorClass::following || kind == AttractorClass::periodic;
 }
 // Points on the border between two of these classes may get either.
 bool has_statistics(AttractorClass kind) { return !has_period(kind) && kind != AttractorClass::over_the_top; }
-
-// ---- statistics -------------------------------------------------------------------------------------
-
-// A mean over blocks and its standard error.
-struct MeanEstimate {
-    double value = 0, error = 0;
-};
-MeanEstimate estimate(const std::vector<double>& blocks) {
-    if (blocks.size() < kFewestBlocks) return {0, INFINITY};
-    const auto n = static_cast<double>(blocks.size());
-    double sum = 0, squares = 0;
-    for (const double x : blocks) sum += x;
-    for (const double x : blocks) squares += (x - sum / n) * (x - sum / n);
-    return {sum / n, std::sqrt(squares / (n * (n - 1)))};
-}
-
-// The samples of one point in equal blocks of the time: their number, and the mean of a function of each.
-class Blocks {
-  public:
-    Blocks(Column t, double from, double to) {
-        for (const double at : t) {
-            const double block = (at - from) / (to - from) * kBlocks;
-            block_.push_back(block > 0 ? static_cast<std::size_t>(std::min(block, kBlocks - 1.0)) : 0);
-        }
-    }
-    template <class Function>
-    MeanEstimate mean(Column samples, Function&& of) const {
-        std::array<double, kBlocks> sum{}, count{};
-        for (std::size_t i = 0; i < samples.size(); ++i) sum[block_[i]] += of(samples[i]), ++count[block_[i]];
-        std::vector<double> means;
-        for (std::size_t b = 0; b < kBlocks; ++b)
-            if (count[b] > 0) means.push_back(sum[b] / count[b]);
-        return estimate(means);
-    }
-    MeanEstimate number() const {
-        std::vector<double> count(kBlocks);
-        for (const std::size_t block : block_) ++count[block];
-        return estimate(count);
-    }
-
-  private:
-    std::vector<std::size_t> block_;
-};
 
 class SweepComparer {
   public:
@@ -180,7 +70,7 @@ class SweepComparer {
     }
 
   private:
-    static double range_of(Column values) {
+    static double range_of(SweepColumn values) {
         double least = INFINITY, most = -INFINITY;
         for (const double x : values)
             if (std::isfinite(x)) least = std::min(least, x), most = std::max(most, x);
@@ -213,7 +103,7 @@ class SweepComparer {
         if (was != is) return {fmt::format("{} became {}", name(was), name(is)), true};
         if (!has_period(was)) return {};
         for (const char* what : {"period", "impacts_per_period"})
-            if (!same(a_.at(a, what), b_.at(b, what)))
+            if (!same_number(a_.at(a, what), b_.at(b, what)))
                 return {fmt::format("{} {:g} became {:g}", what, a_.at(a, what), b_.at(b, what))};
         return {difference_of_orbits(a, b)};
     }
@@ -248,7 +138,7 @@ class SweepComparer {
         std::pair<double, std::size_t> most{0, 0};
         for (std::size_t c = 0; c < a_.values().size(); ++c) {
             const double x = from.samples(own, c)[i], y = to.samples(its, c)[k];
-            double step = same(x, y) ? 0 : std::isnan(x) || std::isnan(y) ? INFINITY : std::fabs(x - y);
+            double step = same_number(x, y) ? 0 : std::isnan(x) || std::isnan(y) ? INFINITY : std::fabs(x - y);
             if (a_.values()[c] == "cam_phase" && step > 0.5) step = 1 - step;  // fractions of a turn
             most = std::max(most, {step / ranges_[c], c});
         }
@@ -256,11 +146,11 @@ class SweepComparer {
     }
 
     std::string difference_of_statistics(const PointRows& a, const PointRows& b) {
-        const Column ta = a_.times(a), tb = b_.times(b);
-        if (ta.size() < 2 * kBlocks || tb.size() < 2 * kBlocks)
+        const SweepColumn ta = a_.times(a), tb = b_.times(b);
+        if (ta.size() < 2 * SampleBlocks::kBlocks || tb.size() < 2 * SampleBlocks::kBlocks)
             return ta.empty() == tb.empty() ? "" : "samples appeared or vanished";
         const double from = std::min(ta.front(), tb.front()), to = std::max(ta.back(), tb.back());
-        const Blocks in_a(ta, from, to), in_b(tb, from, to);
+        const SampleBlocks in_a(ta, from, to), in_b(tb, from, to);
         if (std::string why = compared("number of samples a block", in_a.number(), in_b.number(), 1); !why.empty())
             return why;
         const MeanEstimate before{a_.at(a, "exponent"), a_.at(a, "exponent_error")},
@@ -271,7 +161,7 @@ class SweepComparer {
             if (std::string why = compared("exponent", before, after, 0); !why.empty()) return why;
         for (std::size_t c = 0; c < a_.values().size(); ++c) {
             const std::string& column = a_.values()[c];
-            const Column x = a_.samples(a, c), y = b_.samples(b, c);
+            const SweepColumn x = a_.samples(a, c), y = b_.samples(b, c);
             const auto itself = [](double value) { return value; };
             const MeanEstimate mean = in_a.mean(x, itself);
             if (std::string why = compared("mean of " + column, mean, in_b.mean(y, itself), ranges_[c]); !why.empty())
@@ -291,7 +181,7 @@ class SweepComparer {
             Change& all = over_points_[what];
             all.sum += step, all.variance += error * error, all.floor += tolerance_ * range;
         }
-        if (same(a.value, b.value) || !(std::fabs(step) > kSureErrors * error + tolerance_ * range)) return {};
+        if (same_number(a.value, b.value) || !(std::fabs(step) > kSureErrors * error + tolerance_ * range)) return {};
         return fmt::format("{} {:.4g} became {:.4g}, by {:.3g} of its standard errors", what, a.value, b.value,
                            std::fabs(step) / error);
     }

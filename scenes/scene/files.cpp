@@ -159,10 +159,12 @@ std::vector<FileClaims::Clash> FileClaims::clashes() const {
     return found;
 }
 
-std::string shard_file(const std::string& file, int shard, int shards) {
+std::string Shard::text() const { return fmt::format("{}/{}", number, count); }
+
+std::string shard_file(const std::string& file, const Shard& shard) {
     const std::filesystem::path path(file);
     return (path.parent_path() /
-            fmt::format("{}.{}of{}{}", path.stem().string(), shard, shards, path.extension().string()))
+            fmt::format("{}.{}of{}{}", path.stem().string(), shard.number, shard.count, path.extension().string()))
         .string();
 }
 

@@ -1,6 +1,7 @@
 // Names of output files: validity, numbering, conflicts.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -20,8 +21,14 @@ std::string numbered_file(std::string_view pattern, long number);
 // The number of `file` in the sequence; nullopt if it is not a part of it.
 std::optional<long> number_of(std::string_view pattern, std::string_view file);
 
+// One of several parts of the work, by its number from 1.
+struct Shard {
+    std::uint64_t number = 1, count = 1;
+    bool whole() const { return count == 1; }
+    std::string text() const;  // "2/3"
+};
 // "fall.mp4" as the second of three parts: "fall.2of3.mp4".
-std::string shard_file(const std::string& file, int shard, int shards);
+std::string shard_file(const std::string& file, const Shard& shard);
 
 // Finds owners that would write the same path, or a file where another needs a directory. The time is almost linear in
 // the number of names.

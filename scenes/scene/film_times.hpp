@@ -43,6 +43,9 @@ void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result
 // The times of a view's shutter or strobe, within 0 … `end`.
 void add_exposures(FilmTimes& times, const View& view, double fps, double end);
 
+// The first of the frames at or after this time, else the last one.
+int first_at(const std::vector<double>& frames, double t);
+
 // The times k / rate between `from` and `to`, and `to` itself.
 std::vector<double> rows(double from, double to, double rate);
 

@@ -92,9 +92,9 @@ class PointMaker {
     std::uint64_t done_ = 0;
 };
 
-std::vector<std::uint64_t> tasks_of(const SweepGrid& grid, const SweepPart& part) {
+std::vector<std::uint64_t> tasks_of(const SweepGrid& grid, const Shard& shard) {
     std::vector<std::uint64_t> tasks;
-    for (std::uint64_t t = part.part; t < grid.tasks(); t += part.parts) tasks.push_back(t);
+    for (std::uint64_t t = shard.number - 1; t < grid.tasks(); t += shard.count) tasks.push_back(t);
     return tasks;
 }
 
@@ -110,18 +110,18 @@ std::optional<sim::InitialState> end_of(const output::StoredPoint& point) {
     return s;
 }
 
-std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part) {
-    std::vector<bool> has(grid.points(), part.whole());
-    if (part.whole()) return has;
-    for (const std::uint64_t t : tasks_of(grid, part))
+std::vector<bool> points_of(const SweepGrid& grid, const Shard& shard) {
+    std::vector<bool> has(grid.points(), shard.whole());
+    if (shard.whole()) return has;
+    for (const std::uint64_t t : tasks_of(grid, shard))
         for (const std::uint64_t p : grid.task(t).points) has[p] = true;
     return has;
 }
 
-void make_points(const SweepGrid& grid, const SweepPart& part, int threads, Progress& progress,
+void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progress& progress,
                  output::PointStore& store) {
-    const std::vector<bool> mine = points_of(grid, part);
-    const std::vector<std::uint64_t> tasks = tasks_of(grid, part);
+    const std::vector<bool> mine = points_of(grid, shard);
+    const std::vector<std::uint64_t> tasks = tasks_of(grid, shard);
     std::uint64_t missing = 0;
     for (std::uint64_t p = 0; p < mine.size(); ++p) missing += mine[p] && !store.has(p) ? 1 : 0;
     if (missing == 0) return;
@@ -162,7 +162,7 @@ SweepCost cost_of(const SweepGrid& grid) {
     return {cost.seconds * scale, cost.rows * scale};
 }
 
-output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const SweepPart& part) {
+output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const Shard& shard) {
     output::SweepData data;
     data.axes = grid.axes();
     data.seeds = grid.seeds();
@@ -192,8 +192,8 @@ output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store
         {"beamcam_scene", to_json(grid.scene())},
         {"beamcam_program", program_identity()},
         {"beamcam_sweep", grid.digest()}};
-    if (!part.whole()) data.attributes.emplace_back("beamcam_part", fmt::format("{}/{}", part.part + 1, part.parts));
-    data.has = [mine = points_of(grid, part)](std::uint64_t k) { return bool(mine[k]); };
+    if (!shard.whole()) data.attributes.emplace_back("beamcam_part", shard.text());
+    data.has = [mine = points_of(grid, shard)](std::uint64_t k) { return bool(mine[k]); };
     const std::size_t width = data.columns.size();
     data.rows = [&store, width](std::uint64_t k) { return store.numbers(k) / width; };
     data.read = [&store](std::uint64_t k) { return store.read(k); };

@@ -6,22 +6,18 @@
 
 #include "output/data/point_store.hpp"
 #include "scenes/motions/progress.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/dynamics/initial.hpp"
 
 namespace beamcam::scenes {
 
-// The tasks of this process: those with number ≡ `part` (mod `parts`).
-struct SweepPart {
-    std::uint64_t part = 0, parts = 1;
-    bool whole() const { return parts == 1; }
-};
-std::vector<bool> points_of(const SweepGrid& grid, const SweepPart& part);  // true for its points
+// True for the points of a part: its tasks are those whose number, modulo the number of parts, is its own.
+std::vector<bool> points_of(const SweepGrid& grid, const Shard& shard);
 
 // Computes the points that the store lacks. The bits of a point are independent of threads and parts. Throws
 // Interrupted, IoError.
-void make_points(const SweepGrid& grid, const SweepPart& part, int threads, Progress& progress,
-                 output::PointStore& store);
+void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progress& progress, output::PointStore& store);
 
 // The end state of the point's motion; nullopt if the beam went over the top, the motion failed, or the point is from a
 // NetCDF file.
@@ -35,6 +31,6 @@ struct SweepCost {
 SweepCost cost_of(const SweepGrid& grid);
 
 // The content of a sweep's files.
-output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const SweepPart& part);
+output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const Shard& shard);
 
 }  // namespace beamcam::scenes

@@ -17,10 +17,10 @@ namespace {
 
 constexpr std::uint64_t kMostParts = 1'000'000;
 
-SweepPart part_of(std::uint64_t number, std::uint64_t parts, const std::string& option) {
+Shard checked_shard(std::uint64_t number, std::uint64_t parts, const std::string& option) {
     if (parts < 1 || parts > kMostParts || number < 1 || number > parts)
         throw UsageError(fmt::format("--shard {}: write I/N with 1 <= I <= N, for example 2/3, or auto", option));
-    return {number - 1, parts};
+    return {number, parts};
 }
 
 // The variables of an engine: number of the task, first, last, count, step.
@@ -39,7 +39,7 @@ constexpr ArrayTask kArrayTasks[] = {
 struct Part {
     std::filesystem::path file;
     output::SweepData data;
-    SweepPart part;
+    Shard shard;
 };
 
 Part open_part(const std::filesystem::path& file) {
@@ -47,7 +47,7 @@ Part open_part(const std::filesystem::path& file) {
     const std::string *which = found.data.attribute("beamcam_part"), *scene = found.data.attribute("beamcam_scene");
     if (!scene) throw output::IoError(file.string() + ": not a sweep of beamcam");
     if (!which) throw output::IoError(file.string() + ": a complete sweep, not a part");
-    found.part = part_argument(*which, [](const char*) { return nullptr; });
+    found.shard = shard_of(*which, [](const char*) { return nullptr; });
     return found;
 }
 
@@ -63,19 +63,19 @@ void require_complete(const std::vector<Part>& parts) {
                     "{}: part of another {} than {}", part.file.string(),
                     std::string_view(name) == "beamcam_sweep" ? "sweep" : "program version", first.file.string()));
         }
-        if (part.part.parts != first.part.parts)
+        if (part.shard.count != first.shard.count)
             throw output::IoError(fmt::format("{}: one of {} parts, but {} is one of {}", part.file.string(),
-                                              part.part.parts, first.file.string(), first.part.parts));
-        if (const auto [there, added] = found.emplace(part.part.part, &part); !added)
+                                              part.shard.count, first.file.string(), first.shard.count));
+        if (const auto [there, added] = found.emplace(part.shard.number, &part); !added)
             throw output::IoError(
                 fmt::format("{}: the same part as {}", part.file.string(), there->second->file.string()));
     }
     std::vector<std::uint64_t> missing;
-    for (std::uint64_t k = 0; k < first.part.parts; ++k)
-        if (!found.contains(k)) missing.push_back(k + 1);
+    for (std::uint64_t number = 1; number <= first.shard.count; ++number)
+        if (!found.contains(number)) missing.push_back(number);
     if (!missing.empty())
         throw output::IoError(fmt::format(
-            "these of {} parts are missing: {}", first.part.parts,
+            "these of {} parts are missing: {}", first.shard.count,
             fmt::join(missing.begin(),
                       missing.begin() + std::ssize(missing) - std::max<std::ptrdiff_t>(0, std::ssize(missing) - 20),
                       ", ")));
@@ -94,11 +94,12 @@ std::string in_snakefile(const std::string& command) {
 
 }  // namespace
 
-SweepPart part_argument(const std::string& text, const std::function<const char*(const char*)>& variable) {
+Shard shard_of(const std::string& text, const std::function<const char*(const char*)>& variable) {
     const std::size_t slash = std::min(text.find('/'), text.size());
     const std::string head = text.substr(0, slash), tail = text.substr(std::min(slash + 1, text.size()));
     const auto parts = output::number_in<std::uint64_t>(tail);
-    if (head != "auto") return part_of(output::number_in<std::uint64_t>(head).value_or(0), parts.value_or(0), text);
+    if (head != "auto")
+        return checked_shard(output::number_in<std::uint64_t>(head).value_or(0), parts.value_or(0), text);
     const auto value = [&](const char* name) -> std::optional<std::uint64_t> {
         const char* found = name ? variable(name) : nullptr;
         return output::number_in<std::uint64_t>(found ? found : "");
@@ -114,7 +115,7 @@ SweepPart part_argument(const std::string& text, const std::function<const char*
         if (!count)
             throw UsageError(
                 fmt::format("--shard {}: {} is set, but not the number of tasks; write auto/N", text, task.number));
-        return part_of(*number < first ? 0 : (*number - first) / step + 1, *count, text);
+        return checked_shard(*number < first ? 0 : (*number - first) / step + 1, *count, text);
     }
     throw UsageError(
         fmt::format("--shard {}: this is not an array task, since SLURM_ARRAY_TASK_ID, SGE_TASK_ID and PBS_ARRAY_INDEX "

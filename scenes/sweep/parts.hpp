@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 
 // "2/3"; "auto" or "auto/3": from the variables of an array task of Slurm, Grid Engine or PBS. `variable` is
 // std::getenv. Throws UsageError.
-SweepPart part_argument(const std::string& text, const std::function<const char*(const char*)>& variable);
+Shard shard_of(const std::string& text, const std::function<const char*(const char*)>& variable);
 
 // Joins the parts of a sweep. Throws IoError, with the name of the file, for missing, repeated, unfinished or foreign
 // parts.

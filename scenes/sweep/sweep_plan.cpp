@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/json/tree.hpp"
 #include "scenes/format/sweep_keys.hpp"
-#include "scenes/format/tree.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "sim/base/counted.hpp"
 

@@ -25,13 +25,13 @@ std::filesystem::path temporary_store() {
 
 }  // namespace
 
-SweepRun::SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store)
+SweepRun::SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store)
     : grid_(scene),
-      part_(part),
+      shard_(shard),
       store_(std::move(store), grid_.points(), grid_.identity()),
-      data_(data_of(grid_, store_, part_)) {}
+      data_(data_of(grid_, store_, shard_)) {}
 
-SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, SweepPart(), temporary_store()) { store_.remove(); }
+SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, Shard(), temporary_store()) { store_.remove(); }
 
 void SweepRun::reuse_points_of(const std::filesystem::path& file) try {
     if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;
@@ -47,7 +47,7 @@ void SweepRun::reuse_points_of(const std::filesystem::path& file) try {
 
 void SweepRun::make(int threads, Progress& progress) {
     const auto started = Clock::now();
-    make_points(grid_, part_, threads, progress, store_);
+    make_points(grid_, shard_, threads, progress, store_);
     seconds_ += seconds_since(started);
 }
 

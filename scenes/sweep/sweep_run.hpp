@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <memory>
 #include <string>
 
 #include "scenes/figures/studies.hpp"
@@ -14,7 +13,7 @@ class SweepRun {
   public:
     // `store`: file of the points until `remove`; it may contain points of an interrupted run. Throws what SweepGrid
     // and PointStore throw.
-    SweepRun(const Scene& scene, const SweepPart& part, std::filesystem::path store);
+    SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store);
     // The whole sweep, with a temporary store.
     explicit SweepRun(const Scene& scene);
 
@@ -33,7 +32,7 @@ class SweepRun {
 
   private:
     const SweepGrid grid_;
-    const SweepPart part_;
+    const Shard shard_;
     output::PointStore store_;
     output::SweepData data_;
     double seconds_ = 0;

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
+#include <iterator>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -51,6 +52,11 @@ class Scratch {
   private:
     std::filesystem::path directory_;
 };
+
+// Of this process.
+inline std::ptrdiff_t open_files() {
+    return std::distance(std::filesystem::directory_iterator("/proc/self/fd"), std::filesystem::directory_iterator());
+}
 
 inline render::Image flat_image(int width, int height, std::uint32_t pixel) {
     render::Image image(width, height);

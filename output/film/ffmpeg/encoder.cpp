@@ -17,6 +17,8 @@ extern "C" {
 namespace beamcam::output::ffmpeg {
 namespace {
 
+constexpr int kThreads = 4;  // with more, the bits depend on their number
+
 struct OwnedFrame : FramePlanes {
     Owned<AVFrame> av = owned(av_frame_alloc());
 
@@ -111,8 +113,8 @@ class FfmpegEncoder : public Encoder {
     void describe_pictures() {
         codec_->width = settings_.width;
         codec_->height = settings_.height;
-        codec_->time_base = {settings_.rate_base, settings_.rate};
-        codec_->framerate = {settings_.rate, settings_.rate_base};
+        codec_->time_base = {settings_.fps.denominator, settings_.fps.numerator};
+        codec_->framerate = {settings_.fps.numerator, settings_.fps.denominator};
         codec_->sample_aspect_ratio = {1, 1};
         codec_->pix_fmt = av_get_pix_fmt(settings_.pixel_format.c_str());
         if (encoder_.id == AV_CODEC_ID_HEVC)
@@ -126,7 +128,7 @@ class FfmpegEncoder : public Encoder {
     }
 
     void open_codec() {
-        codec_->thread_count = settings_.threads;
+        codec_->thread_count = kThreads;
         if ((file_.format().oformat->flags & AVFMT_GLOBALHEADER) != 0) codec_->flags |= AV_CODEC_FLAG_GLOBAL_HEADER;
         AVDictionary* options = nullptr;
         add_options(&options, settings_.encoder_options, encoder_.name);

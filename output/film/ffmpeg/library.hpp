@@ -70,6 +70,9 @@ long declared_frames(const InputFile& file, const AVStream& stream);
 
 constexpr const char* kDamaged = "the film is damaged or cut off; make or copy it again";
 
+// Whether a Matroska or WebM file (RFC 8794, RFC 9559) ends before its segment; FFmpeg does not report this.
+bool is_cut_matroska(const std::filesystem::path& file);
+
 // The other files of the module.
 std::unique_ptr<Encoder> open_encoder(const EncoderSettings& settings);
 std::unique_ptr<Decoder> open_decoder(const std::filesystem::path& file);

@@ -27,7 +27,7 @@ class Formats : public testing::TestWithParam<FormatCase> {};
 VideoOptions options_of(const FormatCase& kind, int width, int height) {
     VideoOptions options;
     options.width = width, options.height = height;
-    options.fps = 25;
+    options.fps = {25, 1};
     options.codec = kind.codec;
     options.transparent = kind.transparent;
     if (kind.codec == Codec::gif) options.palette = {0xff000000, 0xffffffff, 0xffc0392b, 0xff2c3e9f};

@@ -11,13 +11,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using ::testing::IsEmpty;
-using ::testing::Not;
-using testing::shell;
-using ::testing::StartsWith;
+using testing::Finished, testing::Folder, testing::shell;
+using ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not, ::testing::StartsWith;
 
 TEST(CommandLine, VersionHelpAndSchemaAreData) {
     const Folder folder;

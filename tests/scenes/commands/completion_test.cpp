@@ -12,11 +12,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
+using testing::Finished, testing::Folder, testing::shell;
+using ::testing::HasSubstr, ::testing::Not;
 
 // What bash offers after these words.
 std::string completed(const Folder& folder, const std::string& words) {

@@ -13,11 +13,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using testing::shell;
-using ::testing::StartsWith;
+using testing::Finished, testing::Folder, testing::shell;
+using ::testing::HasSubstr, ::testing::StartsWith;
 
 // A torque presses a rigid beam on a fast cam: closed forms in MODEL.md (S78).
 constexpr const char* kPressed = R"({

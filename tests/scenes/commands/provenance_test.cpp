@@ -8,11 +8,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
+using testing::Finished, testing::Folder, testing::shell;
+using ::testing::HasSubstr, ::testing::Not;
 
 constexpr const char* kEveryOutput = R"({"title": "θ", "time": {"end": 0.3}, "outputs": [
     {"type": "still", "file": "a.png", "at": 0.2, "size": [192, 108], "view": {"style": "flat"}},

@@ -8,8 +8,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Folder;
-using testing::shell;
+using testing::Folder, testing::shell;
 
 // Red, then green, then blue, two frames each, without loss.
 void make_film(const Folder& folder, const char* file) {

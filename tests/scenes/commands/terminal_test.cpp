@@ -8,10 +8,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
+using testing::Finished, testing::Folder, testing::shell;
 using ::testing::HasSubstr;
-using testing::shell;
 
 void expect_safe(const Finished& done, int code) {
     EXPECT_EQ(done.code, code) << done.err;

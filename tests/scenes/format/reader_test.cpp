@@ -11,13 +11,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using testing::messages;
-using testing::read;
-using ::testing::StartsWith;
+using ::testing::AllOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::StartsWith;
+using testing::messages, testing::read;
 
 TEST(Reader, InitialCoordinatesHaveTheUnitOfTheModel) {
     EXPECT_EQ(read(R"({"initial": {"q": ["5 mm"]}})").scene->problem.initial.q, std::vector<double>{5e-3});

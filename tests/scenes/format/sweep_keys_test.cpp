@@ -12,10 +12,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
-using testing::messages;
-using testing::read;
+using ::testing::ElementsAre, ::testing::HasSubstr;
+using testing::messages, testing::read;
 
 std::string scene_with(const std::string& sweep) { return "{\"sweep\": " + sweep + "}"; }
 constexpr const char* kSpeed = R"({"key": "cam.speed", "from": 40, "to": 52, "count": 601})";

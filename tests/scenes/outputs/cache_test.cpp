@@ -11,8 +11,7 @@ namespace beamcam::scenes {
 namespace {
 
 using testing::Finished, testing::Folder, testing::shell;
-using ::testing::HasSubstr;
-using ::testing::Not;
+using ::testing::HasSubstr, ::testing::Not;
 
 TEST(Cache, GivesPlansTheDurationsOfEarlierRuns) {
     const Folder folder;

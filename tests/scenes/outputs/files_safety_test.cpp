@@ -9,11 +9,8 @@ namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Finished;
-using testing::Folder;
+using testing::Finished, testing::Folder, testing::shell, testing::slurp;
 using ::testing::HasSubstr;
-using testing::shell;
-using testing::slurp;
 
 // A film with a poster, which is finished long before the film is.
 constexpr const char* kFilm =

@@ -16,8 +16,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::HasSubstr;
-using ::testing::Not;
+using ::testing::HasSubstr, ::testing::Not;
 
 render::FilmSetup setup_until(double end, double rate) {
     render::FilmSetup setup = testing::filmed_until(end, rate);

@@ -12,12 +12,8 @@ namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
-using testing::slurp;
+using testing::Finished, testing::Folder, testing::shell, testing::slurp;
+using ::testing::HasSubstr, ::testing::Not;
 
 // A line for every frame of a film, as FFmpeg decodes and then filters it.
 std::string frame_digests(const Folder& folder, const std::string& file, const std::string& filter = {}) {

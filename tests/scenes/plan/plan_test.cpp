@@ -11,9 +11,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::Contains;
-using ::testing::ElementsAre;
-using ::testing::HasSubstr;
+using ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr;
 using testing::read;
 
 Scene scene_of(const std::string& text) {
@@ -248,10 +246,7 @@ skipped
 }
 
 TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
-    Selection selection;
-    selection.shard = 2;
-    selection.shards = 3;
-    const std::string text = text_with({}, selection);
+    const std::string text = text_with({}, {.shard = {2, 3}});
     EXPECT_THAT(text, HasSubstr("f-##.png: 3 frames from 0.15 s to 0.25 s"));
     EXPECT_THAT(text, HasSubstr("  7 of 10 frames of f-##.png: other shards draw them\n"));
     EXPECT_THAT(text, HasSubstr("  t.csv: the first shard writes it\n"));
@@ -259,13 +254,10 @@ TEST(PlanText, AShardDrawsItsPartAndTheFirstMakesTheRest) {
 
 TEST(Plan, ShardsCoverEveryFrameOnce) {
     const Scene scene = scene_of(R"({"outputs": [{"type": "video", "fps": 20, "from": 0.3}]})");
-    for (int shards : {1, 2, 3, 7, 24}) {
+    for (const std::uint64_t count : {1, 2, 3, 7, 24}) {
         std::vector<int> all;
-        for (int shard = 1; shard <= shards; ++shard) {
-            Selection selection;
-            selection.shard = shard;
-            selection.shards = shards;
-            const Plan p = plan(scene, selection);
+        for (std::uint64_t number = 1; number <= count; ++number) {
+            const Plan p = plan(scene, {.shard = {number, count}});
             ASSERT_EQ(p.pictures.size(), 1u);
             all.insert(all.end(), p.pictures[0].draw.begin(), p.pictures[0].draw.end());
             // Scales and camera are those of the whole film.
@@ -274,11 +266,8 @@ TEST(Plan, ShardsCoverEveryFrameOnce) {
         EXPECT_EQ(all.size(), 24u);
         EXPECT_TRUE(std::is_sorted(all.begin(), all.end()));
     }
-    Selection selection;
-    selection.shard = 25;
-    selection.shards = 30;
-    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), selection).pictures.empty());
-    EXPECT_EQ(shard_file("out/fall.mp4", 2, 3), "out/fall.2of3.mp4");
+    EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), {.shard = {25, 30}}).pictures.empty());
+    EXPECT_EQ(shard_file("out/fall.mp4", {2, 3}), "out/fall.2of3.mp4");
 }
 
 TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {

@@ -10,12 +10,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using testing::Guarded;
+using testing::Finished, testing::Folder, testing::Guarded, testing::shell, testing::slurp;
 using ::testing::HasSubstr;
-using testing::shell;
-using testing::slurp;
 
 // The schema for editors and the reader give the same verdicts, except on rules that only the reader can check.
 TEST(Baselines, TheSchemaAndTheReaderAgree) {

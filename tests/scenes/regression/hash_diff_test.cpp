@@ -7,11 +7,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using testing::shell;
-using ::testing::StartsWith;
+using testing::Finished, testing::Folder, testing::shell;
+using ::testing::HasSubstr, ::testing::StartsWith;
 
 constexpr const char* kFramesAndTable =
     R"({"outputs": [{"type": "frames", "file": "f-##.png", "size": [192, 108], "fps": 20, "from": 0.1, "to": 0.3, "view": {"style": "flat"}},

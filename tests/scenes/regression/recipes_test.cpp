@@ -7,12 +7,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using testing::Finished;
-using testing::Guarded;
-using ::testing::HasSubstr;
-using testing::shell;
-using testing::slurp;
+using ::testing::AllOf, ::testing::HasSubstr;
+using testing::Finished, testing::Guarded, testing::shell, testing::slurp;
 
 const std::filesystem::path kDocument = BEAMCAM_TEST_DIR "/REGRESSION.md";
 

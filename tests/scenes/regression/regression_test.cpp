@@ -10,15 +10,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using testing::Finished;
-using testing::Folder;
-using testing::Guarded;
-using ::testing::HasSubstr;
-using testing::kBaselines;
-using ::testing::Not;
-using testing::shell;
-using testing::slurp;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::Not;
+using testing::Finished, testing::Folder, testing::Guarded, testing::kBaselines, testing::shell, testing::slurp;
 
 TEST(Regression, WhatWasNeverAcceptedIsMissingAndFails) {
     const Guarded folder;

@@ -10,13 +10,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using testing::Finished;
-using testing::Guarded;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
-using testing::slurp;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::Not;
+using testing::Finished, testing::Guarded, testing::shell, testing::slurp;
 
 const std::string kTest = "$BEAMCAM test b.json --only fast";
 

@@ -7,13 +7,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using testing::Finished;
-using testing::Guarded;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
-using testing::slurp;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::Not;
+using testing::Finished, testing::Guarded, testing::shell, testing::slurp;
 
 // Servers show pages of CI runs under a policy that forbids scripts and everything inline.
 TEST(Report, IsAPageWithoutScriptsOrAnythingInline) {

@@ -11,13 +11,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using ::testing::ElementsAre;
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using testing::shell;
-using testing::slurp;
+using ::testing::AllOf, ::testing::ElementsAre, ::testing::HasSubstr;
+using testing::Finished, testing::Folder, testing::shell, testing::slurp;
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 enum Kind { kPeriodic = 2, kChaotic = 4, kOverTheTop = 6, kUnsettled = 7 };

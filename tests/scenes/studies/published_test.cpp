@@ -26,9 +26,7 @@ namespace beamcam::scenes {
 namespace {
 
 using Json = nlohmann::ordered_json;
-using testing::Finished;
-using testing::Folder;
-using testing::shell;
+using testing::Finished, testing::Folder, testing::shell;
 
 constexpr double kPi = std::numbers::pi;
 

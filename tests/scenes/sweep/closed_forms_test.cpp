@@ -14,9 +14,7 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
-using testing::shell;
+using testing::Finished, testing::Folder, testing::shell;
 
 struct PointClass {
     std::string name, period, impacts;

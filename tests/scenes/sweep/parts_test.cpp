@@ -12,43 +12,38 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf;
-using testing::Finished;
-using testing::Folder;
-using ::testing::HasSubstr;
-using ::testing::Not;
-using testing::shell;
-using testing::slurp;
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::Not;
+using testing::Finished, testing::Folder, testing::shell, testing::slurp;
 
 constexpr const char* kPartedScene = R"({
     "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5}, "cam": {"eccentricity": "2 mm"},
     "sweep": {"over": [{"key": "cam.speed", "from": 40, "to": 60, "count": 23}],
               "transient": {"cam_turns": 50}, "keep": {"cam_turns": 12}}})";
 
-SweepPart by_variables(const std::string& text, std::map<std::string, std::string> variables) {
-    return part_argument(text, [&](const char* name) {
+Shard by_variables(const std::string& text, std::map<std::string, std::string> variables) {
+    return shard_of(text, [&](const char* name) {
         const auto found = variables.find(name);
         return found == variables.end() ? nullptr : found->second.c_str();
     });
 }
 
 TEST(SweepParts, AreNumberedByTheUserOrTheEngine) {
-    EXPECT_EQ(by_variables("2/3", {}).part, 1u);
-    const auto is = [](const SweepPart& part, std::uint64_t number, std::uint64_t parts) {
-        return part.part == number && part.parts == parts;
+    EXPECT_EQ(by_variables("2/3", {}).number, 2u);
+    const auto is = [](const Shard& shard, std::uint64_t number, std::uint64_t count) {
+        return shard.number == number && shard.count == count;
     };
     EXPECT_TRUE(is(by_variables("auto", {{"SLURM_ARRAY_TASK_ID", "7"},
                                          {"SLURM_ARRAY_TASK_MIN", "3"},
                                          {"SLURM_ARRAY_TASK_MAX", "11"},
                                          {"SLURM_ARRAY_TASK_STEP", "2"},
                                          {"SLURM_ARRAY_TASK_COUNT", "5"}}),
-                   2, 5));
+                   3, 5));
     EXPECT_TRUE(
         is(by_variables(
                "auto",
                {{"SGE_TASK_ID", "4"}, {"SGE_TASK_FIRST", "1"}, {"SGE_TASK_LAST", "8"}, {"SGE_TASK_STEPSIZE", "1"}}),
-           3, 8));
-    EXPECT_TRUE(is(by_variables("auto/9", {{"PBS_ARRAY_INDEX", "9"}}), 8, 9));
+           4, 8));
+    EXPECT_TRUE(is(by_variables("auto/9", {{"PBS_ARRAY_INDEX", "9"}}), 9, 9));
     for (const char* text : {"auto", "0/3", "4/3", "x/3", "1", "1/0", "auto/x"})
         EXPECT_THROW(by_variables(text, {}), UsageError) << text;
     EXPECT_THROW(by_variables("auto", {{"PBS_ARRAY_INDEX", "9"}}), UsageError);

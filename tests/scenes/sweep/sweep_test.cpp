@@ -11,11 +11,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using testing::Finished;
-using testing::Folder;
+using testing::Finished, testing::Folder, testing::shell, testing::slurp;
 using ::testing::HasSubstr;
-using testing::shell;
-using testing::slurp;
 
 constexpr const char* kSweptScene = R"({
     "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
@@ -262,8 +259,8 @@ TEST(SweepGrid, CutsIntoPartsThatAreAPartition) {
     EXPECT_EQ(grid.tasks(), 6u + 2u);
     for (const std::uint64_t parts : {1, 2, 3, 5}) {
         std::vector<int> count(grid.points(), 0);
-        for (std::uint64_t part = 0; part < parts; ++part) {
-            const std::vector<bool> mine = points_of(grid, {part, parts});
+        for (std::uint64_t number = 1; number <= parts; ++number) {
+            const std::vector<bool> mine = points_of(grid, {number, parts});
             for (std::size_t p = 0; p < mine.size(); ++p) count[p] += mine[p] ? 1 : 0;
         }
         EXPECT_THAT(count, ::testing::Each(1));

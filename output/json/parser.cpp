@@ -1,92 +1,27 @@
 // The parser of scene files: JSON (RFC 8259) with the position of every value, and messages that name mistake and
 // remedy. nlohmann-json reports no positions of values; it decodes escapes here and writes JSON in tree.cpp.
 #include <fmt/format.h>
+#include <glib.h>
 
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <nlohmann/json.hpp>
-#include <optional>
 
 #include "output/files/text_safety.hpp"
-#include "scenes/format/tree.hpp"
+#include "output/json/characters.hpp"
+#include "output/json/tree.hpp"
 
-namespace beamcam::scenes {
+namespace beamcam {
 namespace {
-
-bool is_space(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r'; }
-bool is_digit_of_json(char c) { return c >= '0' && c <= '9'; }
-bool is_word_byte(char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || is_digit_of_json(c) || c == '_' || c == '-' ||
-           c == '+' || c == '.';
-}
-
-// One past the closing quote of the string that opens at `i`, or past the end of its line.
-std::size_t after_string(std::string_view text, std::size_t i) {
-    for (++i; i < text.size() && text[i] != '"' && text[i] != '\n'; ++i)
-        if (text[i] == '\\') ++i;
-    return std::min(i + 1, text.size());
-}
-
-// Offset of the first byte that is not UTF-8.
-std::optional<std::size_t> first_bad_utf8(std::string_view text) {
-    for (std::size_t i = 0; i < text.size();) {
-        const std::size_t bytes = output::first_character(text.substr(i)).bytes;
-        if (bytes == 0) return i;
-        i += bytes;
-    }
-    return std::nullopt;
-}
-
-// Why the file is not JSON text at all.
-std::optional<Message> encoding_problem(std::string_view text, std::size_t source) {
-    const auto message = [&](std::size_t offset, std::string problem) {
-        return Message{{source, offset}, std::move(problem), true};
-    };
-    if (text.size() > kLargestScene)
-        return message(0, fmt::format("the file has {} bytes, but a scene has at most {}; name the scene file",
-                                      text.size(), kLargestScene));
-    if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
-        return message(0, "the file is UTF-16; save it as UTF-8");
-    if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos)
-        return message(nul, "a NUL byte; the file is not text, or it is damaged: save it as UTF-8 text");
-    if (const auto bad = first_bad_utf8(text))
-        return message(*bad, fmt::format("byte 0x{:02x} is not UTF-8; save the file as UTF-8",
-                                         static_cast<unsigned>(static_cast<unsigned char>(text[*bad]))));
-    return std::nullopt;
-}
-
-// True for -12.5e-3; false for +1, .5, 01, 1. and 0x10.
-bool is_number_of_json(std::string_view word) {
-    std::size_t i = 0;
-    const auto digits = [&] {
-        const std::size_t begin = i;
-        while (i < word.size() && is_digit_of_json(word[i])) ++i;
-        return i - begin;
-    };
-    const auto accept = [&](std::string_view any) {
-        const bool found = i < word.size() && any.find(word[i]) != std::string_view::npos;
-        i += found ? 1 : 0;
-        return found;
-    };
-    accept("-");
-    const std::size_t first = i, whole = digits();
-    if (whole == 0 || (whole > 1 && word[first] == '0')) return false;
-    if (accept(".") && digits() == 0) return false;
-    if (accept("eE")) {
-        accept("+-");
-        if (digits() == 0) return false;
-    }
-    return i == word.size();
-}
 
 struct SyntaxError {
     std::size_t offset;
     std::string text;
 };
 
-// Recursive descent over a text without comments and trailing commas. Throws SyntaxError.
+// Recursive descent. Throws SyntaxError.
 class Parser {
   public:
     Parser(std::string_view text, std::size_t source, std::vector<Message>& messages)
@@ -160,13 +95,13 @@ class Parser {
         return node;
     }
 
-    // True: a comma, so that another item follows. False: the closing bracket comes next.
+    // True: a comma, and another item follows. False: the closing bracket comes next, perhaps after a comma.
     bool separator() {
-        const char c = next();
-        if (c == closing_bracket(open_.back())) return false;
+        const char c = next(), closing = closing_bracket(open_.back());
+        if (c == closing) return false;
         if (c != ',') unexpected(Expected::separator);
         ++at_;
-        return true;
+        return next() != closing;
     }
 
     Node open(Node::Kind kind) {
@@ -185,7 +120,7 @@ class Parser {
     char closing_bracket(std::size_t opening) const { return text_[opening] == '{' ? '}' : ']'; }
 
     Node number_or_literal() {
-        const std::string_view word = word_at(at_);
+        const std::string_view word = first_word(text_.substr(at_));
         if (word == "true" || word == "false" || word == "null") {
             Node node = node_here(word == "null" ? Node::Kind::null : Node::Kind::boolean);
             node.boolean = word == "true";
@@ -210,7 +145,9 @@ class Parser {
 
     std::string string() {
         const std::size_t begin = at_;
-        at_ = after_string(text_, at_);
+        for (++at_; at_ < text_.size() && text_[at_] != '"' && text_[at_] != '\n'; ++at_)
+            if (text_[at_] == '\\') ++at_;
+        at_ = std::min(at_ + 1, text_.size());  // past the closing quote, or the end of the line
         const std::string_view token = text_.substr(begin, at_ - begin);
         if (token.size() < 2 || token.back() != '"' || token.find('\r') != std::string_view::npos)
             throw SyntaxError{
@@ -242,7 +179,7 @@ class Parser {
         if (c == '\'') fail("a single quote; put texts and keys in double quotes: \"…\"");
         if (expected == Expected::colon) fail("a colon is missing between a key and its value");
         if (c == ',') fail("a comma where a key or a value is expected; remove it, or write what is missing");
-        const std::string_view word = word_at(at_);
+        const std::string_view word = first_word(text_.substr(at_));
         const bool is_value = c == '"' || c == '{' || c == '[' || word == "true" || word == "false" || word == "null" ||
                               is_number_of_json(word);
         if (is_value && expected == Expected::separator) fail("a comma is missing before this");
@@ -269,9 +206,9 @@ class Parser {
     static std::string problem_with_word(std::string_view word) {
         if (word == "NaN" || word == "nan" || word.ends_with("Infinity") || word.ends_with("inf"))
             return fmt::format("{} is not a number that a scene can have; write a finite number", shortened(word));
-        if (word.size() > 1 && word[0] == '0' && is_digit_of_json(word[1]))
+        if (word.size() > 1 && word[0] == '0' && g_ascii_isdigit(word[1]))
             return fmt::format("number {} begins with 0; JSON writes it without", shortened(word));
-        if (word[0] == '+' || word[0] == '.' || word[0] == '-' || is_digit_of_json(word[0]))
+        if (word[0] == '+' || word[0] == '.' || word[0] == '-' || g_ascii_isdigit(word[0]))
             return fmt::format(
                 "{} is not a number in JSON; write for example 0.5, -3 or 1e-8, and \"12 mm\" with a unit in quotes",
                 in_quotes(word));
@@ -282,8 +219,18 @@ class Parser {
 
     // ---- the text ----
 
+    // Skips white space and closed comments.
     void skip_space() {
-        while (at_ < text_.size() && is_space(text_[at_])) ++at_;
+        for (std::size_t after = at_; after != std::string_view::npos; after = after_comment(at_)) {
+            at_ = std::min(text_.find_first_not_of(" \t\n\r", after), text_.size());
+        }
+    }
+    // One past the comment that begins at `i`; npos: there is none.
+    std::size_t after_comment(std::size_t i) const {
+        const std::string_view begin = text_.substr(i, 2);
+        if (begin == "//") return std::min(text_.find('\n', i), text_.size());
+        const std::size_t end = begin == "/*" ? text_.find("*/", i + 2) : std::string_view::npos;
+        return end == std::string_view::npos ? end : end + 2;
     }
     // The next byte that is not white space. Throws at the end of the file.
     char next() {
@@ -293,11 +240,6 @@ class Parser {
         throw SyntaxError{open_.back(),
                           fmt::format("this {} is never closed: the file ends before its '{}'",
                                       text_[open_.back()] == '{' ? "object" : "array", closing_bracket(open_.back()))};
-    }
-    std::string_view word_at(std::size_t begin) const {
-        std::size_t end = begin;
-        while (end < text_.size() && is_word_byte(text_[end])) ++end;
-        return text_.substr(begin, end - begin);
     }
     Node node_here(Node::Kind kind) const {
         Node node;
@@ -327,53 +269,14 @@ class Parser {
 
 }  // namespace
 
-std::string blank_comments(std::string_view text) {
-    std::string out(text);
-    auto blank = [&](std::size_t begin, std::size_t end) {
-        for (std::size_t i = begin; i < end; ++i)
-            if (out[i] != '\n' && out[i] != '\r') out[i] = ' ';
-    };
-    constexpr std::size_t kNone = std::string_view::npos;
-    char previous = 0;          // the last significant byte
-    std::size_t comma = kNone;  // the last comma after a value; perhaps a trailing one
-    for (std::size_t i = 0; i < text.size();) {
-        const char c = text[i];
-        if (c == '"') {
-            i = after_string(text, i);
-            comma = kNone;
-            previous = '"';
-        } else if (text.substr(i, 2) == "//") {
-            const std::size_t end = std::min(text.find('\n', i), text.size());
-            blank(i, end);
-            i = end;
-        } else if (text.substr(i, 2) == "/*") {
-            const std::size_t end = text.find("*/", i + 2);
-            if (end == std::string_view::npos) return out;
-            blank(i, end + 2);
-            i = end + 2;
-        } else if (is_space(c)) {
-            ++i;
-        } else {
-            if ((c == '}' || c == ']') && comma != kNone) out[comma] = ' ';
-            comma = kNone;
-            const bool after_value = previous != 0 && std::string_view("[{,:").find(previous) == std::string_view::npos;
-            if (c == ',' && after_value) comma = i;
-            previous = c;
-            ++i;
-        }
-    }
-    return out;
-}
-
-Parsed parse(std::string_view text, std::size_t source) {
+Parsed parse(std::string_view text, std::size_t source, std::size_t largest) {
     Parsed result;
-    if (auto message = encoding_problem(text, source)) {
+    if (auto message = encoding_problem(text, source, largest)) {
         result.messages.push_back(*message);
         return result;
     }
-    const std::string blanked = blank_comments(text);
     try {
-        result.root = Parser(blanked, source, result.messages).document();
+        result.root = Parser(text, source, result.messages).document();
         result.is_json = true;
     } catch (const SyntaxError& error) {
         result.messages = {{{source, error.offset}, error.text, true}};
@@ -383,4 +286,4 @@ Parsed parse(std::string_view text, std::size_t source) {
 
 Node node_of(std::string_view json) { return parse(json).root; }
 
-}  // namespace beamcam::scenes
+}  // namespace beamcam

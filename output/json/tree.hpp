@@ -1,18 +1,18 @@
-// A JSON text as a tree in which every key and value remembers its position (parser: json_parser.cpp).
-// `//` and `/* */` comments and trailing commas are accepted.
+// JSON as a tree, for reading and writing. Every key and value that was read remembers its position (parser.cpp); `//`
+// and `/* */` comments and trailing commas are accepted.
 #pragma once
 
 #include <concepts>
-#include <functional>
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
 #include <vector>
 
-#include "scenes/format/source.hpp"
+#include "output/json/source.hpp"
 
-namespace beamcam::scenes {
+namespace beamcam {
 
 struct Member;
 
@@ -39,7 +39,8 @@ class Members {
 struct Node {
     enum class Kind { null, boolean, number, string, array, object };
 
-    // Nodes without a position. A value converts to its node: true, 3, 0.5, "text", an array or map of values.
+    // Nodes without a position. A value converts to its node: true, 3, 0.5, "text", an array or map of values; an
+    // absent one, NaN and infinities are null.
     Node() = default;  // null
     Node(double value);
     Node(std::string value);
@@ -49,6 +50,9 @@ struct Node {
     template <std::integral Integer>
     requires(!std::same_as<Integer, bool>) Node(Integer value)
         : kind(Kind::number), number(static_cast<double>(value)), text(std::to_string(value)) {}
+    template <class Value>
+    requires(!std::same_as<Value, Node>) Node(const std::optional<Value>& value)
+        : Node(value ? Node(*value) : Node()) {}
     template <class Value>
     Node(const std::vector<Value>& values) : kind(Kind::array), items(values.begin(), values.end()) {}
     template <class Value>
@@ -107,13 +111,9 @@ struct Parsed {
 constexpr std::size_t kLargestScene = 64u << 20;  // [byte]: a drive table of a million points
 constexpr int kDeepestScene = 64;                 // nested brackets
 
-// `source`: index that the positions carry.
-Parsed parse(std::string_view text, std::size_t source = 0);
+// `source`: index that the positions carry. `largest`: more bytes are an error.
+Parsed parse(std::string_view text, std::size_t source = 0, std::size_t largest = kLargestScene);
 // Parses JSON that the program itself contains.
 Node node_of(std::string_view json);
 
-// Replaces comments and trailing commas by spaces; every other byte keeps its offset. An unclosed comment stays, so
-// that the parser reports it.
-std::string blank_comments(std::string_view text);
-
-}  // namespace beamcam::scenes
+}  // namespace beamcam

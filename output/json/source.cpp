@@ -1,4 +1,4 @@
-#include "scenes/format/source.hpp"
+#include "output/json/source.hpp"
 
 #include <fmt/format.h>
 
@@ -6,7 +6,7 @@
 
 #include "output/files/text_safety.hpp"
 
-namespace beamcam::scenes {
+namespace beamcam {
 namespace {
 
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
@@ -94,4 +94,4 @@ std::string shortened(std::string_view text) {
 
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", shortened(text)); }
 
-}  // namespace beamcam::scenes
+}  // namespace beamcam

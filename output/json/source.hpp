@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-namespace beamcam::scenes {
+namespace beamcam {
 
 constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF";  // of UTF-8; it may precede a scene
 
@@ -60,4 +60,4 @@ std::string in_quotes(std::string_view text);
 // The same without quotes, for numbers.
 std::string shortened(std::string_view text);
 
-}  // namespace beamcam::scenes
+}  // namespace beamcam

@@ -1,11 +1,11 @@
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "output/files/numbers.hpp"
 
-namespace beamcam::scenes {
+namespace beamcam {
 
 static constexpr std::size_t kFewMembers = 16;  // up to this size a linear search is fastest
 
@@ -147,4 +147,4 @@ const Node* child(const Node& node, std::string_view name) {
 }
 Node* child(Node& node, std::string_view name) { return const_cast<Node*>(child(std::as_const(node), name)); }
 
-}  // namespace beamcam::scenes
+}  // namespace beamcam

@@ -1,11 +1,11 @@
-#include "scenes/format/tree.hpp"
+#include "output/json/tree.hpp"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <random>
 
-namespace beamcam::scenes {
+namespace beamcam {
 namespace {
 
 std::string first_message(const std::string& text) {
@@ -15,15 +15,16 @@ std::string first_message(const std::string& text) {
     return std::to_string(at.line) + ":" + std::to_string(at.column) + " " + parsed.messages.front().text;
 }
 
-TEST(Tree, CommentsAndTrailingCommasVanishAndEveryOtherByteStays) {
-    const std::string text = "{ // a \"comment\", \n \"a//b\": [1, 2,], /* , } */ \"c\\\"/*\": 3, // x\n }";
-    const std::string blanked = blank_comments(text);
-    EXPECT_EQ(blanked.size(), text.size());
-    EXPECT_EQ(blanked, "{" + std::string(17, ' ') + "\n \"a//b\": [1, 2 ]," + std::string(11, ' ') + "\"c\\\"/*\": 3" +
-                           std::string(6, ' ') + "\n }");
+TEST(Tree, CommentsAndTrailingCommasAreSkipped) {
+    const Parsed parsed =
+        parse("{ // a \"comment\", \n \"a//b\": [1, 2,], /* , } */ \"c\\\"/*\": 3, // x\n } /* the end */ // y");
+    ASSERT_TRUE(parsed.is_json);
+    EXPECT_EQ(one_line(parsed.root), "{\"a//b\": [1, 2], \"c\\\"/*\": 3}");
+    EXPECT_EQ(first_message("{\"a\": 1 /* }"),
+              "1:9 a comment that is not closed, or of an unknown kind; write // … or /* … */");
 }
 
-TEST(Tree, CommasThatAreNotTrailingStay) {
+TEST(Tree, OtherCommasWithoutAValueAreErrors) {
     for (const char* text : {"[,]", "{,}", "[1,,]", "{\"a\":,}", ",", "[1,/**/,2]"})
         EXPECT_FALSE(parse(text).is_json) << text;
 }
@@ -118,6 +119,14 @@ TEST(Tree, AnyOneDamagedByteGivesATreeOrOneMessage) {
         }
 }
 
+bool has_trailing_comma(const std::string& text) {
+    for (std::size_t at = text.find(','); at != std::string::npos; at = text.find(',', at + 1))
+        if (const std::size_t next = text.find_first_not_of(" \t\r\n", at + 1);
+            next != std::string::npos && (text[next] == ']' || text[next] == '}'))
+            return true;
+    return false;
+}
+
 // An independent parser decides which of many damaged texts are JSON, and what their values are.
 TEST(Tree, TheParserAgreesWithAnotherOneOnDamagedTexts) {
     const std::string whole =
@@ -143,8 +152,9 @@ TEST(Tree, TheParserAgreesWithAnotherOneOnDamagedTexts) {
                     text.insert(at, 1, byte);
             }
         }
+        if (has_trailing_comma(text)) continue;  // the other one rejects it
         const Parsed parsed = parse(text);
-        const auto other = nlohmann::json::parse(blank_comments(text), nullptr, false);
+        const auto other = nlohmann::json::parse(text, nullptr, false);
         ASSERT_EQ(parsed.is_json, !other.is_discarded()) << text;
         if (!parsed.is_json || !parsed.messages.empty()) continue;  // the other one keeps the last of equal keys
         ++accepted;
@@ -169,4 +179,4 @@ TEST(Source, LongLinesAreCutAroundThePlace) {
 }
 
 }  // namespace
-}  // namespace beamcam::scenes
+}  // namespace beamcam

@@ -1,0 +1,129 @@
+// The kinds of values that ObjectReader reads.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "scenes/format/object_reader.hpp"
+#include "scenes/format/suggest.hpp"
+#include "sim/base/counted.hpp"
+
+namespace beamcam::scenes {
+
+std::string as_written(const Node& node) {
+    switch (node.kind) {
+        case Node::Kind::null:
+            return "null";
+        case Node::Kind::boolean:
+            return node.boolean ? "true" : "false";
+        case Node::Kind::number:
+            return shortened(node.text);
+        case Node::Kind::string:
+            return in_quotes(node.text);
+        case Node::Kind::array:
+            return node.items.empty() ? "an empty array" : "an array of " + counted(std::ssize(node.items), "value");
+        case Node::Kind::object:
+            return "an object";
+    }
+    return "?";
+}
+
+bool ObjectReader::number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out) {
+    if (node.kind == Node::Kind::number) {
+        out = node.number;
+        return true;
+    }
+    const std::string unit = si_unit(dimension);
+    if (node.kind != Node::Kind::string) {
+        expect(node, key, "a number{}", unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit));
+        return false;
+    }
+    const QuantityText read = parse_quantity(node.text, &dimension);
+    if (!read.quantity) {
+        reject_value(node, key, ": {}{}", read.problem,
+                     unit == "1" ? "; write a number" : fmt::format("; write for example \"1.5 {}\"", unit));
+        return false;
+    }
+    if (!same(read.quantity->dimension, dimension)) {
+        fail(node, key, wrong_dimension(node, key, unit, read.quantity->dimension));
+        return false;
+    }
+    out = read.quantity->value;
+    return true;
+}
+
+bool ObjectReader::ranged_value(const Node& node, std::string_view key, const sim::Unit& unit, const sim::Range& range,
+                                double& out) {
+    double value = 0;
+    if (!number_value(node, key, unit.resolved(), value)) return false;
+    if (check_ranges_ && !range.contains(value)) {
+        reject_value(node, key, " {}",
+                     range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max));
+        return false;
+    }
+    out = value;
+    return true;
+}
+
+bool ObjectReader::integer_value(const Node& node, std::string_view key, int min, int max, int& out) {
+    if (node.kind != Node::Kind::number || node.number != std::round(node.number)) {
+        expect(node, key, "a whole number");
+        return false;
+    }
+    if (node.number < min || node.number > max) {
+        reject_value(node, key, " is outside {} … {}", min, max);
+        return false;
+    }
+    out = static_cast<int>(node.number);
+    return true;
+}
+
+bool ObjectReader::keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
+                                 std::size_t& chosen) {
+    if (node.kind != Node::Kind::string) {
+        expect(node, key, "one of {}", fmt::join(words, ", "));
+        return false;
+    }
+    const auto found = std::ranges::find(words, node.text);
+    if (found == words.end()) {
+        const bool is_film = path(key).ends_with(".type") && (node.text == "gif" || node.text == "apng");
+        reject_value(node, key, " {}",
+                     is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
+                             : "is unknown" + suggestion_or_list(node.text, words));
+        return false;
+    }
+    chosen = static_cast<std::size_t>(found - words.begin());
+    return true;
+}
+
+bool ObjectReader::numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
+                                 std::vector<double>& out) {
+    if (node.kind != Node::Kind::array) {
+        expect(node, key, "an array [ … ]");
+        return false;
+    }
+    std::vector<double> values(node.items.size());
+    bool fine = true;
+    for (std::size_t i = 0; i < values.size(); ++i)
+        fine = number_value(node.items[i], fmt::format("{}.{}", key, i), dimension, values[i]) && fine;
+    if (fine) out = std::move(values);
+    return fine;
+}
+
+// For a quantity of the dimension `given` in place of `unit`.
+std::string ObjectReader::wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
+                                          const sim::Dimension& given) const {
+    if (same(given, dimension::kNone)) {
+        return unit == "1" ? fmt::format("{} = {} must be a number without quotes", path(key), in_quotes(node.text))
+                           : fmt::format("{} = {} has no unit; add one, or remove the quotes if the value is in {}",
+                                         path(key), in_quotes(node.text), unit);
+    }
+    if (unit == "1")
+        return fmt::format("{} = {} has a unit, but the key has none; write a number", path(key), in_quotes(node.text));
+    const bool cycles = unit == "rad/s" && same(given, dimension::kFrequency);
+    return fmt::format("{} = {} has the wrong dimension ({}); it is measured in {}{}", path(key), in_quotes(node.text),
+                       si_unit(given), unit, cycles ? ": write rpm, rad/s or deg/s" : "");
+}
+
+}  // namespace beamcam::scenes

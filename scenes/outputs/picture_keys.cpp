@@ -1,0 +1,223 @@
+#include "scenes/outputs/picture_keys.hpp"
+
+#include <numbers>
+
+#include "scenes/format/checks.hpp"
+#include "scenes/format/value_formats.hpp"
+
+namespace beamcam::scenes {
+
+namespace dim = sim::dimension;
+using sim::between, sim::kNotNegative, sim::kPositive, sim::Range, sim::required, sim::written_if;
+
+// ---- how pictures look -------------------------------------------------------------------------
+
+// At larger angles beam and cam hide each other.
+static constexpr Range kVisible =
+    between(-1.2, 1.2, "is outside −1.2 … 1.2 rad, the range from which the mechanism is visible");
+static constexpr Range kZooms = between(0.1, 100, "is outside 0.1 … 100; 1 shows everything");
+
+static void visit(SceneVisitor& v, Keyframe& key) {
+    using render::Ease;
+    v.value(required("at", "\"impact:1\""), instant_format(key.at), "The instant at which the camera arrives.");
+    v.number("zoom", key.zoom, dim::kNone, kZooms, "Magnification; by default unchanged, like the next three keys.");
+    v.value("follow", anchor_format(key.follow), "The point at the centre of the picture.");
+    v.number("yaw", key.yaw, dim::kAngle, kVisible, "In the solid view: yaw angle.");
+    v.number("pitch", key.pitch, dim::kAngle, kVisible, "In the solid view: pitch angle.");
+    v.number("over", key.over, dim::kTime, kNotNegative,
+             "Duration of the camera's movement in film time; by default since the previous keyframe. 0 is a cut.");
+    v.choice("ease", key.ease,
+             {{Ease::smooth, "smooth"}, {Ease::linear, "linear"}, {Ease::in, "in"}, {Ease::out, "out"}},
+             "smooth: gentle start and stop; in: gentle start; out: gentle stop.");
+}
+
+static void visit_camera(SceneVisitor& v, View& view) {
+    v.number("zoom", view.shot.zoom, dim::kNone, kZooms, "Magnification of the mechanism; 1 shows all of its motion.");
+    v.value("follow", anchor_format(view.shot.follow),
+            "The point at the centre of the picture: of everything that the film shows (all), the tip, the contact "
+            "(where beam and cam are nearest), the axis of the cam or of the hub, or a place [x, y]. The camera "
+            "follows the mean over a third of a second of film time, so that it does not vibrate.");
+    v.number("yaw", view.shot.yaw, dim::kAngle, kVisible,
+             "In the solid view: yaw angle, to the right of the normal of the plane of motion.");
+    v.number("pitch", view.shot.pitch, dim::kAngle, kVisible, "In the solid view: pitch angle, above the horizontal.");
+    v.number("swing", view.swing, dim::kAngle, kVisible,
+             "In the solid view: amplitude of the yaw; during a film the camera swings once to both sides and back.");
+    v.list("keyframes", SceneVisitor::items_of(view.keyframes),
+           "Movements of the camera in a film; a still shows the camera at its instant.");
+    v.check([&view](ObjectReader& r) { check_camera(r, view); });
+}
+
+static void visit(SceneVisitor& v, View& view) {
+    using render::TraceColor;
+    v.choice("style", view.style, kStyles,
+             "lit: shaded metal from the front (OpenGL); flat: a line drawing; solid: bodies in perspective with "
+             "shadows (OpenGL).");
+    v.choice("trace", view.trace, {{TraceColor::force, "force"}, {TraceColor::age, "age"}},
+             "Colour of the contact's trace on the disc: the largest force, or the time since the last touch.");
+    v.choice("tip_path", view.tip_path, {{false, "recent"}, {true, "whole"}},
+             "recent: path of the tip during the last frames; whole: since the first instant of the film, in a still "
+             "since the start of the motion.");
+    const bool moved = !(view.shot == render::Shot{}) || !view.keyframes.empty();
+    v.object(
+        written_if(moved || view.style == render::Style::solid, "camera"),
+        [&view](sim::Visitor& inside) { visit_camera(static_cast<SceneVisitor&>(inside), view); }, "The camera.",
+        nullptr);
+    v.number("shutter", view.shutter, dim::kAngle,
+             {0, 2 * std::numbers::pi + 1e-9, true, false, "is not an angle above 0 and up to 360 deg"},
+             "Motion blur: shutter angle; 360 deg is the time from frame to frame, 180 deg is usual for cameras.");
+    v.number("strobe", view.strobe_every, dim::kTime, kPositive,
+             "Multiple exposure: the picture also shows the beam at the multiples of this time; cam and hub are shown "
+             "at the instant of the frame only.");
+    v.exclusive("shutter", "strobe");
+    v.integer(written_if(view.poses() > 1, "exposures"), view.exposures, 2, 64,
+              "Number of instants while the shutter is open, or of the latest flashes.");
+    v.check([&view](ObjectReader& r) { check_view(r, view); });
+    visit_exaggeration(v, view.exaggeration,
+                       "Factor of the deflection, stated on the picture; 1 is the true shape. auto: a round factor "
+                       "that suits the motion during the film (at any frame rate), during the scene (stills at events) "
+                       "or before the instant of a still.");
+}
+
+static void visit(SceneVisitor& v, render::Shown& show) {
+    v.boolean("title", show.title, "The scene's title.");
+    v.boolean("parameters", show.parameters, "The line of parameters below the title.");
+    v.boolean("clock", show.clock, "The clock.");
+    v.boolean("legend", show.legend, "Colour scales, and the factors of deflection and time.");
+    v.boolean("accuracy", show.accuracy, "Tolerance and error of the energy balance, in the corner.");
+    v.boolean("labels", show.labels, "Names, numbers and scale bar in the mechanism.");
+}
+
+static void visit(SceneVisitor& v, render::OwnColors& colors) {
+    v.value("ink", color_format(colors.ink), "Text and axes.");
+    v.value("motion", color_format(colors.motion), "Bending of the beam, and curves of motion.");
+    v.value("contact", color_format(colors.contact), "Forces and impacts.");
+    v.value("steel", color_format(colors.steel), "Bodies.");
+}
+
+void visit_theme(SceneVisitor& v, View& view) {
+    using render::Theme;
+    v.choice("theme", view.theme, {{Theme::light, "light"}, {Theme::dark, "dark"}, {Theme::print, "print"}},
+             "Colour theme.");
+}
+
+void visit_picture(SceneVisitor& v, Picture& picture) {
+    using render::Comparison, render::LayerOf;
+    v.object("view", picture.view, "View of the mechanism.");
+    visit_theme(v, picture.view);
+    v.value(
+        "background", background_format(picture.view),
+        "paper: background of the theme; \"#rrggbb\": this colour; transparent: none, if the file format allows it.");
+    v.value_or_object("show", show_format(picture.view.show), SceneVisitor::keys_of(picture.view.show),
+                      "The parts around the panels: all, a preset (talk: no parameters and accuracy; paper: only "
+                      "labels, legend and clock; clean: none), or an object that removes parts. Without the legend the "
+                      "picture does not state the factor of the deflection.");
+    v.object(written_if(picture.view.colors != render::OwnColors{}, "palette"),
+             SceneVisitor::keys_of(picture.view.colors), "Colours that replace those of the theme.", nullptr);
+    v.text(written_if(!picture.logo.empty(), "logo"), picture.logo,
+           "A PNG picture, path relative to the scene's folder, in the lower right corner: at the height of the clock, "
+           "right of the colour scales, or above them if they are below the clock.");
+    v.choice(written_if(picture.view.layer != LayerOf::all, "layer"), picture.view.layer,
+             {{LayerOf::all, "all"}, {LayerOf::mechanism, "mechanism"}, {LayerOf::charts, "charts"}},
+             "Part of the picture that is drawn: the mechanism only, or everything else. With a transparent background "
+             "the two layers combine to the whole picture.");
+    v.choice(written_if(picture.view.lang != Lang::en, "lang"), picture.view.lang, kLanguages,
+             "Language of labels, subtitles and chapters.");
+    v.number(written_if(picture.view.show.size != 1, "text_scale"), picture.view.show.size, sim::kPlainNumber,
+             between(0.5, 4, "is outside 0.5 … 4"),
+             "Size of text, lines and marks; at 1 the numbers of axes have 2 % of the height of a 16:9 picture.");
+    v.value("size", size_format(picture.size), "Width and height in pixels; H.264, VP9 and AV1 need even numbers.");
+    v.value_or_object(
+        "layout", layout_format(picture.layout),
+        [&picture](sim::Visitor& inside) {
+            if (!picture.layout) picture.layout.emplace();
+            visit(static_cast<SceneVisitor&>(inside), *picture.layout);
+        },
+        "auto, a panel, or a grid: {\"columns\": [{\"panel\": \"mechanism\", \"share\": 2}, {\"rows\": [\"theta\", "
+        "\"contact_force\", \"close-up\"]}]}.");
+    v.choice(written_if(!picture.compare.empty(), "comparison"), picture.comparison,
+             {{Comparison::panels, "panels"}, {Comparison::ghosts, "ghosts"}},
+             "panels: a separate mechanism for each motion; ghosts: one mechanism, with the motions after the first as "
+             "outlines.");
+    v.list("compare", compared_motions(picture.compare),
+           "The motions that the picture shows at equal times: the mechanics of this or another scene, with changes. "
+           "The first one is the main motion.");
+    v.boolean(written_if(picture.horizon, "horizon"), picture.horizon,
+              "Curves against time are paler during the intervals in which θ is not reproducible; needs further runs "
+              "with tighter tolerances and another method.");
+    v.check([&picture](ObjectReader& r) { check_picture(r, picture); });
+}
+
+// ---- how time runs in films --------------------------------------------------------------------
+
+static void visit(SceneVisitor& v, SpeedInterval& interval) {
+    v.value(required("from", "\"impact:1\""), instant_format(interval.from), "First instant.");
+    v.value(required("to", "\"0.4 s\""), instant_format(interval.to), "Last instant.");
+    v.number("factor", interval.factor, dim::kNone, kSpeedRange, "Playback speed in the interval; 1 is real time.");
+    v.check([&interval](ObjectReader& r) {
+        const bool times = interval.from.kind == Instant::Kind::time && interval.to.kind == Instant::Kind::time;
+        if (times && !(interval.from.t < interval.to.t)) r.reject("to", " must be later than \"from\"");
+    });
+}
+
+static void visit(SceneVisitor& v, Speed& speed) {
+    const bool by_intervals = !speed.intervals.empty();
+    const auto intervals = [&](sim::Visitor& inside) {
+        speed.around.reset();
+        static_cast<SceneVisitor&>(inside).list("intervals", SceneVisitor::items_of(speed.intervals),
+                                                "The intervals, in order of time, without overlap.");
+        inside.number("otherwise", speed.factor, dim::kNone, kSpeedRange, "Playback speed elsewhere.");
+        inside.number("ease", speed.ease, dim::kTime, kNotNegative,
+                      "Transition time between two speeds, in time of the motion; at most half of the time between two "
+                      "intervals.");
+    };
+    const auto fields = [&](sim::Visitor& inside) {
+        if (!speed.around) speed.around.emplace();
+        SlowMotion& slow = *speed.around;
+        inside.number("factor", slow.factor, dim::kNone, kSpeedRange, "Playback speed around impacts.");
+        inside.number("otherwise", speed.factor, dim::kNone, kSpeedRange, "Playback speed elsewhere.");
+        inside.number("before", slow.before, dim::kTime, kNotNegative,
+                      "Slow motion starts this time before the first touch.");
+        inside.number("after", slow.after, dim::kTime, kNotNegative, "Slow motion ends this time after the release.");
+        inside.number("ease", slow.ease, dim::kTime, kNotNegative,
+                      "Transition time between the speeds, in time of the motion.");
+        inside.numbers("collisions", slow.collisions, sim::kPlainNumber, between(1, 1e6), {},
+                       "Only around the impacts of these collisions, counted from 1; by default all.");
+    };
+    v.alternatives({{{{"around", "impacts"}}, "Slow motion around impacts.", !by_intervals, fields},
+                    {{{"around", "intervals"}}, "Different speeds in intervals of time.", by_intervals, intervals}});
+    v.check([&speed](ObjectReader& r) { check_speed(r, speed); });
+}
+
+static void visit(SceneVisitor& v, FilmEvent& event) {
+    v.value(required("at", "\"impact:1\""), instant_format(event.at), "The instant.");
+    v.number("freeze", event.freeze, dim::kTime, kNotNegative, "The picture freezes for this time, in film time.");
+    v.text("text", event.text, "Text beside the contact; formulas as in the title.");
+    v.value(
+        "anchor", anchor_format(event.anchor),
+        "The point beside the text, connected by a line; by default the contact. all: the text is at the lower edge.");
+    v.number(written_if(event.fade > 0, "fade"), event.fade, dim::kTime, kNotNegative,
+             "Time of fading in and out, in film time.");
+    v.check([&event](ObjectReader& r) { check_words(r, "text", event.text); });
+    v.number("show", event.show, dim::kTime, kNotNegative,
+             "Duration of the text in film time, at least the duration of the freeze. By default 1.5 s, or until the "
+             "next text.");
+}
+
+void visit_span(SceneVisitor& v, FrameSpan& span) {
+    v.value(
+        "fps", frame_rate_format(span.fps),
+        "Frames per second, 0.1 to 1000, or a fraction such as \"30000/1001\", which is also the meaning of 29.97.");
+    v.value("from", bound_format(span.from, span.from_event), "First instant.");
+    v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
+    v.value_or_object(written_if(!span.duration, "speed"), speed_format(span.speed), SceneVisitor::keys_of(span.speed),
+                      "Playback speed: a factor, where 1 is real time; \"impacts\": slow motion around impacts; or an "
+                      "object with the details.");
+    v.number("duration", span.duration, dim::kTime, kPositive,
+             "Duration of the film with its freezes, in place of \"speed\".");
+    v.exclusive("speed", "duration");
+    v.number(written_if(span.hold > 0, "hold"), span.hold, dim::kTime, kNotNegative,
+             "The last picture freezes for this time, in film time.");
+    v.list("events", SceneVisitor::items_of(span.events), "Freezes and texts of the film at instants.");
+}
+
+}  // namespace beamcam::scenes

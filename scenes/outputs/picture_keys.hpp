@@ -1,0 +1,13 @@
+// The keys that several outputs of pictures have.
+#pragma once
+
+#include "scenes/format/keys.hpp"
+#include "scenes/scene/scene.hpp"
+
+namespace beamcam::scenes {
+
+void visit_picture(SceneVisitor& v, Picture& picture);
+void visit_theme(SceneVisitor& v, View& view);
+void visit_span(SceneVisitor& v, FrameSpan& span);  // how time runs in a film
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,211 @@
+// The outputs of a scene: the keys of each type.
+#pragma once
+
+#include <initializer_list>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "scenes/scene/pictures.hpp"
+#include "sim/observe/channels.hpp"
+
+namespace beamcam::scenes {
+
+using render::Lang;
+// track: in the film itself.
+enum class Subtitles { none, vtt, srt, track };
+
+class Planner;       // plan/planner.hpp
+class SceneVisitor;  // format/keys.hpp
+
+// The parts of a scene, besides its mechanics, that the files of an output type depend on. A file without the title
+// contains only numbers.
+struct OutputInputs {
+    bool title = false, units = false, data = false, sweep = false;
+};
+
+// What determines the end of the motion that an output needs: its keys, the scene's end, or the run of all outputs.
+enum class Extent { keys, scene, run };
+
+// The output types. Each is implemented in one file in outputs/: `visit` describes its keys, `plan` adds its needs and
+// the writer of its file to the plan. A new type is such a file, a struct here, and an entry in Output.
+
+// Pictures of the mechanism.
+struct PictureOutput : Picture {
+    enum class Kind { video, frames, still, page, model };
+    static constexpr OutputInputs kInputs{.title = true, .units = true, .data = true};
+
+    Kind kind = Kind::video;
+    std::string file;                       // relative to the output directory; of frames with one run of '#'
+    FrameSpan span = {};                    // of all but stills
+    Instant at = {};                        // of a still
+    Encoding encoding = {};                 // this and the next two of a video
+    Subtitles subtitles = Subtitles::none;  // a file beside it
+    bool chapters = false;                  // in it, at impacts
+
+    static PictureOutput of(Kind kind);
+    Extent extent() const;
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;  // `output`: its index in the scene
+};
+struct PictureType {
+    PictureOutput::Kind kind;
+    const char *name, *meaning;
+};
+inline constexpr PictureType kPictureTypes[] = {
+    {PictureOutput::Kind::video, "video", "A film; the ending of its name selects the format."},
+    {PictureOutput::Kind::frames, "frames", "A sequence of PNG files."},
+    {PictureOutput::Kind::still, "still", "One picture."},
+    // It leaves out poses that it can interpolate, and adapts to any window size.
+    {PictureOutput::Kind::page, "page", "A self-contained HTML page that plays the motion."},
+    {PictureOutput::Kind::model, "model",
+     "An animated three-dimensional model of the mechanism, for Blender and slides."}};
+
+struct TrajectoryOutput {
+    static constexpr const char *kType = "trajectory", *kMeaning = "A table of channels against time.";
+    static constexpr OutputInputs kInputs{};
+    std::string file;                    // .csv or .npz
+    std::vector<sim::Channel> channels;  // in this order, always after the time
+    double rate = 1000;                  // [Hz]: rows k/rate and the end, unless `times` is given
+    std::vector<double> times;           // [s]: rows in this order
+
+    Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+struct ShapesOutput {
+    static constexpr const char *kType = "shapes",
+                                *kMeaning = "The deflection along the beam in time: one row for each time and point.";
+    static constexpr OutputInputs kInputs{};
+    std::string file;                // .csv or .npz
+    double rate = 1000;              // [Hz]: times k/rate and the end
+    std::vector<double> times = {};  // [s]; replaces `rate` unless empty
+    int stations = 33;               // points along the beam, both ends included
+
+    Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+struct ImpactsOutput {
+    static constexpr const char *kType = "impacts", *kMeaning = "All impacts and collisions.";
+    static constexpr OutputInputs kInputs{};
+    std::string file;  // .json or .csv
+
+    Extent extent() const { return Extent::run; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+struct SummaryOutput {
+    static constexpr const char *kType = "summary", *kMeaning = "Counts, extrema, energy balance, warnings.";
+    static constexpr OutputInputs kInputs{.data = true};
+    std::string file;  // .json
+    bool horizon = false;
+
+    Extent extent() const { return Extent::run; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+struct SweepOutput {
+    static constexpr const char *kType = "sweep",
+                                *kMeaning = "The points of the scene's sweep: one row for each sample.";
+    static constexpr OutputInputs kInputs{.sweep = true};
+    std::string file;  // .nc, .csv or .npz
+
+    Extent extent() const { return Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+inline constexpr std::initializer_list<const char*> kSweepFilmEndings{".mp4", ".mov", ".mkv", ".webm"};
+struct SweepFilmOutput {
+    static constexpr const char
+        *kType = "sweep-film",
+        *kMeaning =
+            "A film of the scene's sweep over one key: a growing bifurcation diagram beside the motion at that value.";
+    static constexpr OutputInputs kInputs{.title = true, .units = true, .sweep = true};
+    std::string file;  // .mp4, .mov, .mkv or .webm
+    Size size;
+    FrameRate fps{30, 1};
+    double duration = 30;  // [s]
+    double turns = 2;      // of the cam per second of the film
+    render::Style style = render::Style::lit;
+    std::optional<double> exaggeration = {};
+    Lang lang = Lang::en;
+    std::string value = {};  // column of the diagram; empty: default
+    std::optional<int> crf = {};
+
+    Extent extent() const { return Extent::keys; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+// A curve that is a sum of channels of one unit; channels without values add nothing.
+struct SeriesSum {
+    std::string label;
+    std::vector<sim::Channel> plus = {}, minus = {};  // with `minus` it is a balance, drawn in black
+};
+// A panel of the figure "series": curves of one unit, and of another unit on the right axis.
+struct SeriesPanel {
+    std::vector<sim::Channel> channels = {}, right = {};
+    std::vector<SeriesSum> sums = {};  // curves instead of the channels, of their unit
+    bool logarithmic = false;
+    std::optional<double> low = {}, high = {};  // of the left axis, in SI units
+    std::vector<double> lines = {};             // horizontal, at these values of the left axis
+    std::string label = {};                     // of the left axis, without unit; empty: the channels' symbols
+    std::string title = {};
+};
+// A vertical line with a text.
+struct SeriesNote {
+    Instant at;
+    std::string text;
+};
+// The keys of the figure "series".
+struct SeriesKeys {
+    std::vector<SeriesPanel> panels = {};
+    std::string against = "t";                              // "t", "turns" of the cam, "frequency", or a channel
+    std::optional<double> x_low = {}, x_high = {};          // ends of the abscissa; SI units or turns
+    double from = 0;                                        // [s]
+    std::optional<double> to = {};                          // [s]; nullopt: the end of the scene
+    std::optional<Instant> from_event = {}, to_event = {};  // in place of `from` and `to`
+    std::optional<Instant> at = {};                         // of a strobe: the only instant, in place of both
+    std::vector<Compared> compare = {};                     // empty: only the motion of the scene
+    bool apart = false;                                     // separate panels for each of them
+    bool impacts = false;                                   // lines at the beginnings of impacts
+    bool residuals = false;                                 // a panel of differences below each panel with data
+    std::optional<double> height = {};                      // [m]; nullopt: suits the panels
+    std::vector<SeriesNote> notes = {};
+    std::optional<double> window = {}, highest = {};  // of a spectrogram [s], [Hz]; nullopt: suits the motion
+
+    bool needs_events() const { return from_event || to_event || (at && at->is_event()); }
+};
+inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg", ".eps", ".png", ".tif", ".tiff"};
+struct FigureOutput {
+    static constexpr const char *kType = "figure",
+                                *kMeaning = "A figure for print; `beamcam figure SCENE` lists all figures.";
+    static constexpr OutputInputs kInputs{.title = true, .data = true};
+    std::string file;                 // of one of kFigureEndings
+    std::string figure;               // its name, see figures/figure_types.hpp
+    std::string column = "elsevier";  // of a journal, see render/plot/style.hpp
+    std::optional<double> width;      // [m]; nullopt: that of the column
+    Lang lang = Lang::en;
+    std::optional<double> dpi;  // nullopt: 300 for .png, 600 for .tif
+    bool editable = false;      // .svg contains text, not outlines
+    bool serif = false;         // serif font, as in LaTeX documents
+    bool dark = false;          // dark theme, for slides
+    SeriesKeys series;
+    int collision = 1;                    // number of the collision in the figure "collision", from 1
+    std::string value = {};               // column of a sweep's diagram; empty: default
+    std::string data_file, caption_file;  // empty: none
+
+    Extent extent() const {
+        const bool ends = series.to || (series.at && series.at->kind == Instant::Kind::time);
+        return ends ? Extent::keys : Extent::scene;
+    }
+    bool is_tiff() const { return file.ends_with(".tif") || file.ends_with(".tiff"); }
+    double resolution() const { return dpi.value_or(is_tiff() ? 600 : 300); }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput,
+                            SweepFilmOutput, SummaryOutput>;
+
+}  // namespace beamcam::scenes

@@ -1,0 +1,73 @@
+// The camera's movements and the exposures of a film's frames.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "render/base/error.hpp"
+#include "scenes/scene/film_times.hpp"
+#include "scenes/scene/time_map.hpp"
+
+namespace beamcam::scenes {
+
+// The frame number of a time; before and after the film at real time.
+static double frame_at(const std::vector<double>& frames, double t, double fps) {
+    const auto last = static_cast<double>(frames.size() - 1);
+    if (t < frames.front()) return (t - frames.front()) * fps;
+    if (t > frames.back()) return last + (t - frames.back()) * fps;
+    return first_at(frames, t);
+}
+
+void add_moves(FilmTimes& times, const View& view, double fps, const sim::Result& motion, bool shortened) {
+    std::vector<std::pair<double, const Keyframe*>> keys;  // and their frames
+    std::optional<double> latest;
+    for (const Keyframe& key : view.keyframes) {
+        const auto t = shortened ? find_instant(key.at, motion) : instant_of(key.at, motion);
+        if (!t) {
+            times.unreached_events.push_back("the camera at " + name_of(key.at));
+            continue;
+        }
+        if (latest && *t <= *latest)
+            throw render::PictureError(
+                fmt::format("the camera's keyframe at {}, {:g} s, is not after the previous one, {:g} s; list the "
+                            "keyframes in order of time",
+                            name_of(key.at), *t, *latest));
+        latest = t;
+        keys.emplace_back(frame_at(times.frames, *t, fps), &key);
+    }
+    render::Shot shot = view.shot;
+    double before = 0;
+    for (const auto& [frame, key] : keys) {
+        shot = {key->zoom.value_or(shot.zoom), key->follow.value_or(shot.follow), key->yaw.value_or(shot.yaw),
+                key->pitch.value_or(shot.pitch)};
+        const double since = std::max(0.0, frame - before);
+        times.moves.push_back({frame, key->over ? *key->over * fps : since, key->ease, shot});
+        before = frame;
+    }
+}
+
+void add_exposures(FilmTimes& times, const View& view, double fps, double end) {
+    if (view.poses() == 1) return;
+    const std::vector<double>& frames = times.frames;
+    for (std::size_t k = 0; k < frames.size(); ++k) {
+        const double t = frames[k];
+        if (view.shutter) {
+            const double before = k > 0 ? t - frames[k - 1] : 1 / fps;  // the last frame is as long as the one before
+            double whole = k + 1 < frames.size() ? frames[k + 1] - t : before;
+            if (frames.size() == 1) whole = -whole;  // a still uses the time before it: the motion may end there
+            for (int i = 0; i < view.exposures; ++i)
+                times.exposures.push_back(
+                    std::clamp(t + whole * *view.shutter / (2 * std::numbers::pi) * i / view.exposures, 0.0, end));
+            continue;
+        }
+        times.exposures.push_back(t);
+        const double flash = std::ceil(t / *view.strobe_every) - 1;  // the latest before t
+        for (int i = view.exposures - 1; i >= 0; --i) {
+            const double at = (flash - i) * *view.strobe_every;
+            times.exposures.push_back(at < 0 ? t : at);
+        }
+    }
+}
+
+}  // namespace beamcam::scenes
