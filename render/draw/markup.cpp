@@ -1,10 +1,8 @@
 #include "render/draw/markup.hpp"
 
 #include <fmt/format.h>
-#include <glib.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <charconv>
 #include <cstdlib>
@@ -12,64 +10,14 @@
 #include <tuple>
 #include <utility>
 
+#include "render/draw/markup_signs.hpp"
+
 namespace beamcam::render {
 namespace {
-
-using Pair = std::pair<std::string_view, std::string_view>;
-
-// Greek letters and signs of mathematical text, and their LaTeX commands.
-constexpr std::array kLatexMath{
-    Pair{"α", "\\alpha"},   Pair{"β", "\\beta"},     Pair{"γ", "\\gamma"},   Pair{"δ", "\\delta"},
-    Pair{"ε", "\\epsilon"}, Pair{"ζ", "\\zeta"},     Pair{"η", "\\eta"},     Pair{"θ", "\\theta"},
-    Pair{"κ", "\\kappa"},   Pair{"λ", "\\lambda"},   Pair{"μ", "\\mu"},      Pair{"ν", "\\nu"},
-    Pair{"ξ", "\\xi"},      Pair{"π", "\\pi"},       Pair{"ρ", "\\rho"},     Pair{"σ", "\\sigma"},
-    Pair{"τ", "\\tau"},     Pair{"φ", "\\varphi"},   Pair{"χ", "\\chi"},     Pair{"ψ", "\\psi"},
-    Pair{"ω", "\\omega"},   Pair{"Θ", "\\Theta"},    Pair{"Δ", "\\Delta"},   Pair{"Σ", "\\Sigma"},
-    Pair{"Ω", "\\Omega"},   Pair{"×", "\\times "},   Pair{"·", "\\cdot "},   Pair{"−", "-"},
-    Pair{"≥", "\\ge "},     Pair{"≤", "\\le "},      Pair{"≈", "\\approx "}, Pair{"√", "\\surd "},
-    Pair{"∞", "\\infty "},  Pair{"°", "^{\\circ}"},  Pair{"±", "\\pm "},     Pair{"∫", "\\int "},
-    Pair{"∑", "\\sum "},    Pair{"∂", "\\partial "}, Pair{"′", "'"},         Pair{"→", "\\to "},
-    Pair{"²", "^{2}"},      Pair{"³", "^{3}"}};
-constexpr std::array kLatexText{Pair{"–", "--"},
-                                Pair{"—", "---"},
-                                Pair{"\u00A0", "~"},
-                                Pair{"\u2009", "\\,"},
-                                Pair{"“", "``"},
-                                Pair{"”", "''"},
-                                Pair{"%", "\\%"},
-                                Pair{"&", "\\&"},
-                                Pair{"#", "\\#"},
-                                Pair{"_", "\\_"},
-                                Pair{"{", "\\{"},
-                                Pair{"}", "\\}"},
-                                Pair{"$", "\\$"},
-                                Pair{"~", "\\textasciitilde{}"},
-                                Pair{"^", "\\textasciicircum{}"},
-                                Pair{"\\", "\\textbackslash{}"},
-                                Pair{"…", "\\dots{}"},
-                                Pair{"µ", "\\textmu{}"}};
 
 // Upright in mathematics.
 constexpr std::array<std::string_view, 11> kFunctions{"sin", "cos", "tan", "arcsin", "arccos", "arctan",
                                                       "exp", "ln",  "log", "min",    "max"};
-
-std::string_view next_character(std::string_view text, std::size_t at) {
-    return text.substr(at, std::size_t(g_utf8_next_char(&text[at]) - &text[at]));
-}
-
-std::string_view last_character(std::string_view text) {
-    const char* const end = text.data() + text.size();
-    const char* const at = g_utf8_prev_char(end);
-    return {at, static_cast<std::size_t>(end - at)};
-}
-
-// ASCII and Greek letters, which are italic in mathematics.
-bool is_letter(std::string_view c) {
-    if (c.size() == 1) return (c[0] >= 'a' && c[0] <= 'z') || (c[0] >= 'A' && c[0] <= 'Z');
-    if (c.size() != 2) return false;
-    const unsigned code = (static_cast<unsigned char>(c[0]) & 31u) << 6 | (static_cast<unsigned char>(c[1]) & 63u);
-    return code >= 0x391 && code <= 0x3C9;
-}
 
 class Parser {
   public:
@@ -174,7 +122,7 @@ class Parser {
             item(changed);
             return true;
         }
-        for (const Pair& known : kLatexMath)
+        for (const SignPair& known : kLatexMath)
             if (known.second.starts_with('\\') && known.second.substr(1, known.second.find(' ') - 1) == name) {
                 put(known.first, style);
                 return true;
@@ -256,107 +204,6 @@ class Parser {
     std::vector<Run> runs_;
 };
 
-template <std::size_t N>
-const std::string_view* find(const std::array<Pair, N>& table, std::string_view c) {
-    const auto it = std::find_if(table.begin(), table.end(), [&](const Pair& p) { return p.first == c; });
-    return it == table.end() ? nullptr : &it->second;
-}
-
-// Calls visit(character, rest of the text) for each character.
-template <class Visit>
-void each_character(std::string_view text, const Visit& visit) {
-    while (!text.empty()) {
-        const std::string_view c = next_character(text, 0);
-        text.remove_prefix(c.size());
-        visit(c, text);
-    }
-}
-
-std::string latex_math(std::string_view text) {
-    std::string out;
-    each_character(text, [&](std::string_view c, std::string_view rest) {
-        const std::string_view* known = find(kLatexMath, c);
-        out += known ? *known : c;
-        // A letter after a command would belong to its name.
-        if (known && known->size() > 1 && known->front() == '\\' && known->back() != ' ' && !rest.empty()) out += ' ';
-    });
-    return out;
-}
-
-std::string latex_text(std::string_view text) {
-    std::string out;
-    each_character(text, [&](std::string_view c, std::string_view) {
-        if (const std::string_view* known = find(kLatexText, c))
-            out += *known;
-        else if (const std::string_view* sign = find(kLatexMath, c))
-            out += fmt::format("${}$", *sign);
-        else
-            out += c;
-    });
-    return out;
-}
-
-std::string latex_of(const std::vector<Run>& runs);
-
-// LaTeX within a formula.
-std::string latex_part(const std::vector<Run>& runs) {
-    std::string out = latex_of(runs);
-    std::erase(out, '$');
-    return out;
-}
-
-std::string latex_run(const Run& run) {
-    if (!run.under.empty()) return fmt::format("$\\frac{{{}}}{{{}}}$", latex_part(run.over), latex_part(run.under));
-    if (!run.over.empty()) return fmt::format("$\\sqrt{{{}}}$", latex_part(run.over));
-    std::string body = run.symbol ? latex_math(run.text) : latex_text(run.text);
-    if (run.script == 0) {
-        if (!run.symbol) return run.bold ? fmt::format("\\textbf{{{}}}", body) : body;
-        if (run.dots) body = fmt::format("\\{}{{{}}}", run.dots == 1 ? "dot" : "ddot", body);
-        return fmt::format("${}$", body);
-    }
-    if (!run.symbol) body = fmt::format("\\mathrm{{{}}}", latex_math(run.text));
-    return fmt::format("${}{{{}}}$", run.script < 0 ? "_" : "^", body);
-}
-
-std::string latex_of(const std::vector<Run>& runs) {
-    std::string out;
-    for (const Run& run : runs) {
-        const std::string piece = latex_run(run);
-        // Joins formulas: "$x$$_{c}$" would start a displayed equation.
-        if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
-            out.pop_back();
-            out += piece.substr(1);
-        } else {
-            out += piece;
-        }
-    }
-    return out;
-}
-
-constexpr std::array kSuperscripts{Pair{"0", "⁰"}, Pair{"1", "¹"}, Pair{"2", "²"}, Pair{"3", "³"},
-                                   Pair{"4", "⁴"}, Pair{"5", "⁵"}, Pair{"6", "⁶"}, Pair{"7", "⁷"},
-                                   Pair{"8", "⁸"}, Pair{"9", "⁹"}, Pair{"−", "⁻"}, Pair{"+", "⁺"}};
-constexpr std::array kSubscripts{Pair{"0", "₀"}, Pair{"1", "₁"}, Pair{"2", "₂"}, Pair{"3", "₃"}, Pair{"4", "₄"},
-                                 Pair{"5", "₅"}, Pair{"6", "₆"}, Pair{"7", "₇"}, Pair{"8", "₈"}, Pair{"9", "₉"}};
-
-// In small letters if Unicode has all of them; else after `sign`, in parentheses unless it is a word or a number.
-template <std::size_t N>
-std::string script_text(std::string_view text, const std::array<Pair, N>& small, const char* sign) {
-    std::string out;
-    bool all = true, word = true, number = true;
-    each_character(text, [&](std::string_view c, std::string_view rest) {
-        const std::string_view* known = find(small, c);
-        all = all && known;
-        if (known) out += *known;
-        const bool digit = std::isdigit(static_cast<unsigned char>(c[0])),
-                   first = rest.size() + c.size() == text.size();
-        word = word && (digit || is_letter(c));
-        number = number && (digit || c == "." || (first && c == "−"));
-    });
-    if (all) return out;
-    return word || number ? fmt::format("{}{}", sign, text) : fmt::format("{}({})", sign, text);
-}
-
 }  // namespace
 
 std::string power_of_ten(int exponent) {
@@ -395,63 +242,5 @@ std::vector<Run> parse_markup(std::string_view markup) {
     if (markup.find_first_of("$_^\\") == std::string_view::npos) return {{.text = std::string(markup)}};
     return Parser(markup).all();
 }
-
-std::string to_latex(std::string_view markup) { return latex_of(parse_markup(markup)); }
-
-static std::string plain_of(const std::vector<Run>& runs);
-
-// A part of a fraction, or what a root covers: in parentheses unless it is one symbol with its scripts, or one number.
-static std::string plain_part(const std::vector<Run>& runs) {
-    const std::string text = plain_of(runs);
-    int symbols = 0;
-    bool number = true, simple = true;
-    for (const Run& run : runs) {
-        simple = simple && run.over.empty();
-        each_character(run.text, [&](std::string_view c, std::string_view) {
-            const bool digit = std::isdigit(static_cast<unsigned char>(c[0])) || c == ".";
-            number = number && digit;
-            simple = simple && (digit || is_letter(c));
-            symbols += run.script == 0;
-        });
-    }
-    return simple && (number || symbols <= 1) ? text : fmt::format("({})", text);
-}
-
-// Whether a fraction beside this text needs a sign of multiplication.
-static bool is_factor(std::string_view character) {
-    return is_letter(character) || character == ")" || character == "(" || character == "√" ||
-           std::isdigit(static_cast<unsigned char>(character[0]));
-}
-
-static std::string plain_of(const std::vector<Run>& runs) {
-    std::string out;
-    bool after_fraction = false, after_factor = false;
-    for (std::size_t i = 0; i < runs.size(); ++i) {
-        const Run& run = runs[i];
-        if (run.script != 0) {  // belongs to what it follows
-            std::string text = run.text;
-            while (i + 1 < runs.size() && runs[i + 1].script == run.script) text += runs[++i].text;
-            out += run.script > 0 ? script_text(text, kSuperscripts, "^") : script_text(text, kSubscripts, "_");
-            continue;
-        }
-        const bool fraction = !run.under.empty();
-        std::string text = run.text;
-        if (fraction)
-            text = plain_part(run.over) + "/" + plain_part(run.under);
-        else if (!run.over.empty())
-            text = "√" + plain_part(run.over);
-        if (text.empty()) continue;
-        if ((after_fraction && (fraction || is_factor(next_character(text, 0)))) || (fraction && after_factor))
-            out += "·";
-        out += text;
-        if (run.dots > 0) out += run.dots == 1 ? "\u0307" : "\u0308";
-        const std::string_view last = last_character(text);
-        after_fraction = fraction;
-        after_factor = is_factor(last) && last != "(";
-    }
-    return out;
-}
-
-std::string to_plain(std::string_view markup) { return plain_of(parse_markup(markup)); }
 
 }  // namespace beamcam::render
