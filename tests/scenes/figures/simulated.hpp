@@ -1,6 +1,9 @@
-// A figure drawn from simulations of its motions.
+// Figures drawn from simulations of their motions.
 #pragma once
 
+#include <gtest/gtest.h>
+
+#include <string>
 #include <vector>
 
 #include "scenes/figures/figure_types.hpp"
@@ -30,6 +33,24 @@ inline render::figure::Figure simulated(const std::string& text) {
     const Reading reading = read(text);
     if (!reading.scene) throw std::runtime_error(reading.report());
     return simulated(*reading.scene, std::get<FigureOutput>(reading.scene->outputs.front()));
+}
+
+inline Scene scene_from(const std::string& text) {
+    Reading reading = read(text);
+    EXPECT_TRUE(reading.scene) << reading.report();
+    return *reading.scene;
+}
+
+inline FigureOutput in(Lang lang) {
+    FigureOutput how;
+    how.lang = lang;
+    return how;
+}
+
+inline render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
+    FigureOutput how = in(lang);
+    how.figure = name;
+    return simulated(s, how);
 }
 
 }  // namespace beamcam::scenes::testing

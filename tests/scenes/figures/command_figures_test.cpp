@@ -1,0 +1,104 @@
+// Figures of commands: the survival map and the assessment of accuracy.
+#include "scenes/figures/command_figures.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/base/error.hpp"
+#include "render/draw/markup.hpp"
+#include "tests/scenes/figures/simulated.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+using testing::Finished;
+using testing::Folder;
+using ::testing::HasSubstr;
+using testing::shell;
+
+TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
+    sim::Campaign campaign;
+    campaign.grids = {{"grid", "rows", "columns", {"r1", "r2"}, {"c1", "c2", "10⁴ m²"}}};
+    std::vector<sim::StressResult> results(3);
+    for (std::size_t i = 0; i < 3; ++i) {
+        campaign.cases.emplace_back();
+        campaign.cases.back().row = i / 2, campaign.cases.back().column = 2;
+    }
+    results[0].outcome = sim::Outcome::closed;  // two variants of one cell, and one of the cell below
+    const auto figure = survival_map(campaign, results);
+    const auto& panel = figure.panels.at(0);
+    ASSERT_EQ(panel.series.size(), 1u);
+    EXPECT_EQ(panel.series[0].x.size(), 3u);  // the stripes of the two that failed
+    EXPECT_EQ(panel.y.names, (std::vector<std::string>{"r2", "r1"}));
+    EXPECT_EQ(panel.x.names.back(), "10^{4} m^{2}");
+    const auto shown = std::ranges::count_if(panel.cells[0].colors, [](const render::Color& c) { return c.a > 0; });
+    EXPECT_EQ(shown, 4);  // a lone variant fills both stripes of its cell
+}
+
+sim::Accuracy measured() {
+    sim::Accuracy a;
+    a.until = a.end_time = 1;
+    a.reference_error = 1e-9;
+    a.target = 1e-4;
+    a.most_modes = 8;
+    const auto row = [](auto& r, double error, double seconds) {
+        r.error = error;
+        r.time = {seconds, 0.9 * seconds, 1.2 * seconds, 5};
+    };
+    for (const sim::Method method : {sim::Method::automatic, sim::Method::cvode_bdf})
+        for (int digits = 3; digits <= 12; ++digits) {
+            sim::WorkRow work;
+            work.method = method;
+            work.rtol = std::pow(10.0, -digits);
+            row(work, work.rtol, (method == sim::Method::automatic ? 1e-3 : 1e-1) * digits);
+            if (method == sim::Method::cvode_bdf && digits > 8) work.error.reset();  // took too long
+            a.work.push_back(work);
+        }
+    for (const int modes : {2, 4, 8}) {
+        sim::ModesRow count;
+        count.modes = modes;
+        row(count, std::pow(10.0, -modes), 1e-3 * modes);
+        a.modes.push_back(count);
+    }
+    sim::ContactRow stiffer;
+    stiffer.change = "stiffness +1 %";
+    stiffer.error = 2e-3;
+    a.contact.push_back(stiffer);
+    return a;
+}
+
+TEST(AccuracyFigure, HasAPointForEachRunAndNoneForThoseLeftOut) {
+    const render::figure::Figure figure = accuracy_figure(measured(), sim::Problem{}, Lang::en);
+    ASSERT_EQ(figure.panels.size(), 2u);
+    const auto& work = figure.panels[0].series;  // the spread behind each curve
+    ASSERT_EQ(work.size(), 4u);
+    EXPECT_EQ(work[1].label, "auto");
+    EXPECT_EQ(work[1].x.size(), 10u);
+    EXPECT_DOUBLE_EQ(work[1].x[0], 3);  // ms
+    EXPECT_EQ(work[1].y.back(), 1e-9);  // not below the error of the reference
+    EXPECT_EQ(work[3].x.size(), 6u);
+    EXPECT_DOUBLE_EQ(work[2].x[1] / work[2].x[0], 1.2 / 0.9);
+    EXPECT_THAT(figure.panels[1].series[0].x, ::testing::ElementsAre(2, 4));  // 8 is what they are compared with
+    EXPECT_THAT(figure.panels[1].series[1].x, ::testing::ElementsAre(2, 4, 8));
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("stiffness +1 %: 0.002 rad"));
+    EXPECT_THROW(accuracy_figure({}, sim::Problem{}, Lang::en), render::PictureError);
+    EXPECT_NO_THROW(render::to_latex(accuracy_figure(measured(), sim::Problem{}, Lang::zh).caption));
+}
+
+TEST(AccuracyFigure, IsWrittenInEveryFormatWithItsScene) {
+    const Folder folder;
+    folder.write("s.json", R"({"cam": null, "beam": {"model": "rigid"}, "time": {"end": 0.05}})");
+    const Finished made = shell(
+        folder, "$BEAMCAM accuracy s.json --repeats 1 -o a.png -o a.svg -o a.pdf -o a.json --lang zh --column ieee");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"88.9mm\""));
+    for (const char* file : {"a.png", "a.svg", "a.pdf"})
+        EXPECT_THAT(shell(folder, std::string("$BEAMCAM info --scene ") + file).out, HasSubstr("\"rigid\"")) << file;
+    EXPECT_EQ(shell(folder, "$BEAMCAM accuracy s.json -o a.eps").code, 2);
+}
+
+}  // namespace
+}  // namespace beamcam::scenes
