@@ -79,7 +79,7 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
 }
 
 // Impulsive contact: a point for each impact, coloured by its impulse.
-Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, double end, Lang lang) {
+Figure impulsive_places(const sim::Result& result, double end, Lang lang) {
     if (result.impacts.empty())
         throw render::PictureError(
             fmt::format("figure contact-places: nothing strikes the cam before {:g} s; raise time.end", end));
@@ -94,9 +94,7 @@ Figure impulsive_places(const sim::Problem& problem, const sim::Result& result, 
             .caption = phrase(lang,
                               "Place of the impacts on the beam, measured from its root, coloured by their normal "
                               "impulse $J$. ",
-                              "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。") +
-                       facts(problem, lang),
-            .accuracy = accuracy({{&problem, &result}}, lang)};
+                              "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。")};
 }
 
 // The place of contact at each instant, coloured by the force.
@@ -129,9 +127,7 @@ Figure forceful_places(const sim::Problem& problem, const sim::Result& result, c
                               "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle "
                               "from the mark of the disc (the ray from $C$ to $B$), coloured by the normal force. ",
                               "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ "
-                              "起的角度）的位置，颜色表示法向力。") +
-                       facts(problem, lang),
-            .accuracy = accuracy({{&problem, &result}}, lang)};
+                              "起的角度）的位置，颜色表示法向力。")};
 }
 
 FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies& studies) {
@@ -139,16 +135,14 @@ FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies&
     const double end = scene.end_time;
     const std::size_t study = studies.of(scene.problem, end);
     if (scene.problem.contact.model != sim::ContactModel::compliant)
-        return [=, problem = scene.problem](const Results& results) {
-            return impulsive_places(problem, *results[study], end, lang);
-        };
+        return figure_of_motion(scene, how, study,
+                                [=](const sim::Result& result) { return impulsive_places(result, end, lang); });
     const std::size_t table =
         studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
                       {sim::Channel{ChannelKind::contact_x}, sim::Channel{ChannelKind::contact_s}});
-    return [=, problem = scene.problem](const Results& results) {
-        const sim::Result& result = *results[study];
+    return figure_of_motion(scene, how, study, [=, problem = scene.problem](const sim::Result& result) {
         return forceful_places(problem, result, result.tables[table], end, lang);
-    };
+    });
 }
 
 }  // namespace

@@ -157,6 +157,15 @@ std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Resul
 
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 
+FigureMaker figure_of_motion(const Scene& scene, const FigureOutput& how, std::size_t study, MotionDrawing draw) {
+    return [=, problem = scene.problem, lang = how.lang, draw = std::move(draw)](const Results& results) {
+        Figure figure = draw(*results[study]);
+        figure.caption += facts(problem, lang);
+        figure.accuracy = accuracy({{&problem, results[study]}}, lang);
+        return figure;
+    };
+}
+
 ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies) {
     ShownPoses out{how.series.from, how.series.to.value_or(scene.end_time)};
     out.study = studies.of(scene.problem, out.to);

@@ -73,10 +73,10 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& proble
 FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
+    const auto draw = [=, problem = scene.problem, lang = how.lang](const sim::Result& result) -> Figure {
         std::vector<Panel> panels;
         std::vector<std::string> words;
-        for (auto& [panel, what] : impact_maps(problem, *results[study], from, to, lang)) {
+        for (auto& [panel, what] : impact_maps(problem, result, from, to, lang)) {
             if (panel.series.front().x.empty()) continue;
             panel.letter = panel_letter(panels.size());
             words.push_back(fmt::format("({}) {}", panel.letter, what.in(lang)));
@@ -86,12 +86,11 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
         const double aspect = 0.6 * static_cast<double>(panels.size());
-        return {
-            .panels = std::move(panels),
-            .aspect = aspect,
-            .caption = phrase(lang, "{}. ", "{}。", fmt::join(words, phrase(lang, "; ", "；"))) + facts(problem, lang),
-            .accuracy = accuracy({{&problem, results[study]}}, lang)};
+        return {.panels = std::move(panels),
+                .aspect = aspect,
+                .caption = phrase(lang, "{}. ", "{}。", fmt::join(words, phrase(lang, "; ", "；")))};
     };
+    return figure_of_motion(scene, how, study, draw);
 }
 
 // Counts the values in intervals of a round width from 0 to `end`, which the last one includes.
@@ -113,9 +112,9 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
 FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
+    const auto draw = [=, problem = scene.problem, lang = how.lang](const sim::Result& result) -> Figure {
         std::vector<double> speeds, phases;
-        for (const sim::Impact& hit : strikes(problem, results[study]->impacts, from, to))
+        for (const sim::Impact& hit : strikes(problem, result.impacts, from, to))
             speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(phase_of(hit));
         constexpr std::size_t kFewest = 5;
         if (speeds.size() < kFewest)
@@ -127,17 +126,15 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
             {histogram(axis_label(kApproachSpeed.in(lang), "m/s"), speeds, *std::ranges::max_element(speeds), lang),
              histogram(phase_label(lang), phases, 1, lang)});
         const auto width = [&](std::size_t panel) { return number(panels[panel].series[0].x[1], 2); };
-        const std::string caption = phrase(
+        std::string caption = phrase(
             lang,
             "Histograms of the {} impacts from {} s to {} s: (a) approach speed, in intervals of {} m s^{{−1}}; (b) "
             "phase of the cam, in intervals of {}. ",
             "{} 次冲击（{} s 至 {} s）：(a) 接近速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
             speeds.size(), number(from, 4), number(to, 4), width(0), width(1));
-        return {.panels = std::move(panels),
-                .aspect = 1.2,
-                .caption = caption + facts(problem, lang),
-                .accuracy = accuracy({{&problem, results[study]}}, lang)};
+        return {.panels = std::move(panels), .aspect = 1.2, .caption = std::move(caption)};
     };
+    return figure_of_motion(scene, how, study, draw);
 }
 
 }  // namespace

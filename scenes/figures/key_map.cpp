@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <map>
 
 #include "render/base/error.hpp"
@@ -61,15 +60,11 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
                     const std::string& value, figure::Panel& panel) {
     figure::Cells& cells = panel.cells[0];
     cells.values.assign(cells.colors.size(), sim::kNan);
-    double low = std::numeric_limits<double>::infinity(), high = -low;
-    for (const output::StoredPoint& p : entries) {
-        const double number = cells.values[p.point] = map_value(points, p, value);
-        if (std::isnan(number)) continue;
-        low = std::min(low, number);
-        high = std::max(high, number);
-    }
-    if (!(low <= high))
-        throw render::PictureError(fmt::format("no point of this sweep has a number for \"{}\"", value));
+    for (const output::StoredPoint& p : entries) cells.values[p.point] = map_value(points, p, value);
+    render::Extent numbers;
+    numbers.add(cells.values);
+    auto [any, low, high] = numbers;
+    if (!any) throw render::PictureError(fmt::format("no point of this sweep has a number for \"{}\"", value));
     if (low == high) low -= 0.5, high += 0.5;
     for (std::size_t i = 0; i < cells.colors.size(); ++i)
         if (!std::isnan(cells.values[i])) cells.colors[i] = figure::map_color((cells.values[i] - low) / (high - low));

@@ -65,8 +65,8 @@ FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studi
     const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
     const std::size_t samples = samples_per_column(scene.problem, column);
     const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, studies);
-    return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
-        const sim::Result& result = *results[shown.study];
+    const Lang lang = how.lang;
+    return figure_of_motion(scene, how, shown.study, [=, problem = scene.problem](const sim::Result& result) -> Figure {
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
@@ -82,10 +82,8 @@ FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studi
                               "instants. ",
                               "一列之内梁多次振动，取 {} 个时刻中挠度绝对值的最大者。", samples);
         if (!panel.marks.empty()) caption += phrase(lang, "Squares: impacts. ", "标记：冲击。");
-        return {.panels = {std::move(panel)},
-                .caption = caption + facts(problem, lang),
-                .accuracy = accuracy({{&problem, &result}}, lang)};
-    };
+        return {.panels = {std::move(panel)}, .caption = std::move(caption)};
+    });
 }
 
 std::optional<std::string> needs_bending(const Scene& scene) {

@@ -11,9 +11,8 @@ std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channe
     for (const Measurement& each : scene.data) {
         Measurement data = each.of(channels).within(from, to);
         if (data.columns.empty() || data.times.empty()) continue;
-        std::vector<sim::TableRequest>& tables = studies.request(study).tables;
-        tables.push_back(data.request());
-        out.push_back({std::move(data), tables.size() - 1});
+        const std::size_t table = studies.add_table(study, data.request());
+        out.push_back({std::move(data), table});
     }
     return out;
 }

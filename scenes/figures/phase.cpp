@@ -65,8 +65,7 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
                                             {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
     const std::size_t curve =
         studies.curve(study, {0, end, 2001}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0});
-    return [=, problem = scene.problem](const Results& results) -> Figure {
-        const sim::Result& result = *results[study];
+    return figure_of_motion(scene, how, study, [=, problem = scene.problem](const sim::Result& result) -> Figure {
         Panel panel{.x = {.label = "$θ$ / rad"},
                     .y = {.label = "$\\dot{θ}$ / (rad s^{−1})"},
                     .rules = {{.at = 0}},
@@ -87,11 +86,8 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
         }
         panel.series.push_back(std::move(s));
         const bool has_impacts = !strikes(problem, result.impacts, 0, end).empty();  // the run may be longer
-        return {.panels = {std::move(panel)},
-                .aspect = 0.75,
-                .caption = phase_caption(averaged, has_impacts, lang) + facts(problem, lang),
-                .accuracy = accuracy({{&problem, &result}}, lang)};
-    };
+        return {.panels = {std::move(panel)}, .aspect = 0.75, .caption = phase_caption(averaged, has_impacts, lang)};
+    });
 }
 
 }  // namespace

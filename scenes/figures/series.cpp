@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 #include <map>
 
 #include "render/plot/channel_label.hpp"
@@ -28,16 +27,12 @@ struct SeriesPreset {
 
 // Gives the panels of several motions one scale, so that they compare.
 void share_ordinates(Figure& figure) {
-    const double infinity = std::numeric_limits<double>::infinity();
-    std::map<std::string, std::pair<double, double>> ranges;  // by what the panels show
-    for (const Panel& panel : figure.panels) {
-        auto& [low, high] = ranges.try_emplace(panel.name, infinity, -infinity).first->second;
+    std::map<std::string, render::Extent> ranges;  // by what the panels show
+    for (const Panel& panel : figure.panels)
         for (const Series& curve : panel.series)
-            for (const double y : curve.y)
-                if (std::isfinite(y) && !curve.right) low = std::min(low, y), high = std::max(high, y);
-    }
+            if (!curve.right) ranges[panel.name].add(curve.y);
     for (Panel& panel : figure.panels) {
-        const auto& [low, high] = ranges[panel.name];
+        const auto& [any, low, high] = ranges[panel.name];
         const double air = 0.05 * (high - low);
         if (!(high > low) || panel.y.scale == render::Scale::logarithmic) continue;
         panel.y.from = panel.y.from.value_or(low - air), panel.y.to = panel.y.to.value_or(high + air);

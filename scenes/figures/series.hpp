@@ -35,10 +35,6 @@ class SeriesAbscissa {
     void share(render::figure::Figure& figure, const sim::Problem& problem) const;
 
   private:
-    struct Extent {
-        double largest = 0, low = 0, high = 0;  // largest: magnitude
-    };
-    Extent extent(const render::figure::Figure& figure) const;
     bool is_phase() const { return against_ == "phase"; }
     bool is_turns() const { return against_ == "turns"; }
 
@@ -98,6 +94,11 @@ void complete(SeriesPlan& plan, const Scene& scene, Studies& studies);
 // A planned panel; with `keys.residuals` also a panel of the differences of the data. `weight`: of the lines.
 std::vector<render::figure::Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned,
                                                  const Results& results, double weight);
+
+// Vertical lines of the panel at instants, where x is time or grows with it. Throws PictureError for a note at an event
+// that the motion does not have, or has outside of the interval.
+std::vector<render::figure::Rule> series_rules(const SeriesPlan& plan, const PlannedPanel& panel,
+                                               const Results& results);
 
 // Whether lines mark collisions because the impacts between these instants are too many to distinguish.
 bool marks_collisions(const sim::Result& result, double from, double to);

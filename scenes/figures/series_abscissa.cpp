@@ -69,30 +69,20 @@ void SeriesAbscissa::fold(Series& curve) const {
     if (is_phase()) fold_turns(curve);
 }
 
-// Without the air that `share` adds.
-SeriesAbscissa::Extent SeriesAbscissa::extent(const Figure& figure) const {
-    Extent out;
-    out.low = std::numeric_limits<double>::infinity(), out.high = -out.low;
-    for (const Panel& each : figure.panels)
-        for (const Series& curve : each.series)
-            for (const double x : curve.x)
-                if (std::isfinite(x))
-                    out.largest = std::max(out.largest, std::abs(x)), out.low = std::min(out.low, x),
-                    out.high = std::max(out.high, x);
-    return out;
-}
-
 void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {
-    Extent range = extent(figure);
+    render::Extent range;
+    for (const Panel& each : figure.panels)
+        for (const Series& curve : each.series) range.add(curve.x);
+    double largest = std::max(std::abs(range.low), std::abs(range.high));
     // A logarithmic panel omits what is not positive, but has the same axis.
     const double air = channel_ && !is_phase() ? kAir * (range.high - range.low) : 0;
     // Seconds, as usual in print, unless the interval is short.
-    if (!channel_ && range.high - range.low >= kShort) range.largest = 1;
+    if (!channel_ && range.high - range.low >= kShort) largest = 1;
     if (is_phase()) range.low = 0, range.high = 1;
     if (low_) range.low = *low_ + air;
     if (high_) range.high = *high_ - air;
     const Channel channel = channel_.value_or(Channel{});
-    Measure measure = measure_of(unit(channel, problem), range.largest);
+    Measure measure = measure_of(unit(channel, problem), largest);
     std::string symbol = render::print_symbol(channel);
     if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
     if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam", "凸轮相位");

@@ -11,56 +11,12 @@
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
-#include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 using render::Axis;
 using sim::Channel;
-
-// ---- vertical lines at instants [s] ---------------------------------------------------------------
-
-using Rules = std::vector<render::figure::Rule>;
-
-constexpr std::size_t kMostRules = 60;  // more lines than these hide the curves
-
-template <class Touch>
-Rules starts_of(const std::vector<Touch>& touches, double from, double to) {
-    Rules out;
-    for (const Touch& touch : touches)
-        if (touch.t_start >= from && touch.t_start <= to) out.push_back({.at = touch.t_start, .vertical = true});
-    return out;
-}
-
-Rules impact_rules(const sim::Result& result, double from, double to) {
-    Rules rules = marks_collisions(result, from, to) ? starts_of(result.collisions, from, to)
-                                                     : starts_of(result.impacts, from, to);
-    return rules.size() > kMostRules ? Rules{} : rules;
-}
-
-// The ends of the intervals in which θ is not reproducible.
-Rules horizon_rules(const sim::Result& result, double from, double to) {
-    Rules rules;
-    for (const Lost& lost : unreliable(result, to))
-        for (const double t : {lost.from, lost.to})
-            if (t > from && t < to) rules.push_back({.at = t, .vertical = true});
-    return rules;
-}
-
-// Throws PictureError for an event that the motion does not have, or has outside of the interval.
-Rules note_rules(const std::vector<SeriesNote>& notes, const sim::Result& result, double from, double to,
-                 bool with_text) {
-    Rules rules;
-    for (const SeriesNote& note : notes) {
-        const double t = note.at.kind == Instant::Kind::last ? to : instant_of(note.at, result);
-        if (t < from || t > to)
-            throw render::PictureError(
-                fmt::format("series: the note at {} is outside of {:g} s … {:g} s", name_of(note.at), from, to));
-        rules.push_back({.at = t, .vertical = true, .label = with_text ? note.text : ""});
-    }
-    return rules;
-}
 
 // ---- values ---------------------------------------------------------------------------------------
 
@@ -107,7 +63,7 @@ class SeriesPanelMaker {
         if (panel_.right) add_side({planned_.right, keys_.right, true});
         panel_.legend = has_sums() ? Legend::box : curves_ > 1 ? Legend::direct : Legend::none;
         if (has_sums()) panel_.share = 2.2;
-        if (plan_.abscissa.is_time()) add_instants();
+        for (auto& rule : series_rules(plan_, planned_, results_)) panel_.rules.push_back(std::move(rule));
         std::vector<Panel> out;
         if (is_rounding_) return out;
         out.push_back(std::move(panel_));
@@ -292,24 +248,6 @@ class SeriesPanelMaker {
         differences_.legend = Legend::none;
     }
 
-    // ---- lines at instants ------------------------------------------------------------------------
-
-    void add_instants() {
-        const sim::Result& result = *results_[first_.study];
-        const double from = plan_.keys.from, to = plan_.end;
-        if (plan_.keys.impacts)
-            add_rules(impact_rules(result, from, to));
-        else if (planned_.motions.size() == 1 && plan_.horizon)
-            add_rules(horizon_rules(result, from, to));
-        add_rules(note_rules(plan_.keys.notes, result, from, to, planned_.number == 0));
-    }
-    void add_rules(Rules rules) {
-        for (render::figure::Rule& rule : rules) {
-            rule.at *= plan_.abscissa.per_second(first_.problem);
-            panel_.rules.push_back(std::move(rule));
-        }
-    }
-
     const SeriesPlan& plan_;
     const SeriesPanel& keys_;
     const PlannedPanel& planned_;
@@ -323,10 +261,6 @@ class SeriesPanelMaker {
 };
 
 }  // namespace
-
-bool marks_collisions(const sim::Result& result, double from, double to) {
-    return starts_of(result.impacts, from, to).size() > kMostRules;
-}
 
 std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results,
                                  double weight) {

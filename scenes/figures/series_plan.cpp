@@ -39,9 +39,8 @@ std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const SeriesM
     if (!plan.abscissa.is_frequency())
         return studies.curve(motion.study, {plan.keys.from, plan.end, kRows},
                              plan.abscissa.channel().value_or(sim::Channel{}), channel);
-    std::vector<sim::TableRequest>& tables = studies.request(motion.study).tables;
-    tables.push_back({spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}});
-    return tables.size() - 1;
+    return studies.add_table(motion.study,
+                             {spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}});
 }
 
 // One table for all sums of a panel, with the rows that the first of their channels needs.

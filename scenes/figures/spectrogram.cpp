@@ -141,24 +141,23 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
         throw render::PictureError(fmt::format(
             "figure spectrogram: windows of {:g} s do not move along {:g} s; at most half of it", window, to - from));
     const std::size_t study = studies.of(scene.problem, to);
-    std::vector<sim::TableRequest>& tables = studies.request(study).tables;
-    const std::size_t table = tables.size();
-    tables.push_back({spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
-    return [=, problem = scene.problem, lang = how.lang, highest = keys.highest](const Results& results) -> Figure {
-        const sim::Table& rows = results[study]->tables[table];
-        const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
-        Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
-        const double most = *std::ranges::max_element(s.amplitude);
-        if (!(most > 0))
-            throw render::PictureError(
-                fmt::format("figure spectrogram: {} does not change from {:g} s to {:g} s", name(channel), from, to));
-        if (!highest) shorten(s, most * std::pow(10, -kDecades));
-        Panel panel = spectrogram_panel(channel, s, most, measure_of(sim::unit(channel, problem), most));
-        panel.x.from = from, panel.x.to = to;
-        return {.panels = {std::move(panel)},
-                .caption = spectrogram_caption(channel, s, rate, lang) + facts(problem, lang),
-                .accuracy = accuracy({{&problem, results[study]}}, lang)};
-    };
+    const std::size_t table =
+        studies.add_table(study, {spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
+    const std::string unit = sim::unit(channel, scene.problem);
+    return figure_of_motion(
+        scene, how, study, [=, lang = how.lang, highest = keys.highest](const auto& result) -> Figure {
+            const sim::Table& rows = result.tables[table];
+            const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
+            Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
+            const double most = *std::ranges::max_element(s.amplitude);
+            if (!(most > 0))
+                throw render::PictureError(fmt::format("figure spectrogram: {} does not change from {:g} s to {:g} s",
+                                                       name(channel), from, to));
+            if (!highest) shorten(s, most * std::pow(10, -kDecades));
+            Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most));
+            panel.x.from = from, panel.x.to = to;
+            return {.panels = {std::move(panel)}, .caption = spectrogram_caption(channel, s, rate, lang)};
+        });
 }
 
 }  // namespace

@@ -7,107 +7,93 @@
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/figures/figure_types.hpp"
+#include "scenes/figures/sketch.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-using render::figure::Shape;
 using sim::Vec2;
 
 constexpr int kShownPoses = 9, kPoseStations = 65;
 
-void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, std::vector<Shape>& out,
+void add_pose(const sim::Pose& pose, const sim::Problem& problem, render::Color color, Sketch& to,
               render::Bounds& extent) {
     for (const Vec2 p : pose.centreline) extent.add(p);
-    if (problem.cam) extent.add(pose.disc_centre, problem.cam->radius);
-    out.push_back({.kind = Shape::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
+    to.add({.kind = Sketch::Kind::line, .points = pose.centreline, .color = color, .width = 1.6});
     if (!problem.cam) return;
-    out.push_back({.kind = Shape::Kind::circle,
-                   .centre = pose.disc_centre,
-                   .radius = problem.cam->radius,
-                   .color = color,
-                   .width = 0.9});
-    const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
-    out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = color, .width = 0.6});
+    extent.add(pose.disc_centre, problem.cam->radius);
+    to.circle(pose.disc_centre, problem.cam->radius, color, 0.9);
+    to.line(pose.disc_centre, pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle), color, 0.6);
 }
 
 // One instant: bodies to scale, and the force between them.
-void add_bodies(const sim::Pose& pose, const sim::Problem& problem, std::vector<Shape>& out, render::Bounds& extent) {
-    const render::Color ink = render::rgb(0x000000), steel = render::rgb(0xE4E6EB), red = render::rgb(0xD55E00);
-    const auto body = [&](Shape shape) {
-        shape.color = steel;
-        out.push_back(shape);
-        shape.kind = shape.kind == Shape::Kind::area ? Shape::Kind::line : Shape::Kind::circle;
-        if (!shape.points.empty()) shape.points.push_back(shape.points.front());
-        shape.color = ink, shape.width = 0.8;
-        out.push_back(std::move(shape));
-    };
+void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, render::Bounds& extent) {
+    constexpr double kOutline = 0.8;
+    constexpr render::Color kSteel = render::rgb(0xE4E6EB);
     if (problem.cam) {
         extent.add(pose.disc_centre, problem.cam->radius);
-        body({.kind = Shape::Kind::disc, .centre = pose.disc_centre, .radius = problem.cam->radius});
-        const Vec2 rim = pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle);
-        out.push_back({.kind = Shape::Kind::line, .points = {pose.disc_centre, rim}, .color = ink, .width = 0.6});
+        to.disc(pose.disc_centre, problem.cam->radius, kSteel, kOutline);
+        to.line(pose.disc_centre, pose.disc_centre + problem.cam->radius * sim::unit(pose.cam_angle), Sketch::kInk,
+                0.6);
     }
-    if (problem.hub.radius > 0) body({.kind = Shape::Kind::disc, .radius = problem.hub.radius});
+    if (problem.hub.radius > 0) to.disc({0, 0}, problem.hub.radius, kSteel, kOutline);
     const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, problem.beam.depth);
-    Shape outline{.kind = Shape::Kind::area};
-    for (std::size_t i = 0; i < beam.line.size(); ++i) outline.points.push_back(beam.face(i));
-    for (std::size_t i = beam.line.size(); i-- > 0;) outline.points.push_back(beam.back(i));
-    for (const Vec2 p : outline.points) extent.add(p);
-    body(std::move(outline));
+    std::vector<Vec2> outline;
+    for (std::size_t i = 0; i < beam.line.size(); ++i) outline.push_back(beam.face(i));
+    for (std::size_t i = beam.line.size(); i-- > 0;) outline.push_back(beam.back(i));
+    for (const Vec2 p : outline) extent.add(p);
+    to.add({.kind = Sketch::Kind::area, .points = outline, .color = kSteel});
+    outline.push_back(outline.front());
+    to.add({.kind = Sketch::Kind::line, .points = outline, .color = Sketch::kInk, .width = kOutline});
     if (!pose.nearest || !(pose.nearest->force > 0)) return;
     // On the beam, from the disc.
     const Vec2 at = pose.nearest->point, tip = at + 0.2 * problem.beam.length * pose.nearest->normal;
     extent.add(tip);
-    out.push_back({.kind = Shape::Kind::arrow, .points = {at, tip}, .color = red, .width = 1});
-    out.push_back({.kind = Shape::Kind::label,
-                   .points = {tip},
-                   .color = red,
-                   .markup = "$F$ = " + render::quantity(pose.nearest->force, "N"),
-                   .shift = {-0.4, 0.2},
-                   .align = render::HAlign::right});
+    to.arrow(at, tip, Sketch::kRed, 1);
+    to.add({.kind = Sketch::Kind::label,
+            .points = {tip},
+            .color = Sketch::kRed,
+            .markup = "$F$ = " + render::quantity(pose.nearest->force, "N"),
+            .shift = {-0.4, 0.2},
+            .align = render::HAlign::right});
 }
 
 // Beyond the tip, where no other beam is drawn.
-void add_instant(const sim::Pose& pose, std::string instant, std::vector<Shape>& out) {
+void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
     const Vec2 along = sim::unit(pose.theta);
     const bool level = std::abs(along.x) > 0.5;
     using render::VAlign;
-    out.push_back({.kind = Shape::Kind::label,
-                   .points = {pose.centreline.back()},
-                   .color = render::rgb(0x000000),
-                   .markup = std::move(instant),
-                   .shift = along * 0.5,
-                   .align = !level         ? render::HAlign::centre
-                            : along.x >= 0 ? render::HAlign::left
-                                           : render::HAlign::right,
-                   .valign = level         ? VAlign::middle
-                             : along.y > 0 ? VAlign::bottom
-                                           : VAlign::top});
+    to.add({.kind = Sketch::Kind::label,
+            .points = {pose.centreline.back()},
+            .color = Sketch::kInk,
+            .markup = std::move(instant),
+            .shift = along * 0.5,
+            .align = !level         ? render::HAlign::centre
+                     : along.x >= 0 ? render::HAlign::left
+                                    : render::HAlign::right,
+            .valign = level         ? VAlign::middle
+                      : along.y > 0 ? VAlign::bottom
+                                    : VAlign::top});
 }
 
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
-    Panel panel;
+    Sketch sketch;
     const bool one = poses.size() == 1;
-    if (one) add_bodies(poses.front(), problem, panel.shapes, extent);
+    if (one) add_bodies(poses.front(), problem, sketch, extent);
     for (std::size_t k = 0; k < poses.size() && !one; ++k) {
         const double share = 0.15 + 0.85 * static_cast<double>(k) / static_cast<double>(poses.size() - 1);
-        add_pose(poses[k], problem, render::figure::map_color(share), panel.shapes, extent);
+        add_pose(poses[k], problem, render::figure::map_color(share), sketch, extent);
     }
-    const render::Color ink = render::rgb(0x000000);
-    panel.shapes.push_back({.kind = Shape::Kind::disc, .radius_points = 2, .color = ink});
-    if (problem.hub.radius > 0 && !one)
-        panel.shapes.push_back({.kind = Shape::Kind::circle, .radius = problem.hub.radius, .color = ink, .width = 0.9});
-    if (problem.cam)
-        panel.shapes.push_back(
-            {.kind = Shape::Kind::disc, .centre = problem.cam->centre, .radius_points = 1.5, .color = ink});
+    sketch.dot({0, 0}, Sketch::kInk, 2);
+    if (problem.hub.radius > 0 && !one) sketch.circle({0, 0}, problem.hub.radius, Sketch::kInk, 0.9);
+    if (problem.cam) sketch.dot(problem.cam->centre);
     // First and last, in one label where two would overlap.
     const std::string first = number(poses.front().t, 3) + " s", last = number(poses.back().t, 3) + " s";
     constexpr double kApart = 0.12;  // [rad]
     const bool apart = std::abs(poses.back().theta - poses.front().theta) > kApart;
-    add_instant(poses.front(), one || apart ? first : first + ", " + last, panel.shapes);
-    if (apart) add_instant(poses.back(), last, panel.shapes);
-    return panel;
+    add_instant(poses.front(), one || apart ? first : first + ", " + last, sketch);
+    if (apart) add_instant(poses.back(), last, sketch);
+    return {.shapes = sketch.take()};
 }
 
 std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang) {
@@ -124,8 +110,7 @@ std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang
 FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
-    return [=, problem = scene.problem, lang = how.lang](const Results& results) -> Figure {
-        const sim::Result& result = *results[shown.study];
+    const auto draw = [=, problem = scene.problem, lang = how.lang](const sim::Result& result) -> Figure {
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
         render::Bounds extent;
@@ -133,11 +118,9 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        return {.panels = {std::move(panel)},
-                .aspect = aspect,
-                .caption = strobe_caption(poses.size(), shown, lang) + facts(problem, lang),
-                .accuracy = accuracy({{&problem, &result}}, lang)};
+        return {.panels = {std::move(panel)}, .aspect = aspect, .caption = strobe_caption(poses.size(), shown, lang)};
     };
+    return figure_of_motion(scene, how, shown.study, draw);
 }
 
 }  // namespace

@@ -67,6 +67,10 @@ std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x
     if (x != time) table.channels.push_back(x);
     table.channels.push_back(y);
     table.channels.insert(table.channels.end(), also.begin(), also.end());
+    return add_table(study, std::move(table));
+}
+
+std::size_t Studies::add_table(std::size_t study, sim::TableRequest table) {
     request(study).tables.push_back(std::move(table));
     return request(study).tables.size() - 1;
 }

@@ -47,6 +47,7 @@ class Studies {
     // and the channels `also` at the same rows.
     std::size_t curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
                       const std::vector<sim::Channel>& also = {});
+    std::size_t add_table(std::size_t study, sim::TableRequest table);
     std::size_t point(std::size_t study, double x, const Instants& at);
     void apexes(std::size_t study) { request(study).apexes = true; }
     void zero_crossings(std::size_t study) { request(study).zero_crossings = true; }
