@@ -156,6 +156,11 @@ Box Canvas::measure(std::string_view markup, const TextStyle& style) const {
     return {0, label.ink.box().y, label.width, label.ink.box().h};
 }
 
+void outline_on(Canvas& canvas, const Palette& palette, double unit) {
+    canvas.outline = palette.outline();
+    if (canvas.outline) canvas.casing = Casing{*canvas.outline, 3 * unit};
+}
+
 std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
                             double room) {
     for (const std::string& text : texts)

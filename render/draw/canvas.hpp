@@ -55,6 +55,9 @@ class Canvas : public Painter {
     const Image& image_;
 };
 
+// Sets the outlines of texts and lines in pictures without paper. `unit`: of lengths [px].
+void outline_on(Canvas& canvas, const Palette& palette, double unit);
+
 // The first of the texts that is no wider than `room`; the last one if none is.
 std::string first_that_fits(Canvas& canvas, std::initializer_list<std::string> texts, const TextStyle& style,
                             double room);

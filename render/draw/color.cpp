@@ -56,14 +56,11 @@ const Palette kPrint{.paper = rgb(0xFFFFFF),
                      .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)},
                      .shadow = 0.22};
 
-template <std::size_t N>
-Color along(const std::array<Color, N>& stops, double share) {
-    const double at = std::clamp(share, 0.0, 1.0) * (N - 1);
-    const auto i = std::min(static_cast<std::size_t>(at), N - 2);
-    return mix(stops[i], stops[i + 1], at - static_cast<double>(i));
-}
-
 }  // namespace
+
+double linear_light(double channel) {
+    return channel <= 0.04045 ? channel / 12.92 : std::pow((channel + 0.055) / 1.055, 2.4);
+}
 
 std::string hex(Color color) {
     const auto level = [](double share) { return static_cast<int>(std::lround(255 * share)); };
@@ -131,8 +128,7 @@ Palette recolored(Palette p, const OwnColors& own) {
 namespace {
 // Relative luminance and contrast of sRGB colours (WCAG 2.1).
 double luminance(const Color& c) {
-    const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
-    return kLumaRed * linear(c.r) + kLumaGreen * linear(c.g) + kLumaBlue * linear(c.b);
+    return kLumaRed * linear_light(c.r) + kLumaGreen * linear_light(c.g) + kLumaBlue * linear_light(c.b);
 }
 }  // namespace
 

@@ -4,6 +4,7 @@
 // Blue and vermilion are distinguishable with every common colour deficiency.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <optional>
@@ -24,6 +25,15 @@ constexpr Color mix(Color a, Color b, double share_of_b) {
     const double s = share_of_b, k = 1 - s;
     return {a.r * k + b.r * s, a.g * k + b.g * s, a.b * k + b.b * s, a.a * k + b.a * s};
 }
+
+// Between equally spaced colours, share 0…1, clamped.
+template <std::size_t N>
+Color along(const std::array<Color, N>& stops, double share) {
+    const double at = std::clamp(share, 0.0, 1.0) * (N - 1);
+    const auto i = std::min(static_cast<std::size_t>(at), N - 2);
+    return mix(stops[i], stops[i + 1], at - static_cast<double>(i));
+}
+double linear_light(double channel);  // of an encoded channel of sRGB
 
 // Shares of red, green and blue in the luminance: ITU-R BT.709.
 inline constexpr double kLumaRed = 0.2126, kLumaGreen = 0.7152, kLumaBlue = 0.0722;

@@ -240,6 +240,10 @@ void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     line_to(to);
     stroke(pen);
 }
+void Painter::curve(std::span<const Vec2> points, const Pen& pen) {
+    polyline(points);
+    stroke(pen);
+}
 
 // ---- clips, images, labels ----------------------------------------------------------------------
 
@@ -305,5 +309,7 @@ void Painter::write(const SetRun& run, Vec2 at, const TextStyle& style) {
     pango_cairo_show_layout(cr_, letters);
     new_path();
 }
+
+double Painter::cap_height(double size) const { return render::cap_height(fonts_->typefaces(), size); }
 
 }  // namespace beamcam::render

@@ -64,10 +64,13 @@ class Painter {
     // Draws a text, which is markup (markup.hpp); returns its box.
     virtual Box text(Vec2 at, std::string_view markup, const TextStyle& style) = 0;
     virtual Box measure(std::string_view markup, const TextStyle& style) const = 0;  // at (0, 0), left, not turned
+    double cap_height(double size) const;
     void fill(Color color);
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);
     void line(Vec2 from, Vec2 to, const Pen& pen);
+    // A line through any number of points; NaN breaks it.
+    virtual void curve(std::span<const Vec2> points, const Pen& pen);
     // Clips everything that `draw` draws to the box.
     void clip(const Box& box, const std::function<void()>& draw);
     // Draws without casings.

@@ -9,7 +9,9 @@
 
 namespace beamcam::render {
 
-inline ChartStyle chart_style(const FilmContext& context) { return {*context.palette, context.unit, context.tick}; }
+inline figure::PlotStyle chart_style(const FilmContext& context) {
+    return figure::film_style(*context.palette, context.unit, context.tick);
+}
 
 // Copies the columns of the past up to `until`; `shown`: the first column that is not copied yet.
 inline void copy_past(Canvas& kept, const Chart& chart, const Image& past, double until, double& shown) {
@@ -27,7 +29,8 @@ class ChartPanel : public FilmPanel {
   public:
     ChartPanel(const FilmContext& context, ChartContent content, const Box& box)
         : context_(context),
-          chart_(std::move(content), box, plot_area(box, context.unit, context.tick), chart_style(context)) {
+          chart_(std::move(content), box, plot_area(box, context.unit, context.tick), chart_style(context),
+                 *context.fonts) {
         past_ = chart_.past(*context.fonts);
     }
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }

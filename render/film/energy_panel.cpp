@@ -53,16 +53,13 @@ class EnergyPanel final : public ChartPanel {
         ChartContent c = blank_content(context, spec, member);
         if (is_wide(context, slot.box))
             c.words = context.translate("Energy ");  // otherwise only the symbol and the legend fit
-        c.symbol = "$E$";
-        c.unit = "J";
         const sim::Table& table = context.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});
-        if (!t) return c;
-        c.band_times = *t;
-        std::vector<double> base(t->size(), 0.0);
+        std::vector<double> base(t ? t->size() : 0, 0.0);
         double most = 0;
         for (const Part& part : parts(context)) {
-            ChartBand band{base, base, part.color};
+            figure::Band band{.low = base, .high = base, .color = part.color, .faint = part.color.faded(0.28)};
+            if (t) band.x = *t;
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
@@ -74,9 +71,9 @@ class EnergyPanel final : public ChartPanel {
             base = band.high;
             for (double v : base)
                 if (v > most) most = v;
-            c.bands.push_back(std::move(band));
+            c.panel.bands.push_back(std::move(band));
         }
-        c.value = {0, most > 0 ? 1.02 * most : 1};
+        c.set_values({0, most > 0 ? 1.02 * most : 1}, "$E$", "J");
         return c;
     }
 

@@ -13,7 +13,7 @@
 #include "render/film/film.hpp"
 #include "render/mechanism/trace.hpp"
 #include "render/plot/labels.hpp"
-#include "render/plot/tick_marks.hpp"
+#include "render/plot/style.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
@@ -29,9 +29,11 @@ struct FilmContext {
     const Palette* palette = nullptr;  // points to `colors`
     bool cjk = false;                  // some text needs the Chinese font
     Layout places;
-    double unit = 1;                                             // [px] of one design pixel
-    double tick = 17;                                            // size of letters at axes and scales [px]
-    double heading() const { return heading_size(unit, tick); }  // size of letters of headings and readings [px]
+    double unit = 1;   // [px] of one design pixel
+    double tick = 17;  // size of letters at axes and scales [px]
+    double heading() const {
+        return figure::heading_size(unit, tick);
+    }  // size of letters of headings and readings [px]
     TimeFormat time;
     double factor = 1;                              // exaggeration of deflection, the same for all motions
     double force_scale = 0;                         // largest force of the film, rounded up; 0: no force [N]

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 
 #include "render/draw/accumulated.hpp"
 #include "render/draw/smooth_path.hpp"
@@ -23,7 +22,7 @@ struct Layers final : FilmPanel::State {
 class PhasePanel final : public FilmPanel {
   public:
     PhasePanel(const FilmContext& context, const PanelSlot& slot)
-        : context_(context), box_(slot.box), plot_(plot_area(slot.box, context.unit, context.tick)) {
+        : context_(context), box_(slot.box), style_(chart_style(context)), plot_(axes_, style_, "phase") {
         Bounds all;
         for (int m = 0; m < context.members(); ++m) {
             const sim::Table& table = context.motion(m).chart;
@@ -37,36 +36,40 @@ class PhasePanel final : public FilmPanel {
             }
         }
         factor_ = context.shown_factor({ChannelKind::theta, 0});
-        x_ = axis(all.x0, all.x1, "$θ$", ChannelKind::theta, plot_.w / 85);
-        y_ = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot, plot_.h / 45);
+        axes_.x = axis(all.x0, all.x1, "$θ$", ChannelKind::theta);
+        axes_.y = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot);
+        Image none(1, 1);
+        plot_.place(Canvas(none, *context.fonts), plot_area(slot.box, context.unit, context.tick));
         for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
     }
 
     std::unique_ptr<State> make_state() const override {
         auto state = std::make_unique<Layers>();
+        const Box box = accumulated_box();
         for (std::size_t i = 0; i < paths_.size(); ++i)
-            state->layers.emplace_back(static_cast<int>(plot_.w) + 16, static_cast<int>(plot_.h) + 16);
+            state->layers.emplace_back(static_cast<int>(box.w), static_cast<int>(box.h));
         return state;
     }
 
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
-        const std::string name = y_->name(),
+        const std::string name = plot_.y().name(),
                           words = label_of(ChannelKind::theta_dot).heading(context_.setup->view.lang) + name;
         const TextStyle heading{.size = context_.heading(), .weight = Weight::semibold};
-        draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
-                     first_that_fits(canvas, {words, name}, heading, plot_.w));
-        draw_levels(canvas, chart_style(context_), *y_, plot_);
-        draw_numbers_below(canvas, chart_style(context_), plot_, x_->ticks(), x_->name(), true);
+        const Box& plot = plot_.box();
+        draw_heading(canvas, context_, {plot.x, box_.y, plot.w, plot.h},
+                     first_that_fits(canvas, {words, name}, heading, plot.w));
+        plot_.draw_y_axis(canvas);
+        plot_.draw_x_axis(canvas);
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             std::vector<Vec2> points = paths_[m].points;
-            for (Vec2& q : points) q += Vec2{plot_.x - 8, plot_.y - 8};
+            for (Vec2& q : points) q += corner();
             canvas.polyline(points);
             canvas.stroke({context_.palette->tint(color(m), 0.22), 1.0 * u});
         }
     }
 
-    Box accumulated_box() const override { return {plot_.x - 8, plot_.y - 8, plot_.w + 16, plot_.h + 16}; }
+    Box accumulated_box() const override { return plot_.box().inset(-8); }
     void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const override {
         auto& layers = static_cast<Layers*>(state)->layers;
         std::vector<Box> changed;
@@ -97,24 +100,27 @@ class PhasePanel final : public FilmPanel {
 
   private:
     Color color(std::size_t member) const { return series_color(*context_.palette, member); }
-    AxisMap axis(double low, double high, const std::string& symbol, ChannelKind kind, double most) const {
+    Axis axis(double low, double high, const std::string& symbol, ChannelKind kind) const {
         if (!(low <= high)) low = 0, high = 1 / factor_;
         low *= factor_, high *= factor_;
         if (high - low < 1e-9) low -= 0.05, high += 0.05;
-        return chart_axis(low, high, symbol, context_.shown_unit({kind, 0}),
-                          std::clamp(static_cast<int>(most / context_.unit), 2, 6));
+        const std::string unit = context_.shown_unit({kind, 0});
+        return {.label = symbol + " / " + unit,
+                .from = low,
+                .to = high,
+                .round_ends = true,
+                .short_numbers = true,
+                .grid = true};
     }
-    Vec2 to_pixels(double theta, double speed) const {
-        return {plot_.x + plot_.w * x_->place(factor_ * theta), plot_.bottom() - plot_.h * y_->place(factor_ * speed)};
-    }
+    Vec2 to_pixels(double theta, double speed) const { return plot_.at(factor_ * theta, factor_ * speed); }
+    Vec2 corner() const { return {accumulated_box().x, accumulated_box().y}; }
     TimedPath path(int member) const {
         const sim::Table& table = context_.motion(member).chart;
         const auto *t = column(table, {ChannelKind::t, 0}), *x = column(table, {ChannelKind::theta, 0}),
                    *y = column(table, {ChannelKind::theta_dot, 0});
         if (!t || !x || !y) return {};
         std::vector<Vec2> points;
-        for (std::size_t i = 0; i < t->size(); ++i)
-            points.push_back(to_pixels((*x)[i], (*y)[i]) - Vec2{plot_.x - 8, plot_.y - 8});
+        for (std::size_t i = 0; i < t->size(); ++i) points.push_back(to_pixels((*x)[i], (*y)[i]) - corner());
         return smooth(thinned(*t, points, 0.7));
     }
     // Rows are dense enough for a spline between them.
@@ -133,8 +139,10 @@ class PhasePanel final : public FilmPanel {
     }
 
     const FilmContext& context_;
-    Box box_, plot_;
-    std::optional<AxisMap> x_, y_;
+    Box box_;
+    figure::PlotStyle style_;
+    figure::Panel axes_;
+    figure::Plot plot_;
     double factor_ = 1;  // from SI to displayed units
     std::vector<TimedPath> paths_;
 };

@@ -46,7 +46,7 @@ double instant_of_peak(const ForceRow& before, const ForceRow& highest, const Fo
 // The force from the tables of chart and trace, plus the peaks between rows, each beside its nearest row; an impact
 // between two rows becomes a triangle. Rows keep their values, because they are at the instants of frames. An impact
 // that does not end within the rows gets no peak.
-void force_rows(const FilmContext& context, int member, ChartCurve& curve) {
+void force_rows(const FilmContext& context, int member, figure::Series& curve) {
     const Motion& one = context.motion(member);
     std::vector<ForceRow> rows;
     for (const sim::Table* table : {&one.chart, &one.trace}) {
@@ -77,28 +77,28 @@ void force_rows(const FilmContext& context, int member, ChartCurve& curve) {
     }
     std::erase_if(rows, [&](const auto& r) { return r[0] < context.span.low || r[0] > context.span.high; });
     by_time();
-    for (const auto& r : rows) curve.t.push_back(r[0]), curve.v.push_back(r[1]);
+    for (const auto& r : rows) curve.add(r[0], r[1]);
 }
 
-ChartCurve curve_of(const FilmContext& context, int member, Channel channel) {
-    ChartCurve curve;
+figure::Series curve_of(const FilmContext& context, int member, Channel channel) {
+    figure::Series curve;
     if (is_force(channel)) {
         force_rows(context, member, curve);
         return curve;
     }
     const Motion& one = context.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
-    if (t && v) curve.t = *t, curve.v = *v;
-    for (double& value : curve.v) value = context.shown_factor(channel) * (value - zero_of(one.chart, channel));
+    if (t && v) curve.x = *t, curve.y = *v;
+    for (double& value : curve.y) value = context.shown_factor(channel) * (value - zero_of(one.chart, channel));
     return curve;
 }
 
 // The rows from the last one before the interval to the first one after it.
-std::span<const double> rows_within(const ChartCurve& curve, Range time) {
-    const auto first = std::ranges::upper_bound(curve.t, time.low), last = std::ranges::lower_bound(curve.t, time.high);
-    const auto from = std::max<std::ptrdiff_t>(first - curve.t.begin() - 1, 0),
-               to = std::min(last - curve.t.begin() + 1, std::ssize(curve.v));
-    return std::span(curve.v).subspan(static_cast<std::size_t>(from),
+std::span<const double> rows_within(const figure::Series& curve, Range time) {
+    const auto first = std::ranges::upper_bound(curve.x, time.low), last = std::ranges::lower_bound(curve.x, time.high);
+    const auto from = std::max<std::ptrdiff_t>(first - curve.x.begin() - 1, 0),
+               to = std::min(last - curve.x.begin() + 1, std::ssize(curve.y));
+    return std::span(curve.y).subspan(static_cast<std::size_t>(from),
                                       static_cast<std::size_t>(std::max(to - from, 0L)));
 }
 
@@ -110,14 +110,14 @@ Range shown_time(const FilmContext& context, const PanelSpec& spec) {
 }
 
 // The axis of a film is that of all its windows.
-Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vector<ChartCurve>& curves) {
+Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vector<figure::Series>& curves) {
     Extent all;
     const Channel channel = spec.channels.front();
     const auto see = [&](double v) { all.add({&v, 1}); };
     const bool still = context.frames() == 1;  // a still shows only its past, which the chart contains
     const Range time = shown_time(context, spec);
-    for (const ChartCurve& curve : curves)
-        all.add(spec.window ? rows_within(curve, time) : std::span<const double>(curve.v));
+    for (const figure::Series& curve : curves)
+        all.add(spec.window ? rows_within(curve, time) : std::span<const double>(curve.y));
     for (int m = 0; channel.kind == ChannelKind::theta && m < context.members(); ++m) {
         const Motion& one = context.motion(m);
         for (std::size_t k = 0; k < (still ? 1 : one.surveyed()); ++k)
@@ -152,30 +152,30 @@ void add_impulses(const FilmContext& context, int member, const Range& shown, Ch
     const Palette& p = *context.palette;
     const Color color = context.members() > 1 ? context.member_color(member) : p.contact;
     for (const sim::Impact& impact : context.motion(member).impacts) {
-        if (impact.t_start < c.time.low || impact.t_start > c.time.high) continue;
+        if (impact.t_start < c.time().low || impact.t_start > c.time().high) continue;
         if (impact.t_start >= shown.low && impact.t_start <= shown.high) places.add({&impact.x, 1});
-        c.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
+        c.panel.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
     }
 }
 
-// The places of contact as dots.
-void add_places(const FilmContext& context, const Range& shown, ChartContent& c) {
+// The places of contact as dots; returns the range of those that are shown.
+Range add_places(const FilmContext& context, const Range& shown, ChartContent& c) {
     Extent places;
     for (int m = 0; m < context.members(); ++m)
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
-            if (s.t < c.time.low || s.t > c.time.high) continue;
+            if (s.t < c.time().low || s.t > c.time().high) continue;
             const Palette& p = *context.palette;
             Color color = context.members() > 1 ? context.member_color(m)
                                                 : force_color(p, std::sqrt(s.force / context.force_scale));
             const Color faint = context.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
-            c.dots.push_back({s.t, s.x, color, faint});
+            c.panel.dots.push_back({s.t, s.x, color, faint});
         }
     for (int m = 0; m < context.members(); ++m) add_impulses(context, m, shown, c, places);
     const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 2e-4 * length);
-    c.value = places.any ? Range{places.low - around, places.high + around} : Range{0, length};
+    return places.any ? Range{places.low - around, places.high + around} : Range{0, length};
 }
 
 }  // namespace
@@ -199,26 +199,27 @@ std::optional<Color> energy_color(const Palette& p, ChannelKind kind) {
     }
 }
 
-// As points or a line, with a curve of their own for label and reading.
-static void add_data(const FilmContext& context, const PanelSpec& spec, ChartContent& c) {
+// As points or a line, with a curve of their own for label and reading; extends the range of the values.
+static void add_data(const FilmContext& context, const PanelSpec& spec, ChartContent& c, Range& values) {
     const Palette& p = *context.palette;
     for (std::size_t k = 0; k < context.setup->data.size() && !spec.by_collision; ++k)
         for (const Channel channel : spec.channels) {
             const FilmData& data = context.setup->data[k];
-            const std::vector<double>* values = data.find(channel);
-            if (!values) continue;
-            ChartCurve curve{
-                {}, {}, context.data_color(k), p.tint(context.data_color(k), 0.25), context.data_labels[k] + ":"};
+            const std::vector<double>* column = data.find(channel);
+            if (!column) continue;
+            const Color color = context.data_color(k), faint = p.tint(color, 0.25);
+            figure::Series curve{.label = context.data_labels[k] + ":", .color = color};
+            curve.faint = faint;
             for (std::size_t i = 0; i < data.t.size(); ++i) {
-                const double t = data.t[i], v = context.shown_factor(channel) * (*values)[i];
-                if (t < c.time.low || t > c.time.high || std::isnan(v)) continue;
-                c.value = {std::min(c.value.low, v), std::max(c.value.high, v)};
+                const double t = data.t[i], v = context.shown_factor(channel) * (*column)[i];
+                if (t < c.time().low || t > c.time().high || std::isnan(v)) continue;
+                values = {std::min(values.low, v), std::max(values.high, v)};
                 if (data.line)
-                    curve.t.push_back(t), curve.v.push_back(v);
+                    curve.add(t, v);
                 else
-                    c.dots.push_back({t, v, curve.color, curve.faint});
+                    c.panel.dots.push_back({t, v, color, faint});
             }
-            c.curves.push_back(std::move(curve));
+            c.panel.series.push_back(std::move(curve));
         }
 }
 
@@ -229,13 +230,12 @@ double zero_of(const sim::Table& table, Channel channel) {
 
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
     ChartContent c;
-    c.time = context.span;
     c.window = spec.window;
-    c.time_unit = context.time.unit;
-    c.time_label = std::string("$t$ / ") + context.time.symbol;
-    const auto mark = [&](int whose, ChartMark at) {
+    c.set_time(context.span, context.time.unit, std::string("$t$ / ") + context.time.symbol);
+    const auto mark = [&](int whose, figure::EventTick at) {
         for (const sim::Impact& i : context.motion(whose).impacts)
-            if (i.t_start >= c.time.low && i.t_start <= c.time.high) at.t = i.t_start, c.marks.push_back(at);
+            if (i.t_start >= context.span.low && i.t_start <= context.span.high)
+                at.x = i.t_start, c.panel.events.push_back(at);
     };
     if (member >= 0) {
         mark(member, {.color = context.palette->contact});
@@ -274,18 +274,20 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
     c.words = single ? label_of(first.kind).heading(context.setup->view.lang) : "";
     if (c.words.starts_with("Contact point on")) c.short_words = "Contact point ";
-    c.unit = context.shown_unit(first);
+    std::string symbols, unit = context.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {
         std::string symbol = symbol_of(spec.channels[i]);
         if (!single && context.members() == 1)
             symbol = colored(symbol, readable(p, curve_color(context, spec.channels[i], i, 0)));
-        c.symbol += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
+        symbols += fmt::format("{}{}", i > 0 ? ", " : "", symbol);
         for (int m = 0; m < context.members(); ++m) {
-            ChartCurve curve = dotted ? ChartCurve{} : curve_of(context, m, spec.channels[i]);
+            figure::Series curve = dotted ? figure::Series{} : curve_of(context, m, spec.channels[i]);
             const bool contact = is_force(first) || first.kind == ChannelKind::contact_x;
             const bool alone = single && context.members() == 1;
-            curve.color = alone && contact ? p.contact : curve_color(context, spec.channels[i], i, m);
-            curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(curve.color, 0.25);
+            const Color color = alone && contact ? p.contact : curve_color(context, spec.channels[i], i, m);
+            curve.color = color;
+            curve.faint = alone ? (contact ? p.contact_faint : p.motion_faint) : p.tint(color, 0.25);
+            curve.filled = alone && is_force(first);
             if (context.members() > 1 && !context.names_in_panels())
                 curve.label = context.labels[static_cast<std::size_t>(m)] + ":", c.names_first = true;  // "ω = 0: 12"
             else if (context.members() == 1 && !single)
@@ -293,21 +295,21 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
             if (!is_force(first))
                 curve.dash = FilmContext::dash_of(context.members() > 1 ? static_cast<std::size_t>(m) : i);
             curve.pale_within = context.motion(m).unreliable;
-            curve.pale = p.tint(curve.color, kPaleShare);
-            c.curves.push_back(std::move(curve));
+            curve.pale = p.tint(color, kPaleShare);
+            c.panel.series.push_back(std::move(curve));
         }
     }
-    c.filled = single && is_force(first) && context.members() == 1;
-    if (is_force(first)) c.reading_unit = c.unit;
-    c.value = range_of(context, spec, c.curves);
-    if (single && dotted) add_places(context, shown_time(context, spec), c);
-    add_data(context, spec, c);
+    if (is_force(first)) c.reading_unit = unit;
+    Range values = range_of(context, spec, c.panel.series);
+    if (single && dotted) values = add_places(context, shown_time(context, spec), c);
+    add_data(context, spec, c, values);
     const bool of_contact = is_force(first) || first.kind == ChannelKind::contact_x;
     const auto is_value = [&](double v) { return is_force(first) ? v > 0 : !std::isnan(v); };
-    if (of_contact && c.dots.empty() &&
-        std::ranges::none_of(c.curves, [&](const ChartCurve& curve) { return std::ranges::any_of(curve.v, is_value); }))
-        c.instead = context.translate(c.marks.empty() ? "no contact" : "impulses only"), c.unit.clear(),
-        c.value = {0, 1};
+    const auto has_values = [&](const figure::Series& curve) { return std::ranges::any_of(curve.y, is_value); };
+    if (of_contact && c.panel.dots.empty() && std::ranges::none_of(c.panel.series, has_values))
+        c.instead = context.translate(c.panel.events.empty() ? "no contact" : "impulses only"), unit.clear(),
+        values = {0, 1};
+    c.set_values(values, symbols, unit);
     return c;
 }
 

@@ -58,8 +58,8 @@ class CollisionPanel final : public FilmPanel {
             last_ = i.collision;
         }
         content_ = strip_content(context, spec_);
-        content_.marks.clear();
-        curves_ = std::exchange(content_.curves, {});
+        content_.panel.events.clear();
+        curves_ = std::exchange(content_.panel.series, {});
     }
 
     void draw_background(Canvas&) const override {}
@@ -73,7 +73,7 @@ class CollisionPanel final : public FilmPanel {
         const double now = context_.at(0, frame);
         const std::size_t which = shown(now);
         if (!s.chart || s.which != which) {
-            s.chart.emplace(chart_of(which));
+            s.chart.emplace(content_of(which), box_, plot_, chart_style(context_), kept.fonts());
             s.which = which;
             s.past = s.chart->past(kept.fonts());
         }
@@ -119,36 +119,34 @@ class CollisionPanel final : public FilmPanel {
     }
     double start(std::size_t which) const { return spans_.empty() ? 0 : spans_[which].span.low; }
 
-    Chart chart_of(std::size_t which) const {
+    ChartContent content_of(std::size_t which) const {
         ChartContent c = content_;
-        if (spans_.empty()) {
-            c.time = {0, 0.01};
-        } else {
+        Range time{0, 0.01};
+        if (!spans_.empty()) {
             const Range& span = spans_[which].span;
             const double length = spans_[which].shown - span.low, m = std::clamp(0.15 * length, 1.5e-5, 0.01);
-            c.time = {-m, length + m};
+            time = {-m, length + m};
             // If that is over before the film begins, or before the instant of a still, the contact after it is shown.
             const double first = context_.at(0, 0), shown_until = span.low + length + m;
             if (context_.frames() == 1 && first > shown_until && first <= span.high)
-                c.time = {first - kShown - span.low, first - span.low};
+                time = {first - kShown - span.low, first - span.low};
             else if (context_.span.low > shown_until && span.high > context_.span.low)
-                c.time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
+                time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
             c.words = context_.translate(fmt::format("Collision {}, ", spans_[which].number));
         }
-        const Prefix prefix = prefix_for(c.time.high);
-        c.time_unit = c.time.high < 1 ? prefix.factor : 1;
-        c.time_label = fmt::format("$t$ − $t$_{{0}} / {}s", c.time.high < 1 ? prefix.symbol : "");
+        const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
+        c.set_time(time, prefix.factor, fmt::format("$t$ − $t$_{{0}} / {}s", prefix.symbol));
         const double t0 = start(which);
-        for (const ChartCurve& all : curves_) {
-            ChartCurve curve{{}, {}, all.color, all.faint, all.label, all.dash, all.pale_within, all.pale};
+        for (figure::Series curve : curves_) {
             for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;
-            const auto begin = std::ranges::lower_bound(all.t, t0 + c.time.low) - all.t.begin(),
-                       end = std::ranges::upper_bound(all.t, t0 + c.time.high) - all.t.begin();
+            const std::vector<double> t = std::exchange(curve.x, {}), v = std::exchange(curve.y, {});
+            const auto begin = std::ranges::lower_bound(t, t0 + time.low) - t.begin(),
+                       end = std::ranges::upper_bound(t, t0 + time.high) - t.begin();
             for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i)
-                curve.t.push_back(all.t[i] - t0), curve.v.push_back(all.v[i]);
-            c.curves.push_back(std::move(curve));
+                curve.add(t[i] - t0, v[i]);
+            c.panel.series.push_back(std::move(curve));
         }
-        return Chart(std::move(c), box_, plot_, chart_style(context_));
+        return c;
     }
 
     const FilmContext& context_;
@@ -157,7 +155,7 @@ class CollisionPanel final : public FilmPanel {
     std::vector<Collision> spans_;
     int last_ = -1;
     ChartContent content_;
-    std::vector<ChartCurve> curves_;
+    std::vector<figure::Series> curves_;
 };
 
 }  // namespace

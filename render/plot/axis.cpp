@@ -119,6 +119,11 @@ void AxisMap::named(const Axis& axis, int most) {
 }
 
 void AxisMap::linear(const Axis& axis, int most) {
+    if (axis.unit) {
+        unit_ = *axis.unit;
+        ends_ = {low_ / unit_, high_ / unit_};
+        return add_linear_ticks(axis, most, false);
+    }
     // All arithmetic is in numbers of order 1, so that no range overflows or underflows.
     double largest = std::max(std::abs(low_), std::abs(high_));
     const int size = largest > 0 ? std::clamp(whole_log10(largest), -300, 300) : 0;
@@ -184,7 +189,8 @@ int AxisMap::choose_powers(const Axis& axis, double order, bool offset) {
 void AxisMap::add_linear_ticks(const Axis& axis, int most, bool whole) {
     Ticks marks = render::ticks(ends_.low, ends_.high, std::max(2, most));
     // A single label defines no scale.
-    for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8 && !axis.round_ends; ++more)
+    const bool may_have_one = axis.round_ends || axis.unit;
+    for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8 && !may_have_one; ++more)
         marks = render::ticks(ends_.low, ends_.high, more);
     if (base_unit_ == "°" && factor_ == 0 && offset_ == 0) marks = in_turns(marks, ends_, std::max(2, most));
     if (axis.round_ends) marks = with_round_ends(ends_, marks.step);
@@ -197,7 +203,8 @@ void AxisMap::add_linear_ticks(const Axis& axis, int most, bool whole) {
     const double range = ends_.high - ends_.low;
     const auto at = [&](double v) { return reversed_ ? (ends_.high - v) / range : (v - ends_.low) / range; };
     for (const double v : marks.values)
-        ticks_.push_back({std::clamp(at(v), 0.0, 1.0), axis.numbered ? fixed(v, marks.decimals) : "", true});
+        if (v >= axis.first_number.value_or(v))
+            ticks_.push_back({std::clamp(at(v), 0.0, 1.0), axis.numbered ? fixed(v, marks.decimals) : "", true});
     const double minor = whole ? std::max(1.0, std::round(marks.step / 5)) : marks.step / minor_parts(marks.step);
     const double first = std::ceil(ends_.low / minor - 1e-9), last = std::floor(ends_.high / minor + 1e-9);
     for (double k = first; k <= last && last - first < 400; ++k)
@@ -248,11 +255,11 @@ void AxisMap::logarithmic(const Axis& axis, int most) {
         }
 }
 
-double AxisMap::place(double value) const {
+double AxisMap::place(double value, double length) const {
     if (log_ && !(value > 0)) return std::nan("");
     const double v = log_ ? std::log10(value) : tick_value(value);
-    const double share = (v - ends_.low) / (ends_.high - ends_.low);
-    return reversed_ ? 1 - share : share;
+    const double along = length * (v - ends_.low) / (ends_.high - ends_.low);
+    return reversed_ ? length - along : along;
 }
 
 }  // namespace beamcam::render

@@ -1,4 +1,4 @@
-// The scale of an axis, of figures and of charts in films: range, major ticks at 1-2-5 steps, minor ticks, labels.
+// The scale of an axis of a plot: range, major ticks at 1-2-5 steps, minor ticks, labels.
 //
 // Any finite range is allowed, from 1e-300 to 1e300, also an empty one. Numbers too long for short labels get an SI
 // prefix of the axis's unit, a common factor (×10⁶) or a common offset.
@@ -27,6 +27,9 @@ struct Axis {
     bool counts = false;                       // integers: no ticks between them (linear)
     bool round_ends = false;                   // widened to multiples of the ticks' step (linear)
     bool short_numbers = false;                // a prefix for numbers of more than three digits or below 1
+    bool grid = false;                         // in films: few numbers, and x has lines across the plot for ticks
+    // The numbers are values in this unit, without prefix, factor or offset (linear); the first one that is written.
+    std::optional<double> unit = {}, first_number = {};
     std::vector<std::string> names = {};  // markup, in place of numbers: of the intervals 0…1, 1…2, … (linear)
 };
 
@@ -50,9 +53,8 @@ class AxisMap {
     // limits that are equal or, on a logarithmic axis, not positive. `what`: the name of the axis in the message.
     AxisMap(const Axis& axis, const Extent& data, int most, const std::string& what);
 
-    double place(double value) const;  // 0…1 within the range; NaN for NaN, and for a value <= 0 on a log axis
-    double low() const { return low_; }
-    double high() const { return high_; }
+    // 0…`length` within the range; NaN for NaN, and for a value <= 0 on a log axis.
+    double place(double value, double length = 1) const;
     // A value in the numbers of the tick labels: (v/unit − offset)·scale. Ends and tick distance are in them, too.
     double tick_value(double value) const { return (value / unit_ - offset_) * scale_; }
     Range ends() const { return ends_; }

@@ -59,12 +59,12 @@ struct Places {
     std::vector<Vec2> all;
     std::size_t shown = 0;  // number of the first ones, whose points are shown
 };
-Places different_places(const Cloud& cloud, const PlotAxes& axes) {
-    const PixelGrid grid = pixels_of(axes.plot());
+Places different_places(const Cloud& cloud, const Plot& plot) {
+    const PixelGrid grid = pixels_of(plot.box());
     std::vector<bool> taken(grid.size());
     Places places;
     for (std::size_t i = 0; i < cloud.x.size(); ++i) {
-        const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
+        const Vec2 p = plot.at(cloud.x[i], cloud.y[i]);
         const std::optional<std::size_t> cell = grid.cell(p);
         if (!cell || taken[*cell]) continue;
         taken[*cell] = true;
@@ -83,7 +83,7 @@ void draw_dots(const Places& places, Color color, PageCanvas& sheet) {
 }
 
 // Columns of an image: one for each different x if these are equally spaced and coarser than pixels.
-int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
+int columns_of(const Cloud& cloud, const Plot& plot, int most) {
     std::vector<double> places;
     for (const double x : cloud.x)
         if (places.empty() || x != places.back()) places.push_back(x);
@@ -91,19 +91,19 @@ int columns_of(const Cloud& cloud, const PlotAxes& axes, int most) {
     places.erase(std::unique(places.begin(), places.end()), places.end());
     double least = std::numeric_limits<double>::infinity();
     for (std::size_t i = 1; i < places.size(); ++i)
-        least = std::min(least, axes.along_x(places[i]) - axes.along_x(places[i - 1]));
-    const double even = axes.plot().w / least;
+        least = std::min(least, plot.along_x(places[i]) - plot.along_x(places[i - 1]));
+    const double even = plot.box().w / least;
     return even >= 1 && even < most ? static_cast<int>(std::ceil(even)) : most;
 }
 
 // The number of points in each pixel on a logarithmic scale.
-void draw_density(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet) {
-    PixelGrid grid = pixels_of(axes.plot());
-    grid.columns = columns_of(cloud, axes, grid.columns);
+void draw_density(const Cloud& cloud, const Plot& plot, PageCanvas& sheet) {
+    PixelGrid grid = pixels_of(plot.box());
+    grid.columns = columns_of(cloud, plot, grid.columns);
     std::vector<std::uint32_t> counts(grid.size(), 0), shown(grid.size(), 0);
     std::uint32_t most = 1;
     for (std::size_t i = 0; i < cloud.x.size(); ++i)
-        if (const auto cell = grid.cell(axes.at(cloud.x[i], cloud.y[i]))) {
+        if (const auto cell = grid.cell(plot.at(cloud.x[i], cloud.y[i]))) {
             most = std::max(most, ++counts[*cell]);
             if (i < cloud.shown) ++shown[*cell];
         }
@@ -118,37 +118,37 @@ void draw_density(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet) {
 
 }  // namespace
 
-void draw_cloud(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet) {
-    const Places places = different_places(cloud, axes);
+void draw_cloud(const Cloud& cloud, const Plot& plot, PageCanvas& sheet) {
+    const Places places = different_places(cloud, plot);
     if (places.shown == 0) return;
-    places.all.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, axes, sheet);
+    places.all.size() <= kMostDots ? draw_dots(places, cloud.color, sheet) : draw_density(cloud, plot, sheet);
 }
 
-void cover_cloud(const Cloud& cloud, const PlotAxes& axes, OccupancyGrid& taken) {
+void cover_cloud(const Cloud& cloud, const Plot& plot, OccupancyGrid& taken) {
     const std::size_t stride = std::max<std::size_t>(1, cloud.x.size() / kMostDots);
     for (std::size_t i = 0; i < cloud.x.size(); i += stride) {
-        const Vec2 p = axes.at(cloud.x[i], cloud.y[i]);
+        const Vec2 p = plot.at(cloud.x[i], cloud.y[i]);
         if (std::isfinite(p.x + p.y)) taken.cover(Box{p.x, p.y, 0, 0}, 1);
     }
 }
 
-void draw_cells(const Cells& cells, const PlotAxes& axes, PageCanvas& sheet) {
+void draw_cells(const Cells& cells, const Plot& plot, PageCanvas& sheet) {
     const std::size_t columns = cells.x.size() - 1, rows = cells.y.size() - 1;
-    const auto across = [&](double x) { return axes.along_x(x); };
-    const auto up = [&](double y) { return axes.along_y(y); };
+    const auto across = [&](double x) { return plot.along_x(x); };
+    const auto up = [&](double y) { return plot.along_y(y); };
     // Between adjacent shapes the paper would show through.
     if (is_even(cells.x, across) && is_even(cells.y, up)) {
         Image image(static_cast<int>(columns), static_cast<int>(rows));
         for (std::size_t row = 0; row < rows; ++row)
             for (std::size_t c = 0; c < columns; ++c)
                 image.pixels[(rows - 1 - row) * columns + c] = pixel(sheet.shown(cells.colors[row * columns + c]));
-        const Vec2 low = axes.at(cells.x.front(), cells.y.front()), high = axes.at(cells.x.back(), cells.y.back());
+        const Vec2 low = plot.at(cells.x.front(), cells.y.front()), high = plot.at(cells.x.back(), cells.y.back());
         sheet.pixels(image, {low.x, high.y, high.x - low.x, low.y - high.y});
         return;
     }
     for (std::size_t row = 0; row < rows; ++row)
         for (std::size_t c = 0; c < columns; ++c) {
-            const Vec2 low = axes.at(cells.x[c], cells.y[row]), high = axes.at(cells.x[c + 1], cells.y[row + 1]);
+            const Vec2 low = plot.at(cells.x[c], cells.y[row]), high = plot.at(cells.x[c + 1], cells.y[row + 1]);
             if (!(cells.colors[row * columns + c].a > 0)) continue;
             sheet.rectangle(
                 {low.x, high.y - kCellOverlap, high.x - low.x + kCellOverlap, low.y - high.y + kCellOverlap});
@@ -156,8 +156,8 @@ void draw_cells(const Cells& cells, const PlotAxes& axes, PageCanvas& sheet) {
         }
 }
 
-void cover_cells(const Cells& cells, const PlotAxes& axes, OccupancyGrid& taken) {
-    const Vec2 low = axes.at(cells.x.front(), cells.y.front()), high = axes.at(cells.x.back(), cells.y.back());
+void cover_cells(const Cells& cells, const Plot& plot, OccupancyGrid& taken) {
+    const Vec2 low = plot.at(cells.x.front(), cells.y.front()), high = plot.at(cells.x.back(), cells.y.back());
     taken.cover(Box{low.x, high.y, high.x - low.x, low.y - high.y});
 }
 

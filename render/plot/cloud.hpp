@@ -3,13 +3,13 @@
 #pragma once
 
 #include "render/plot/placement.hpp"
-#include "render/plot/plot_axes.hpp"
+#include "render/plot/plot.hpp"
 
 namespace beamcam::render::figure {
 
-void draw_cloud(const Cloud& cloud, const PlotAxes& axes, PageCanvas& sheet);
-void cover_cloud(const Cloud& cloud, const PlotAxes& axes, OccupancyGrid& taken);
-void draw_cells(const Cells& cells, const PlotAxes& axes, PageCanvas& sheet);
-void cover_cells(const Cells& cells, const PlotAxes& axes, OccupancyGrid& taken);
+void draw_cloud(const Cloud& cloud, const Plot& plot, PageCanvas& sheet);
+void cover_cloud(const Cloud& cloud, const Plot& plot, OccupancyGrid& taken);
+void draw_cells(const Cells& cells, const Plot& plot, PageCanvas& sheet);
+void cover_cells(const Cells& cells, const Plot& plot, OccupancyGrid& taken);
 
 }  // namespace beamcam::render::figure

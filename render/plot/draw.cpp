@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <memory>
 
@@ -156,81 +155,6 @@ class FigureLayout {
     bool narrow_ = false;  // the plot that lacked room
 };
 
-void append(std::string& out, double value) {
-    if (!std::isfinite(value)) return;
-    char buffer[32];
-    out.append(buffer, std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::general, 17).ptr);
-}
-
-// A CSV cell, quoted if it holds commas or quotes.
-std::string cell_text(const std::string& markup) {
-    std::string plain = to_plain(markup);
-    if (plain.find_first_of(",\"\n") == std::string::npos) return plain;
-    std::string out = "\"";
-    for (const char c : plain) out += c == '"' ? std::string("\"\"") : std::string(1, c);
-    return out + '"';
-}
-
-void add_panel(std::string& out, const Panel& panel, const std::string& name) {
-    const auto rows = [&](const std::string& series, const Axis& y, const std::vector<double>& xs,
-                          const std::vector<double>& ys, const std::vector<double>& values) {
-        const std::string head = fmt::format("{},{},{},", name, series, cell_text(panel.x.label));
-        const std::string middle = fmt::format(",{},", cell_text(y.label));
-        for (std::size_t i = 0; i < std::min(xs.size(), ys.size()); ++i) {
-            out += head;
-            append(out, xs[i]);
-            out += middle;
-            append(out, ys[i]);
-            out += ',';
-            if (i < values.size()) append(out, values[i]);
-            out += '\n';
-        }
-    };
-    const auto quantity = [](const Axis& axis) { return axis.label.substr(0, axis.label.rfind(" / ")); };
-    for (const Series& s : panel.series) {
-        const Axis& axis = s.right && panel.right ? *panel.right : panel.y;
-        rows(cell_text(!s.name.empty()    ? s.name
-                       : !s.label.empty() ? s.label
-                                          : quantity(axis)),
-             axis, s.x, s.y, s.value);
-    }
-    for (const Band& b : panel.bands) {
-        const std::string band = cell_text(b.label.empty() ? quantity(panel.y) : b.label);
-        rows(band + " (low)", panel.y, b.x, b.low, {});
-        rows(band + " (high)", panel.y, b.x, b.high, {});
-    }
-    for (const Cells& c : panel.cells) {
-        const std::string what = panel.color_bar ? cell_text(panel.color_bar->label) : "cells";
-        const std::size_t columns = c.x.size() - 1;
-        std::vector<double> xs, ys;  // middles
-        for (std::size_t i = 0; i < c.values.size(); ++i) {
-            xs.push_back(0.5 * (c.x[i % columns] + c.x[i % columns + 1]));
-            ys.push_back(0.5 * (c.y[i / columns] + c.y[i / columns + 1]));
-        }
-        rows(what, panel.y, xs, ys, c.values);
-    }
-    for (const Cloud& c : panel.clouds) rows(c.label.empty() ? "points" : cell_text(c.label), panel.y, c.x, c.y, {});
-    for (const Rule& r : panel.rules)
-        rows(r.label.empty() ? "line" : cell_text(r.label), panel.y, {r.vertical ? r.at : NAN},
-             {r.vertical ? NAN : r.at}, {});
-    for (const Mark& m : panel.marks)
-        rows(m.label.empty() ? "mark" : cell_text(m.label), m.right && panel.right ? *panel.right : panel.y, {m.x},
-             {m.y}, {});
-    for (const Span& s : panel.spans)
-        rows(s.label.empty() ? "interval" : cell_text(s.label), panel.y, {s.from, s.to}, {NAN, NAN}, {});
-    for (const Inset& inset : panel.insets) add_panel(out, inset.panel.front(), name + " inset");
-    for (const Shape& s : panel.shapes) {
-        if (s.kind == Shape::Kind::label) continue;
-        const bool round = s.kind == Shape::Kind::circle || s.kind == Shape::Kind::disc;
-        std::vector<double> xs, ys;
-        for (const Vec2 p : s.points) xs.push_back(p.x), ys.push_back(p.y);
-        if (round) xs.push_back(s.centre.x), ys.push_back(s.centre.y);
-        if (!xs.empty() && s.radius_points == 0)
-            rows(round ? "circle (radius in the last column)" : "shape", panel.y, xs, ys,
-                 round ? std::vector<double>{s.radius} : std::vector<double>{});
-    }
-}
-
 }  // namespace
 
 Page page_of(const Figure& figure, const Column& column, std::optional<double> width) {
@@ -266,16 +190,6 @@ void draw(const Figure& figure, const Page& page, PageCanvas& sheet) {
                             "its labels; make it {}",
                             figure.name, page.width, page.height, layout.is_narrow() ? "wider" : "higher"));
     }
-}
-
-std::string data_csv(const Figure& figure) {
-    std::string out = "panel,series,x_quantity,x,y_quantity,y,value\n";
-    int number = 0;
-    for (const Panel& panel : figure.panels) {
-        ++number;
-        add_panel(out, panel, !panel.letter.empty() ? panel.letter : std::to_string(number));
-    }
-    return out;
 }
 
 static std::string words_of(const Panel& p) {

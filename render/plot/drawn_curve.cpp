@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <set>
 #include <utility>
 
@@ -36,27 +35,18 @@ std::vector<Item> taken(const std::vector<std::size_t>& indices, const std::vect
 
 }  // namespace
 
-Color color_of(const Series& s) { return s.color.value_or(look(s.look).color); }
-
-Pen curve_pen(const Series& s, const PrintStyle& style) {
-    const double width = style.line * s.weight * (s.faded ? 0.7 : 1);
-    Pen pen{color_of(s), width, s.solid ? std::vector<double>() : dashes(look(s.look).dash, width), Cap::butt};
-    if (s.faded) pen.color = pale(pen.color);
-    return pen;
-}
-
-void draw_marker(PageCanvas& sheet, const PrintStyle& style, Marker shape, Vec2 p, double r, Color color, bool hollow) {
+void draw_marker(Painter& on, const PlotStyle& style, Marker shape, Vec2 p, double r, Color color, bool hollow) {
     const auto polygon = [&](std::initializer_list<Vec2> corners) {
         bool first = true;
         for (const Vec2 c : corners) {
-            first ? sheet.move_to(p + c * r) : sheet.line_to(p + c * r);
+            first ? on.move_to(p + c * r) : on.line_to(p + c * r);
             first = false;
         }
-        sheet.close();
+        on.close();
     };
     switch (shape) {
         case Marker::circle:
-            sheet.circle(p, r);
+            on.circle(p, r);
             break;
         case Marker::square:
             polygon({{-0.9, -0.9}, {0.9, -0.9}, {0.9, 0.9}, {-0.9, 0.9}});
@@ -71,29 +61,21 @@ void draw_marker(PageCanvas& sheet, const PrintStyle& style, Marker shape, Vec2 
             polygon({{0, 1.2}, {1.1, -0.8}, {-1.1, -0.8}});
             break;
         case Marker::cross:
-            sheet.move_to(p + Vec2{-r, -r});
-            sheet.line_to(p + Vec2{r, r});
-            sheet.move_to(p + Vec2{-r, r});
-            sheet.line_to(p + Vec2{r, -r});
-            return sheet.stroke({color, style.line, {}, Cap::butt});
+            on.move_to(p + Vec2{-r, -r});
+            on.line_to(p + Vec2{r, r});
+            on.move_to(p + Vec2{-r, r});
+            on.line_to(p + Vec2{r, -r});
+            return on.stroke({color, style.line, {}, Cap::butt});
     }
-    if (!hollow) return sheet.fill(color);
-    sheet.fill_keeping_path(kWhite);
-    sheet.stroke({color, 0.8 * style.line, {}, Cap::butt});
+    if (!hollow) return on.fill(color);
+    on.fill_keeping_path(kWhite);
+    on.stroke({color, 0.8 * style.line, {}, Cap::butt});
 }
 
-DrawnCurve::DrawnCurve(const Series& s, const PlotAxes& axes, double grain) : series_(&s) {
-    const Box& plot = axes.plot();
-    const std::size_t count = std::min(s.x.size(), s.y.size());
-    points_.reserve(count);
-    for (std::size_t i = 0; i < count; ++i) {
-        Vec2 p = axes.at(s.x[i], s.y[i], s.right);
-        // Clamped: Cairo's numbers are limited, and points far beyond the plot are invisible.
-        p.x = std::clamp(p.x, plot.x - 20 * plot.w, plot.right() + 20 * plot.w);
-        p.y = std::clamp(p.y, plot.y - 20 * plot.h, plot.bottom() + 20 * plot.h);
-        points_.push_back(p);
-    }
-    for (std::size_t i = 0; i < std::min(count, s.value.size()); ++i) value_.push_back(axes.color_share(s.value[i]));
+DrawnCurve::DrawnCurve(const Series& s, const Plot& plot, double grain)
+    : series_(&s), points_(plot.points(s.x, s.y, s.right)) {
+    const std::size_t count = points_.size();
+    for (std::size_t i = 0; i < std::min(count, s.value.size()); ++i) value_.push_back(plot.color_share(s.value[i]));
     if (s.line && !s.every_point) lighten(grain);
 }
 
@@ -129,12 +111,12 @@ void DrawnCurve::thin_out_tones(const std::vector<std::size_t>& kept) {
     }
 }
 
-void DrawnCurve::draw(const PrintStyle& style, PageCanvas& sheet) const {
+void DrawnCurve::draw(const PlotStyle& style, PageCanvas& on) const {
     if (!series_->line) return;
-    value_.empty() ? draw_line(style, sheet) : draw_tones(style, sheet);
+    value_.empty() ? draw_line(style, on) : draw_tones(style, on);
 }
 
-void DrawnCurve::draw_tones(const PrintStyle& style, PageCanvas& sheet) const {
+void DrawnCurve::draw_tones(const PlotStyle& style, PageCanvas& on) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
     // One stroke for each colour; 48 steps look continuous.
@@ -144,7 +126,7 @@ void DrawnCurve::draw_tones(const PrintStyle& style, PageCanvas& sheet) const {
         return std::isfinite(v) ? static_cast<int>(std::lround(std::clamp(v, 0.0, 1.0) * kColorSteps)) : -1;
     };
     pen.dash.clear();
-    const double apart = 2 * sheet.grain();
+    const double apart = 2 * on.grain();
     for (std::size_t i = 0; i + 1 < points_.size();) {
         const int tone = step(i);
         std::vector<Vec2> piece{points_[i]};
@@ -157,31 +139,23 @@ void DrawnCurve::draw_tones(const PrintStyle& style, PageCanvas& sheet) const {
         if (tone >= 0) {
             pen.color = map_color(static_cast<double>(tone) / kColorSteps);
             pen.cap = Cap::round;
-            sheet.polyline(piece);
-            sheet.stroke(pen);
+            on.polyline(piece);
+            on.stroke(pen);
         }
         i = k;
     }
 }
 
-void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
+void DrawnCurve::draw_line(const PlotStyle& style, Painter& on) const {
     const Series& s = *series_;
     Pen pen = curve_pen(s, style);
-    const std::vector<Vec2>& line = s.every_point ? points_ : line_;
-    if (pen.dash.empty()) {
-        sheet.curve(line, pen);
-    } else {
-        const DashedCurve pieces =
-            without_dashes_in_spikes(line, std::accumulate(pen.dash.begin(), pen.dash.end(), 0.0));
-        sheet.curve(pieces.dashed, pen);
-        pen.dash.clear();
-        if (!pieces.solid.empty()) sheet.curve(pieces.solid, pen);
-    }
+    stroke_curve(on, s.every_point ? points_ : line_, pen);
+    pen.dash.clear();
     for (const std::vector<Vec2>& band : bands_) {
-        sheet.polyline(band);
-        sheet.close();
-        sheet.fill_keeping_path(pen.color);
-        sheet.stroke(pen);
+        on.polyline(band);
+        on.close();
+        on.fill_keeping_path(pen.color);
+        on.stroke(pen);
     }
     // A single point draws no line and gets a marker.
     std::size_t finite = 0;
@@ -189,10 +163,10 @@ void DrawnCurve::draw_line(const PrintStyle& style, PageCanvas& sheet) const {
     for (const Vec2 p : points_)
         if (std::isfinite(p.x + p.y)) ++finite, only = p;
     if (finite == 1 && !s.every_point)
-        draw_marker(sheet, style, look(s.look).marker, only, style.marker, pen.color, false);
+        draw_marker(on, style, look(s.look).marker, only, style.marker, pen.color, false);
 }
 
-void DrawnCurve::draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const {
+void DrawnCurve::draw_markers(const Box& plot, const PlotStyle& style, Painter& on) const {
     const Series& s = *series_;
     if (!s.every_point) return;
     const bool toned = !value_.empty();
@@ -202,9 +176,9 @@ void DrawnCurve::draw_markers(const Box& plot, const PrintStyle& style, PageCanv
         const Vec2 p = points_[i];
         if (!seen[i] || !std::isfinite(p.x + p.y) || !inside(plot, p, 0.5)) continue;
         if (!toned)
-            draw_marker(sheet, style, look(s.look).marker, p, style.marker, curve_pen(s, style).color, s.look % 2 == 1);
+            draw_marker(on, style, look(s.look).marker, p, style.marker, curve_pen(s, style).color, s.look % 2 == 1);
         else if (std::isfinite(value_[i]))
-            draw_marker(sheet, style, look(s.look).marker, p, 0.8 * style.marker, map_color(value_[i]), false);
+            draw_marker(on, style, look(s.look).marker, p, 0.8 * style.marker, map_color(value_[i]), false);
     }
 }
 

@@ -1,27 +1,27 @@
-// A series on the page, reduced to its visible detail: a line, bands where it oscillates fast, colours, markers.
+// A series on a page, reduced to its visible detail: a line, bands where it oscillates fast, colours, markers.
 #pragma once
 
 #include <vector>
 
-#include "render/plot/plot_axes.hpp"
+#include "render/plot/plot.hpp"
 
 namespace beamcam::render::figure {
 
 class DrawnCurve {
   public:
-    DrawnCurve(const Series& series, const PlotAxes& axes, double grain);
+    DrawnCurve(const Series& series, const Plot& plot, double grain);
 
     const Series& series() const { return *series_; }
     const std::vector<Vec2>& points() const { return points_; }  // on the sheet
-    void draw(const PrintStyle& style, PageCanvas& sheet) const;
+    void draw(const PlotStyle& style, PageCanvas& on) const;
     // Those in the plot; at its edge they extend over the frame.
-    void draw_markers(const Box& plot, const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_markers(const Box& plot, const PlotStyle& style, Painter& on) const;
 
   private:
     void lighten(double grain);
     void thin_out_tones(const std::vector<std::size_t>& kept);
-    void draw_tones(const PrintStyle& style, PageCanvas& sheet) const;
-    void draw_line(const PrintStyle& style, PageCanvas& sheet) const;
+    void draw_tones(const PlotStyle& style, PageCanvas& on) const;
+    void draw_line(const PlotStyle& style, Painter& on) const;
 
     const Series* series_;
     std::vector<Vec2> points_;
@@ -30,10 +30,7 @@ class DrawnCurve {
     std::vector<double> value_;             // colour shares, for curves with values
 };
 
-Pen curve_pen(const Series& series, const PrintStyle& style);
-Color color_of(const Series& series);
-void draw_marker(PageCanvas& sheet, const PrintStyle& style, Marker shape, Vec2 at, double radius, Color color,
-                 bool hollow);
+void draw_marker(Painter& on, const PlotStyle& style, Marker shape, Vec2 at, double radius, Color color, bool hollow);
 inline bool inside(const Box& b, Vec2 p, double slack = 0) { return b.contains({p.x, p.y, 0, 0}, slack); }
 
 }  // namespace beamcam::render::figure

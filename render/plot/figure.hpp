@@ -28,6 +28,12 @@ struct Series {
     double weight = 1;                // of the line
     std::optional<Color> color = {};  // instead of the look's
     std::vector<double> value = {};   // colours the curve by the panel's colour bar; same length as x
+    // Of films: the area below it is filled; colour in the future; dashes [design px]; intervals of x, ascending, in
+    // which the past has the colour `pale`.
+    bool filled = false;
+    Color faint = {}, pale = {};
+    std::vector<double> dash = {};
+    std::vector<Range> pale_within = {};
     void add(double at_x, double at_y) { x.push_back(at_x), y.push_back(at_y); }
 };
 
@@ -35,6 +41,18 @@ struct Band {  // between two curves
     std::string label = {};
     std::vector<double> x = {}, low = {}, high = {};
     int look = 0;
+    std::optional<Color> color = {};  // instead of the look's, paler
+    Color faint = {};                 // of films: in the future
+};
+struct Dot {
+    double x = 0, y = 0;
+    Color color = {}, faint = {};  // faint: in the future
+};
+// A tick on the x axis at an instant of the past, in one of the lanes above each other.
+struct EventTick {
+    double x = 0;
+    Color color = {};
+    int lane = 0, lanes = 1;
 };
 // Points that are too many for marks: drawn as dots, or as an image of their density.
 struct Cloud {
@@ -124,6 +142,8 @@ struct Panel {
     std::vector<Band> bands = {};
     std::vector<Cells> cells = {};
     std::vector<Cloud> clouds = {};
+    std::vector<Dot> dots = {};
+    std::vector<EventTick> events = {};
     std::vector<Swatch> swatches = {};
     std::vector<Span> spans = {};
     std::vector<Rule> rules = {};
@@ -150,7 +170,7 @@ struct Figure {
 
 struct Page {
     double width = 90, height = 60;  // [mm]
-    PrintStyle style;
+    PlotStyle style;
 };
 // The page for a figure in a column, or of another width [mm].
 Page page_of(const Figure& figure, const Column& column, std::optional<double> width = {});

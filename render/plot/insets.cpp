@@ -41,7 +41,7 @@ std::vector<std::pair<Vec2, Vec2>> connectors(const Box& from, const Box& plot) 
 
 // The frame of the enlarged part, never smaller than 4 pt.
 Box PanelDrawing::shown_enlarged(const Inset::Source& source) const {
-    const Vec2 a = at(source.x_from, source.y_from), b = at(source.x_to, source.y_to);
+    const Vec2 a = plot_.at(source.x_from, source.y_from), b = plot_.at(source.x_to, source.y_to);
     const Box box{std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)};
     return box.inset(-std::max({0.0, 4 - box.w, 4 - box.h}) / 2);
 }
@@ -54,7 +54,7 @@ double PanelDrawing::place_insets() {
         std::optional<PlacedInset> placed;
         for (const double share : {1.0, 0.9, 0.8, 0.7}) {
             // With its numbers and labels.
-            const double w = share * inset.width * plot_.w, h = share * inset.height * plot_.h;
+            const double w = share * inset.width * plot_.box().w, h = share * inset.height * plot_.box().h;
             const Margins m =
                 PanelDrawing(inset.panel.front(), style_, sheet_, w, h, true, what_ + ", inset").margins();
             const Place place = best_place(*taken_, w + m.left + m.right, h + m.top + m.bottom, 2 * style_.gap);
@@ -81,7 +81,7 @@ std::deque<PanelDrawing> PanelDrawing::draw_inset_backgrounds() const {
         PanelDrawing& inner =
             out.emplace_back(panel_.insets[i].panel.front(), style_, sheet_, width, height, true, what_ + ", inset");
         if (!inner.place(without(outer, inner.margins()))) inner.place(without(outer, inner.margins()));
-        const Box& plot = inner.plot_;
+        const Box& plot = inner.plot_.box();
         sheet_.rectangle(outer);
         sheet_.fill(kWhite);
         if (const auto& source = panel_.insets[i].source) {

@@ -8,7 +8,7 @@ namespace {
 constexpr double kSampleLength = 2.6, kRow = 1.35;  // length of a line, height of an entry, in letters
 }  // namespace
 
-LegendBox::LegendBox(const Panel& panel, const PrintStyle& style, PageCanvas& sheet)
+LegendBox::LegendBox(const Panel& panel, const PlotStyle& style, PageCanvas& sheet)
     : panel_(panel), style_(style), sheet_(sheet) {
     const auto add = [&](const std::string& label, const Series* series, Color color, bool dots) {
         if (!label.empty()) entries_.push_back({label, series, color, dots});

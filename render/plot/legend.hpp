@@ -12,7 +12,7 @@ inline constexpr double kFewCells = 1.5;  // cells that a label may touch withou
 
 class LegendBox {
   public:
-    LegendBox(const Panel& panel, const PrintStyle& style, PageCanvas& sheet);
+    LegendBox(const Panel& panel, const PlotStyle& style, PageCanvas& sheet);
 
     std::size_t entries() const { return entries_.size(); }
     bool place_inside(OccupancyGrid& taken);  // false: no room; from now on it is above the plot
@@ -36,7 +36,7 @@ class LegendBox {
     void draw_sample(const Entry& entry, Vec2 left, double width) const;
 
     const Panel& panel_;
-    const PrintStyle& style_;
+    const PlotStyle& style_;
     PageCanvas& sheet_;
     std::vector<Entry> entries_;
     bool above_ = false;

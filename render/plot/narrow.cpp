@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace beamcam::render {
 namespace {
@@ -54,6 +55,15 @@ DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double per
         open = &piece;
     }
     return out;
+}
+
+void stroke_curve(Painter& on, const std::vector<Vec2>& points, Pen pen) {
+    if (pen.dash.empty()) return on.curve(points, pen);
+    const DashedCurve pieces = without_dashes_in_spikes(points, std::accumulate(pen.dash.begin(), pen.dash.end(), 0.0));
+    on.curve(pieces.dashed, pen);
+    if (pieces.solid.empty()) return;
+    pen.dash.clear();
+    on.curve(pieces.solid, pen);
 }
 
 }  // namespace beamcam::render

@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "render/draw/geometry.hpp"
+#include "render/draw/painter.hpp"
 
 namespace beamcam::render {
 
@@ -15,5 +15,8 @@ struct DashedCurve {
 // A piece is solid if the curve within one `period` of its dashes, measured along x, is more than three periods long.
 // Curves that are not functions of x stay dashed.
 DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double period);
+
+// Strokes a curve, dashed by the pen except in narrow spikes.
+void stroke_curve(Painter& on, const std::vector<Vec2>& points, Pen pen);
 
 }  // namespace beamcam::render

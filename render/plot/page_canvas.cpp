@@ -95,10 +95,7 @@ void PageCanvas::curve(std::span<const Vec2> points, const Pen& pen) {
     // Cairo's rasterizer tracks all edges of a path in every row, so a long path is drawn in pieces, whose round ends
     // are the joins. A vector file keeps the path whole.
     constexpr std::size_t kLongPath = 10'000, kPointsOfAPiece = 128;  // points
-    if (medium_ != Medium::png || points.size() <= kLongPath || !pen.dash.empty()) {
-        polyline(points);
-        return stroke(pen);
-    }
+    if (medium_ != Medium::png || points.size() <= kLongPath || !pen.dash.empty()) return Painter::curve(points, pen);
     const Pen part{pen.color, pen.width, {}, Cap::round};
     for (std::size_t from = 0; from + 1 < points.size(); from += kPointsOfAPiece - 1) {
         polyline(points.subspan(from, std::min(kPointsOfAPiece, points.size() - from)));

@@ -49,13 +49,11 @@ class PageCanvas : public Painter {
     double grain() const;  // the smallest distance that shows [pt]
 
     void gradient(const Box& box, std::span<const Color> bottom_to_top);
-    // A line through any number of points; NaN breaks it.
-    void curve(std::span<const Vec2> points, const Pen& pen);
+    void curve(std::span<const Vec2> points, const Pen& pen) override;
 
     // The box that the text takes, turned text included.
     Box text(Vec2 at, std::string_view markup, const TextStyle& style) override;
     Box measure(std::string_view markup, const TextStyle& style) const override;
-    double cap_height(double size) const { return render::cap_height(fonts_->typefaces(), size); }
 
     // The texts that were drawn, for tests.
     struct Written {

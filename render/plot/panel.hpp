@@ -1,4 +1,4 @@
-// A panel on a page: axes, curves, legend, and labels that avoid them.
+// A panel on a page: a plot with its legend, its insets, and labels that avoid the curves.
 #pragma once
 
 #include <array>
@@ -7,13 +7,14 @@
 #include <vector>
 
 #include "render/plot/legend.hpp"
+#include "render/plot/panel_names.hpp"
 
 namespace beamcam::render::figure {
 
 class PanelDrawing {
   public:
     // `width`, `height`: about the size of the plot; `lowest`: this panel shows the numbers and label of x.
-    PanelDrawing(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, double width, double height,
+    PanelDrawing(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, double width, double height,
                  bool lowest, const std::string& what);
 
     // Room that numbers, labels, colour bar and a legend above need around the plot.
@@ -32,7 +33,7 @@ class PanelDrawing {
         std::optional<std::pair<Vec2, Vec2>> leader;
     };
 
-    Vec2 at(double x, double y, bool right = false) const { return axes_.at(x, y, right); }
+    void fit(double width, double height);
     void make_curves();
     std::array<Vec2, 2> ends(const Rule& rule) const;
     double place_boxes(bool legend_first);
@@ -50,12 +51,12 @@ class PanelDrawing {
     std::deque<PanelDrawing> draw_inset_backgrounds() const;  // returns the insets, to be drawn
 
     const Panel& panel_;
-    const PrintStyle& style_;
+    const PlotStyle& style_;
     PageCanvas& sheet_;
     std::string what_;
-    PlotAxes axes_;
+    Plot plot_;
+    PanelNames names_;
     LegendBox legend_;
-    Box plot_;
     std::vector<DrawnCurve> curves_;
     std::optional<OccupancyGrid> taken_;
     std::optional<OccupancyGrid> data_;  // of the curves alone
@@ -69,6 +70,6 @@ class PanelDrawing {
 };
 
 // A panel of shapes, without axes, within the box.
-void draw_shapes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, const Box& box);
+void draw_shapes(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, const Box& box);
 
 }  // namespace beamcam::render::figure

@@ -20,12 +20,12 @@ Bounds bounds_of(const std::vector<Shape>& shapes) {
     return all;
 }
 
-TextStyle lettering_of(const Shape& s, const PrintStyle& style) {
+TextStyle lettering_of(const Shape& s, const PlotStyle& style) {
     return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
 // How far labels extend beyond the box to the left and to the right.
-Vec2 beyond(const std::vector<Shape>& shapes, const PrintStyle& style, PageCanvas& sheet, const Camera& camera,
+Vec2 beyond(const std::vector<Shape>& shapes, const PlotStyle& style, PageCanvas& sheet, const Camera& camera,
             const Box& box) {
     Vec2 out{0, 0};
     for (const Shape& s : shapes) {
@@ -41,7 +41,7 @@ Vec2 beyond(const std::vector<Shape>& shapes, const PrintStyle& style, PageCanva
     return out;
 }
 
-void draw_one(const Shape& s, const PrintStyle& style, PageCanvas& sheet, const Camera& camera) {
+void draw_one(const Shape& s, const PlotStyle& style, PageCanvas& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
     const Pen pen{s.color, width, dashes(s.dash, width), Cap::butt};
     const double radius = s.radius_points > 0 ? s.radius_points : s.radius * camera.scale;
@@ -86,7 +86,7 @@ void draw_one(const Shape& s, const PrintStyle& style, PageCanvas& sheet, const 
 
 }  // namespace
 
-void draw_shapes(const Panel& panel, const PrintStyle& style, PageCanvas& sheet, const Box& box) {
+void draw_shapes(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, const Box& box) {
     const Bounds world = bounds_of(panel.shapes);
     if (!(std::isfinite(world.x0 + world.x1 + world.y0 + world.y1) && world.x1 > world.x0 && world.y1 > world.y0))
         throw PictureError("the schematic has no extent: its lengths are zero or not finite");

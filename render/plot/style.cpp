@@ -39,13 +39,12 @@ constexpr double kPalestShare = 0.12;  // of the map, left out
 struct Lab {
     double lightness = 0, a = 0, b = 0;
 };
-double linear(double c) { return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4); }
 double encoded(double c) {
     const double part = std::clamp(c, 0.0, 1.0);
     return part <= 0.0031308 ? 12.92 * part : 1.055 * std::pow(part, 1 / 2.4) - 0.055;
 }
 Lab lab_of(Color c) {
-    const double red = linear(c.r), green = linear(c.g), blue = linear(c.b);
+    const double red = linear_light(c.r), green = linear_light(c.g), blue = linear_light(c.b);
     const double l = std::cbrt(0.4122214708 * red + 0.5363325363 * green + 0.0514459929 * blue),
                  m = std::cbrt(0.2119034982 * red + 0.6806995451 * green + 0.1073969566 * blue),
                  s = std::cbrt(0.0883024619 * red + 0.2817188376 * green + 0.6299787005 * blue);
@@ -65,8 +64,6 @@ Color color_of(const Lab& lab, double alpha) {
 
 }  // namespace
 
-std::span<const Column> columns() { return kColumns; }
-
 const Column* column_named(std::string_view name) {
     const auto it = std::find_if(kColumns.begin(), kColumns.end(), [&](const Column& c) { return name == c.name; });
     return it == kColumns.end() ? nullptr : &*it;
@@ -78,8 +75,8 @@ std::vector<std::string> column_names() {
     return names;
 }
 
-PrintStyle style_of(const Column& column) {
-    PrintStyle s;
+PlotStyle style_of(const Column& column) {
+    PlotStyle s;
     const double k = column.letters / 8;
     s.letters = column.letters;
     s.numbers = std::max(6.5, 0.94 * column.letters);
@@ -92,11 +89,21 @@ PrintStyle style_of(const Column& column) {
     return s;
 }
 
-PrintStyle scaled(PrintStyle style, double factor) {
+PlotStyle scaled(PlotStyle style, double factor) {
     for (double* size : {&style.letters, &style.numbers, &style.line, &style.frame, &style.tick, &style.minor_tick,
                          &style.gap, &style.marker})
         *size *= factor;
     return style;
+}
+
+PlotStyle film_style(const Palette& palette, double unit, double numbers) {
+    PlotStyle s;
+    s.palette = &palette;
+    s.letters = heading_size(unit, numbers);
+    s.numbers = numbers;
+    s.line = s.unit = unit;
+    s.frame = std::max(1.0, unit);
+    return s;
 }
 
 // After eight colours they repeat with other dashes.
@@ -131,19 +138,11 @@ Color on_dark(Color color) {
                     color.a);
 }
 
-Color map_color(double share) {
-    const double whole = kPalestShare + (1 - kPalestShare) * std::clamp(share, 0.0, 1.0);
-    const double at = whole * (kMap.size() - 1);
-    const auto i = std::min(static_cast<std::size_t>(at), kMap.size() - 2);
-    return mix(kMap[i], kMap[i + 1], at - static_cast<double>(i));
-}
+Color map_color(double share) { return along(kMap, kPalestShare + (1 - kPalestShare) * std::clamp(share, 0.0, 1.0)); }
 
 Color signed_color(double share) {
-    constexpr Color kNeutral = rgb(0xF2F2F2), kNegative = rgb(0x053061), kPaleNegative = rgb(0x4393C3),
-                    kPositive = rgb(0x67001F), kPalePositive = rgb(0xD6604D);
-    const double size = std::min(std::abs(share), 1.0);
-    const Color middle = share < 0 ? kPaleNegative : kPalePositive, far = share < 0 ? kNegative : kPositive;
-    return size < 0.5 ? mix(kNeutral, middle, 2 * size) : mix(middle, far, 2 * size - 1);
+    static constexpr std::array kSigned{rgb(0x053061), rgb(0x4393C3), rgb(0xF2F2F2), rgb(0xD6604D), rgb(0x67001F)};
+    return along(kSigned, 0.5 + 0.5 * share);
 }
 
 }  // namespace beamcam::render::figure

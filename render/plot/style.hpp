@@ -1,7 +1,7 @@
-// The style of figures: column widths of journals, sizes of type and lines, colours and dashes, the colour map.
+// The style of plots: column widths of journals, sizes of type and lines, colours and dashes, the colour map.
 #pragma once
 
-#include <span>
+#include <algorithm>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,14 +20,16 @@ struct Column {
     double height = 0;  // [mm]; 0: by the figure
     const char* whose = "";
 };
-std::span<const Column> columns();
 const Column* column_named(std::string_view name);  // nullptr: none
 std::vector<std::string> column_names();
 
 inline constexpr Color kInk = rgb(0x000000), kMuted = rgb(0x555555), kWhite = rgb(0xFFFFFF);
 
-// Sizes that follow from the column [pt].
-struct PrintStyle {
+// How plots are drawn: on a page, whose sizes follow from the column [pt], or in a film [px].
+struct PlotStyle {
+    const Palette* palette = nullptr;  // of a film; null: a page
+    double unit = 1;                   // pt, or a design pixel
+
     double letters = 8;    // axis titles, legends, notes
     double numbers = 7.5;  // at the ticks
     double line = 1.0;     // curves
@@ -36,10 +38,14 @@ struct PrintStyle {
     double gap = 3;       // between neighbours
     double marker = 2.0;  // radius
     TextStyle words() const { return {.size = letters, .color = kInk}; }
-    TextStyle tick_numbers() const { return {.size = numbers, .color = kInk}; }
+    TextStyle tick_numbers() const { return {.size = numbers, .color = palette ? palette->muted : kInk}; }
 };
-PrintStyle style_of(const Column& column);
-PrintStyle scaled(PrintStyle style, double factor);
+PlotStyle style_of(const Column& column);
+PlotStyle scaled(PlotStyle style, double factor);
+// `numbers`: size of the letters at axes [px].
+PlotStyle film_style(const Palette& palette, double unit, double numbers);
+// The size of headings and readings in films [px].
+inline double heading_size(double unit, double numbers) { return std::max(21 * unit, 1.14 * numbers); }
 
 // The k-th line of a plot: colours of Okabe & Ito (2008), with dashes and markers that distinguish lines in grey.
 enum class Marker { circle, square, triangle, diamond, down, cross };

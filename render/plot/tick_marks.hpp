@@ -2,13 +2,13 @@
 // that point inwards.
 #pragma once
 
-#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
-#include "render/draw/canvas.hpp"
+#include "render/draw/painter.hpp"
+#include "render/draw/text_style.hpp"
 #include "render/plot/axis.hpp"
 
 namespace beamcam::render {
@@ -24,30 +24,10 @@ struct TickStyle {
 };
 void draw_ticks(Painter& painter, std::span<const Tick> ticks, const Box& plot, Side side, const TickStyle& style);
 
-// ---- the axes of charts in films ---------------------------------------------------------------------
-
-// An axis from `low` < `high`, widened to round ends. `symbol`: markup; `unit`: "" for none; `most`: ticks, >= 2.
-AxisMap chart_axis(double low, double high, const std::string& symbol, const std::string& unit, int most);
-
-// Letters of headings and readings are larger than those at axes [px].
-inline double heading_size(double unit, double numbers) { return std::max(21 * unit, 1.14 * numbers); }
-
-// The common style of the charts of a film.
-struct ChartStyle {
-    const Palette& palette;
-    double unit;     // [px] of a design pixel
-    double numbers;  // size of the letters at axes [px]
-
-    double heading() const { return heading_size(unit, numbers); }
-};
-// A grid line at every number of the left axis.
-void draw_levels(Canvas& canvas, const ChartStyle& style, const AxisMap& axis, const Box& plot);
-// The numbers below the plot, and the name of their axis at the right end or before the last number. `across`: grid
-// lines, else short ticks. `moves`: the numbers move with time, so they are not rounded to pixels.
-void draw_numbers_below(Canvas& canvas, const ChartStyle& style, const Box& plot, std::vector<Tick> ticks,
-                        const std::string& name, bool across, bool moves = false);
-
-// Sets the outlines of texts and lines in pictures without paper.
-void outline_on(Canvas& canvas, const Palette& palette, double unit);
+// The middle of the name of an axis in the row of its numbers below the plot: at the right end if the last number
+// leaves room there, otherwise before the last number, as DIN 461 recommends, in place of the number before it if
+// necessary. If the numbers move, those at the right end give way. Omits the numbers that give way.
+double place_name(const Painter& painter, std::vector<Tick>& ticks, const Box& plot, const std::string& name,
+                  const TextStyle& style, double unit, bool moves);
 
 }  // namespace beamcam::render

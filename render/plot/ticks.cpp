@@ -38,9 +38,11 @@ Ticks multiples(double step, double low, double high) {
     Ticks out{.step = step, .decimals = 0, .values = {}};
     const double first = std::ceil(low / step - kRoundingSlack), last = std::floor(high / step + kRoundingSlack);
     for (int i = 0; first + i <= last; ++i) out.values.push_back((first + i) * step + 0.0);
-    out.decimals = std::max(0, -static_cast<int>(std::floor(std::log10(step) + kRoundingSlack)));
+    out.decimals = decimals_of(step);
     return out;
 }
+
+int decimals_of(double step) { return std::max(0, -static_cast<int>(std::floor(std::log10(step) + kRoundingSlack))); }
 
 Ticks ticks(double low, double high, int most) {
     for (double step = round_up_125((high - low) / most);; step = round_up_125(step * 1.5))

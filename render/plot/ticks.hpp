@@ -22,6 +22,7 @@ struct Ticks {
 };
 Ticks ticks(double low, double high, int most);
 Ticks multiples(double step, double low, double high);  // marks at all multiples within [low, high]
+int decimals_of(double step);                           // that distinguish neighbours
 
 struct Range {
     double low = 0, high = 1;

@@ -956,7 +956,7 @@ TEST(Strips, AWindowInAStillHasItsOwnRange) {
         spec.window = window;
         const FilmContext context(std::make_shared<const FilmSetup>(std::move(setup)));
         const ChartContent c = strip_content(context, spec);
-        return c.value.high - c.value.low;
+        return c.values().high - c.values().low;
     };
     EXPECT_LT(range(1, 0.02), 0.3 * range(1, {}));
     EXPECT_LT(range(1, 0.02), range(20, 0.02));

@@ -43,6 +43,15 @@ TEST(Placement, TheFirstFreePlaceIsChosenElseTheLeastCovered) {
     for (const Box& place : places) EXPECT_TRUE(Box(0, 0, 100, 100).contains(place));
 }
 
+TEST(Placement, ABoxGoesWhereNothingIs) {
+    OccupancyGrid taken({0, 0, 100, 100}, 1.5);
+    taken.cover(Box{50, 0, 50, 50});
+    taken.cover(std::vector<Vec2>{{0, 90}, {100, 90}});
+    const Place place = best_place(taken, 30, 20, 2);
+    EXPECT_EQ(place.cost, 0);
+    EXPECT_FALSE(place.box.overlaps({50, 0, 50, 50}));
+}
+
 // Distance of a segment from a box; 0: they touch.
 double distance(Vec2 a, Vec2 b, const Box& box) {
     double least = INFINITY;

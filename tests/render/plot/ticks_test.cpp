@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "render/draw/canvas.hpp"
-#include "render/plot/tick_marks.hpp"
+#include "render/plot/plot.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -89,10 +89,11 @@ TEST(Ticks, TheNameOfTheAxisLeavesTheLastNumber) {
         std::vector<Box> texts;
         canvas.record = &texts;
         const Box plot{50, 10, width, 50};
-        std::vector<Tick> ticks;
-        for (int i = 0; i <= 4; ++i) ticks.push_back({i / 4.0, fixed(i * 0.25, 2)});
-        ticks.push_back({0.9, "", false});  // a minor one
-        draw_numbers_below(canvas, {p, 1, 17}, plot, ticks, "$t$ / s", false);
+        const figure::PlotStyle style = figure::film_style(p, 1, 17);
+        figure::Panel panel{.x = {.label = "$t$ / s", .from = 0, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
+        figure::Plot axes(panel, style, "test");
+        axes.place(canvas, plot);
+        axes.draw_x_axis(canvas);
         ASSERT_EQ(texts.size(), written);
         for (std::size_t i = 0; i < texts.size(); ++i)
             for (std::size_t j = 0; j < i; ++j) EXPECT_FALSE(texts[i].overlaps(texts[j])) << i << ", " << j;

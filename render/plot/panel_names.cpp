@@ -1,0 +1,180 @@
+#include "render/plot/panel_names.hpp"
+
+#include <algorithm>
+#include <numbers>
+
+namespace beamcam::render::figure {
+namespace {
+
+constexpr double kLineStep = 1.25;  // between lines, in letters
+
+// Breaks a label at spaces outside of formulas into lines that fit.
+std::vector<std::string> lines_of(const std::string& markup, double room, const TextStyle& lettering,
+                                  const PageCanvas& sheet) {
+    std::vector<std::string> lines;
+    std::string word;
+    int depth = 0;
+    bool formula = false;
+    const auto end_word = [&] {
+        if (!lines.empty() && sheet.measure(lines.back() + " " + word, lettering).w <= room)
+            lines.back() += " " + word;
+        else if (!word.empty())
+            lines.push_back(word);
+        word.clear();
+    };
+    for (std::size_t i = 0; i < markup.size(); ++i) {
+        const char c = markup[i];
+        if (c == '$') formula = !formula;
+        depth += c == '{' || c == '(' ? 1 : c == '}' || c == ')' ? -1 : 0;
+        if (c == ' ' && !formula && depth == 0) {
+            end_word();
+            continue;
+        }
+        word += c;
+        if (c == '\\' && i + 1 < markup.size()) word += markup[++i];
+    }
+    end_word();
+    return lines;
+}
+
+}  // namespace
+
+// ---- measuring ----------------------------------------------------------------------------------------
+
+PanelNames::Label PanelNames::broken(std::string label, double room) const {
+    if (const std::size_t unit = label.rfind(" / "); unit != std::string::npos)
+        label.replace(unit + 2, 1, "\u00A0");  // not broken after the stroke
+    Label out{lines_of(label, room, style_.words(), sheet_)};
+    if (out.lines.size() > 1) out.beside = static_cast<double>(out.lines.size() - 1) * kLineStep * style_.letters;
+    return out;
+}
+
+double PanelNames::widest(const AxisMap& axis) const {
+    double w = 0;
+    for (const Tick& t : axis.ticks())
+        if (!t.label.empty()) w = std::max(w, sheet_.measure(t.label, style_.tick_numbers()).w);
+    return w;
+}
+
+void PanelNames::fit(const Plot& plot, double width, double height) {
+    x_ = broken(plot.x().label(), 1.1 * width);
+    y_ = broken(plot.y().label(), 1.05 * height);
+    right_ = plot.right() ? broken(plot.right()->label(), 1.05 * height) : Label{};
+    widest_y_ = widest(plot.y());
+    widest_right_ = plot.right() ? widest(*plot.right()) : 0;
+    widest_bar_ = plot.bar() ? widest(*plot.bar()) : 0;
+    drop_ = plot.drop(sheet_);
+    title_ = lines_of(panel_.title, width - (panel_.letter.empty() ? 0 : 2 * style_.letters), style_.words(), sheet_);
+    titles_height_ = 0;
+    if (!panel_.letter.empty() || !panel_.title.empty())
+        titles_height_ = style_.letters + style_.gap +
+                         (std::max(1.0, static_cast<double>(title_.size())) - 1) * kLineStep * style_.letters;
+    margins_ = room_around(plot);
+}
+
+Margins PanelNames::room_around(const Plot& plot) const {
+    const double number = sheet_.cap_height(style_.numbers), letter = style_.letters;
+    Margins m;
+    m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap) +
+             y_.beside;
+    m.bottom = number / 2;
+    if (lowest_) {
+        m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 + drop_ : style_.gap;
+        if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + x_.beside;
+    }
+    m.top = std::max(number / 2 + 0.5, titles_height_);
+    if (!plot.y().common().empty() || (plot.right() && !plot.right()->common().empty()))
+        m.top += style_.numbers + style_.gap;
+    m.right = 1.3 * style_.numbers;  // the last x number overhangs
+    if (plot.right()) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + right_.beside;
+    if (plot.bar() && !panel_.color_bar->hidden)
+        m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;
+    return m;
+}
+
+// ---- drawing ------------------------------------------------------------------------------------------
+
+void PanelNames::draw(const Plot& plot, double top, bool legend_above) const {
+    if (lowest_) draw_label_below(plot);
+    draw_labels_beside(plot);
+    draw_common_factors(plot);
+    draw_titles(plot, top, plot.y().common().empty() && !legend_above);
+    if (plot.bar() && !panel_.color_bar->hidden) draw_color_bar(plot);
+}
+
+void PanelNames::draw_label_below(const Plot& plot) const {
+    const Box& box = plot.box();
+    const std::string& common = plot.x().common();
+    const double number = sheet_.cap_height(style_.numbers) + drop_;
+    if (!panel_.x.label.empty()) {
+        TextStyle l = style_.words();
+        l.align = HAlign::centre, l.valign = VAlign::top;
+        double y = box.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
+        // Clear of the power of ten at the right end.
+        const double beside = common.empty() ? 0 : sheet_.measure(common, style_.tick_numbers()).w + 2 * style_.gap;
+        for (const std::string& line : x_.lines) {
+            const double half = 0.5 * sheet_.measure(line, l).w;
+            const double x = beside > 0 ? std::min(box.centre().x, box.right() - beside - half) : box.centre().x;
+            sheet_.text({x, y}, line, l), y += kLineStep * style_.letters;
+        }
+    }
+    if (common.empty()) return;
+    TextStyle numbers = style_.tick_numbers();
+    numbers.align = HAlign::right, numbers.valign = VAlign::top;
+    sheet_.text({box.right(), box.bottom() + number + 2.4 * style_.gap}, common, numbers);
+}
+
+void PanelNames::draw_labels_beside(const Plot& plot) const {
+    const Box& box = plot.box();
+    const double step = kLineStep * style_.letters;
+    TextStyle l = style_.words();
+    l.align = HAlign::centre;
+    l.turned = std::numbers::pi / 2;
+    double x = box.x - style_.gap - widest_y_ - 1.6 * style_.gap - y_.beside;
+    for (const std::string& line : y_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
+    l.valign = VAlign::top;
+    x = box.right() + style_.gap + widest_right_ + 1.4 * style_.gap;
+    for (const std::string& line : right_.lines) sheet_.text({x, box.centre().y}, line, l), x += step;
+}
+
+void PanelNames::draw_common_factors(const Plot& plot) const {
+    const double y = plot.box().y - style_.gap;
+    TextStyle common = style_.tick_numbers();
+    if (!plot.y().common().empty()) sheet_.text({plot.box().x, y}, plot.y().common(), common);
+    if (!plot.right() || plot.right()->common().empty()) return;
+    common.align = HAlign::right;
+    sheet_.text({plot.box().right(), y}, plot.right()->common(), common);
+}
+
+void PanelNames::draw_titles(const Plot& plot, double top, bool alone) const {
+    const double step = kLineStep * style_.letters;
+    double y = top, x = plot.box().x;
+    if (alone) y = plot.box().y - style_.gap - step * std::max(0.0, static_cast<double>(title_.size()) - 1);
+    TextStyle title = style_.words();
+    if (!panel_.letter.empty()) {
+        title.weight = Weight::bold;
+        x += sheet_.text({x, y}, "(" + panel_.letter + ")", title).w + 0.5 * style_.letters;
+        title.weight = Weight::regular;
+    }
+    for (const std::string& line : title_) sheet_.text({x, y}, line, title), y += step;
+}
+
+void PanelNames::draw_color_bar(const Plot& plot) const {
+    const AxisMap& axis = *plot.bar();
+    const Box bar{plot.box().right() + 2.2 * style_.gap, plot.box().y, 0.9 * style_.letters, plot.box().h};
+    std::vector<Color> colors;
+    for (int k = 0; k <= 32; ++k)
+        colors.push_back(panel_.color_bar->is_signed ? signed_color(k / 16.0 - 1) : map_color(k / 32.0));
+    sheet_.gradient(bar, colors);
+    plot.draw_page_ticks(sheet_, axis, bar, Side::right, true, 0.6 * style_.tick, 0.35 * style_.tick);
+    sheet_.rectangle(bar);
+    sheet_.stroke({kInk, style_.frame, {}, Cap::butt});
+    TextStyle l = style_.words();
+    l.turned = std::numbers::pi / 2;
+    l.align = HAlign::centre, l.valign = VAlign::top;
+    std::string label = axis.label();
+    if (!axis.common().empty()) label += "  (" + axis.common() + ")";
+    sheet_.text({bar.right() + 2.2 * style_.gap + widest_bar_, bar.centre().y}, label, l);
+}
+
+}  // namespace beamcam::render::figure

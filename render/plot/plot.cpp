@@ -1,0 +1,174 @@
+#include "render/plot/plot.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::render::figure {
+namespace {
+
+struct Extents {
+    Extent x, y, right, color;
+};
+Extents extents_of(const Panel& panel) {
+    Extents all;
+    const auto add = [&](std::span<const double> x, std::span<const double> y, bool right = false) {
+        all.x.add(x, panel.x.scale);
+        right ? all.right.add(y, panel.right ? panel.right->scale : panel.y.scale) : all.y.add(y, panel.y.scale);
+    };
+    for (const Series& s : panel.series) {
+        const auto shows = [](double v, Scale scale) { return std::isfinite(v) && (scale == Scale::linear || v > 0); };
+        const Scale vertical = s.right && panel.right ? panel.right->scale : panel.y.scale;
+        // Only points with two valid numbers.
+        for (std::size_t i = 0; i < std::min(s.x.size(), s.y.size()); ++i)
+            if (shows(s.x[i], panel.x.scale) && shows(s.y[i], vertical)) add({&s.x[i], 1}, {&s.y[i], 1}, s.right);
+        all.color.add(s.value, panel.color_bar ? panel.color_bar->scale : Scale::linear);
+    }
+    for (const Band& b : panel.bands) add(b.x, b.low), add(b.x, b.high);
+    for (const Cells& c : panel.cells) add(c.x, c.y);
+    for (const Cloud& c : panel.clouds) add(c.x, c.y);
+    for (const Mark& m : panel.marks) add({&m.x, 1}, {&m.y, 1}, m.right);
+    return all;
+}
+
+}  // namespace
+
+// ---- the choice of ticks ------------------------------------------------------------------------------
+
+void Plot::fit_x(const Painter& on, const Axis& axis, const Extent& data) {
+    const std::string what = what_ + ", horizontal axis";
+    const TextStyle numbers = style_->tick_numbers();
+    if (!style_->palette) {
+        double widest_name = 1;
+        for (const std::string& name : axis.names)
+            widest_name = std::max(widest_name, on.measure(name, numbers).w + style_->gap);
+        const int across = std::clamp(static_cast<int>(width_ / (4.2 * style_->numbers)), 3, 9);
+        x_.emplace(axis, data, axis.names.empty() ? across : static_cast<int>(width_ / widest_name), what);
+        return;
+    }
+    // As many numbers as are apart.
+    const auto most_that_fit = static_cast<int>(width_ / ((axis.grid ? 85 : 75) * style_->unit));
+    for (int most = std::clamp(most_that_fit, 2, axis.grid ? 6 : 7); most >= 2; --most) {
+        x_.emplace(axis, data, most, what);
+        const auto [low, high] = x_->ends();
+        const double wide = on.measure(fixed(high, decimals_of(x_->step())), numbers).w + 14 * style_->unit;
+        if (x_->step() / (high - low) * width_ >= wide) break;
+    }
+}
+
+void Plot::fit(const Painter& on, double width, double height) {
+    width_ = width, height_ = height;
+    const auto [ex, ey, er, eb] = extents_of(*panel_);
+    fit_x(on, panel_->x, ex);
+    const int up = style_->palette
+                       ? std::clamp(static_cast<int>(height / (45 * style_->unit)), 2, panel_->y.grid ? 6 : 5)
+                       : std::clamp(static_cast<int>(height / (2.3 * style_->numbers)), 3, 8);
+    y_.emplace(panel_->y, ey, panel_->y.names.empty() ? up : static_cast<int>(height / (1.3 * style_->numbers)),
+               what_ + ", vertical axis");
+    right_.reset();
+    if (panel_->right) right_.emplace(*panel_->right, er, up, what_ + ", right axis");
+    bar_.reset();
+    if (const auto& bar = panel_->color_bar)
+        bar_.emplace(Axis{.label = bar->label, .scale = bar->scale, .from = bar->from, .to = bar->to, .tight = true},
+                     eb, up, what_ + ", colour bar");
+}
+
+void Plot::show_x(const Painter& on, double from, double to) {
+    Axis axis = panel_->x;
+    axis.from = from, axis.to = to;
+    moves_ = true;
+    fit_x(on, axis, {});
+}
+
+Vec2 Plot::at(double x, double y, bool right) const {
+    const AxisMap& vertical = right && right_ ? *right_ : *y_;
+    return {along_x(x), box_.bottom() - box_.h * vertical.place(y)};
+}
+
+// ---- axes and frame -------------------------------------------------------------------------------------
+
+double Plot::drop(const Painter& on) const {
+    if (!lowest_ || !panel_->x.numbered) return 0;
+    double out = 0;
+    const auto corner = [&](const std::optional<AxisMap>& vertical, bool left) {
+        for (const Tick& below : x_->ticks()) {
+            const double out_of_plot =
+                0.5 * on.measure(below.label, style_->tick_numbers()).w - width_ * (left ? below.at : 1 - below.at);
+            if (below.label.empty() || out_of_plot < 0.6 * style_->gap) continue;
+            for (const Tick& beside : vertical->ticks())
+                if (!beside.label.empty())
+                    out = std::max(out, 0.35 * style_->numbers + 0.5 * on.cap_height(style_->numbers) - style_->gap -
+                                            beside.at * height_);
+        }
+    };
+    corner(y_, true);
+    if (right_) corner(right_, false);
+    return out;
+}
+
+void Plot::draw_page_ticks(Painter& on, const AxisMap& axis, const Box& box, Side side, bool labelled, double major,
+                           double minor) const {
+    TickStyle style{.pen = {kInk, style_->frame, {}, Cap::butt}, .major = major, .minor = minor};
+    if (labelled) style.numbers = style_->tick_numbers();
+    if (labelled && side == Side::bottom) {
+        style.numbers->align = HAlign::centre, style.numbers->valign = VAlign::top;
+        style.beside = {0, style_->gap + drop(on)};
+    } else if (labelled) {
+        style.numbers->align = side == Side::left ? HAlign::right : HAlign::left;
+        style.numbers->valign = VAlign::middle;
+        style.beside = {side == Side::left ? -style_->gap : style_->gap, 0};
+    }
+    draw_ticks(on, axis.ticks(), box, side, style);
+}
+
+void Plot::draw_x_axis(Painter& on) const {
+    if (!style_->palette) {
+        draw_page_ticks(on, *x_, box_, Side::bottom, lowest_, style_->tick, style_->minor_tick);
+        return draw_page_ticks(on, *x_, box_, Side::top, false, style_->tick, style_->minor_tick);
+    }
+    const double u = style_->unit, below = 9 * u + style_->numbers;
+    const bool grid = panel_->x.grid;
+    TextStyle text = style_->tick_numbers();
+    text.align = HAlign::centre;
+    std::vector<Tick> ticks = x_->ticks();
+    const double name_at = place_name(on, ticks, box_, x_->name(), text, u, moves_);
+    if (grid)
+        draw_ticks(
+            on, ticks, box_, Side::top,
+            {.pen = {style_->palette->grid, style_->frame, {}, Cap::butt}, .major = box_.h, .whole_pixels = !moves_});
+    const Box above_axis{box_.x, box_.y, box_.w, box_.h + 0.5};
+    draw_ticks(on, ticks, above_axis, Side::bottom,
+               {.pen = {style_->palette->muted, style_->frame, {}, Cap::butt},
+                .major = grid ? 0 : -6 * u,
+                .numbers = text,
+                .beside = {0, below},
+                .whole_pixels = !moves_});
+    on.text({name_at, above_axis.bottom() + below}, x_->name(), text);
+}
+
+void Plot::draw_y_axis(Painter& on) const {
+    if (!style_->palette) {
+        draw_page_ticks(on, *y_, box_, Side::left, true, style_->tick, style_->minor_tick);
+        return draw_page_ticks(on, right_ ? *right_ : *y_, box_, Side::right, right_.has_value(), style_->tick,
+                               style_->minor_tick);
+    }
+    TextStyle text = style_->tick_numbers();
+    text.align = HAlign::right;
+    draw_ticks(on, y_->ticks(), box_, Side::left,
+               {.pen = {style_->palette->grid, style_->frame, {}, Cap::butt},
+                .major = box_.w,
+                .numbers = text,
+                .beside = {-12 * style_->unit, 6.0 / 17 * style_->numbers},
+                .whole_pixels = true});
+}
+
+void Plot::draw_frame(Painter& on) const {
+    if (style_->palette) {
+        const double axis = box_.bottom() + 0.5;
+        return on.line({box_.x, axis}, {box_.right(), axis},
+                       {style_->palette->muted, std::max(1.0, 1.3 * style_->unit), {}, Cap::butt});
+    }
+    on.rectangle(box_);
+    on.stroke({kInk, style_->frame, {}, Cap::butt});
+}
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,81 @@
+// A plot: its axes with ticks, numbers and frame, and the data between them, on pages and in films.
+//
+// The style decides what differs: a page has a frame with ticks that point inwards; a film has grid lines at the
+// numbers and the name of x among its numbers. Texts around a plot are added by PanelNames on a page and by Chart in a
+// film.
+#pragma once
+
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "render/plot/figure.hpp"
+#include "render/plot/tick_marks.hpp"
+
+namespace beamcam::render::figure {
+
+// Of films: the data of an interval of time, from the last row before it on. The past ends at its end; the future,
+// which is fainter, at the first row after it.
+struct Interval {
+    double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
+    bool past = true;
+};
+
+class Plot {
+  public:
+    // `panel` and `style` must live as long. `lowest`: this panel shows the numbers of x.
+    Plot(const Panel& panel, const PlotStyle& style, std::string what, bool lowest = true)
+        : panel_(&panel), style_(&style), lowest_(lowest), what_(std::move(what)) {}
+
+    void fit(const Painter& on, double width, double height);  // chooses the ticks for a plot of about this size
+    void place(const Painter& on, const Box& box) { box_ = box, fit(on, box.w, box.h); }
+    void move_to(Vec2 corner) { box_.x = corner.x, box_.y = corner.y; }
+    // In films: another interval of x, whose numbers move with time.
+    void show_x(const Painter& on, double from, double to);
+
+    const Box& box() const { return box_; }
+    Vec2 at(double x, double y, bool right = false) const;
+    // On a page clamped, because Cairo's numbers are limited; in films those of an interval, reduced to columns of
+    // pixels.
+    std::vector<Vec2> points(const std::vector<double>& x, const std::vector<double>& y, bool right = false,
+                             const Interval& part = {}) const;
+    double along_x(double x) const { return box_.x + x_->place(x, box_.w); }
+    double along_y(double y) const { return box_.bottom() - box_.h * y_->place(y); }
+    double color_share(double value) const { return bar_ ? bar_->place(value) : 0; }
+    const AxisMap& x() const { return *x_; }
+    const AxisMap& y() const { return *y_; }
+    const std::optional<AxisMap>& right() const { return right_; }
+    const std::optional<AxisMap>& bar() const { return bar_; }
+
+    // How much the numbers below the plot are lowered so that they do not touch those beside it at a corner.
+    double drop(const Painter& on) const;
+    void draw_x_axis(Painter& on) const;
+    void draw_y_axis(Painter& on) const;
+    void draw_frame(Painter& on) const;
+    // Ticks and numbers of a page, which point into `box`.
+    void draw_page_ticks(Painter& on, const AxisMap& axis, const Box& box, Side side, bool labelled, double major,
+                         double minor) const;
+
+    void draw_bands(Painter& on, const Interval& part = {}) const;
+    void draw_dots_and_events(Painter& on, const Interval& part = {}) const;
+    void draw_data(Painter& on, const Interval& part) const;  // both, and curves between them; films
+
+  private:
+    void fit_x(const Painter& on, const Axis& axis, const Extent& data);
+    void draw_curve(Painter& on, const Series& curve, const Interval& part) const;
+
+    const Panel* panel_;
+    const PlotStyle* style_;
+    bool lowest_, moves_ = false;  // moves: the numbers of x
+    std::string what_;
+    std::optional<AxisMap> x_, y_, right_, bar_;
+    Box box_;
+    double width_ = 0, height_ = 0;
+};
+
+Pen curve_pen(const Series& series, const PlotStyle& style);
+Color color_of(const Series& series);
+
+}  // namespace beamcam::render::figure

@@ -1,0 +1,123 @@
+// The data of a plot: bands, curves, dots and events.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "render/plot/narrow.hpp"
+#include "render/plot/plot.hpp"
+#include "render/plot/reduce.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+constexpr double kPastLine = 2.2, kFutureLine = 2;  // of films: widths, and radii of dots [design px]
+constexpr double kPastDot = 2.6, kFutureDot = 2.2;
+}  // namespace
+
+Color color_of(const Series& s) { return s.color.value_or(look(s.look).color); }
+
+Pen curve_pen(const Series& s, const PlotStyle& style) {
+    const double width = style.line * s.weight * (s.faded ? 0.7 : 1);
+    Pen pen{color_of(s), width, s.solid ? std::vector<double>() : dashes(look(s.look).dash, width), Cap::butt};
+    if (s.faded) pen.color = pale(pen.color);
+    return pen;
+}
+
+std::vector<Vec2> Plot::points(const std::vector<double>& x, const std::vector<double>& y, bool right,
+                               const Interval& part) const {
+    std::vector<Vec2> out;
+    const std::size_t rows = std::min(x.size(), y.size());
+    if (!style_->palette) {
+        out.reserve(rows);
+        for (std::size_t i = 0; i < rows; ++i) {
+            const Vec2 p = at(x[i], y[i], right);
+            out.push_back({std::clamp(p.x, box_.x - 20 * box_.w, box_.right() + 20 * box_.w),
+                           std::clamp(p.y, box_.y - 20 * box_.h, box_.bottom() + 20 * box_.h)});
+        }
+        return out;
+    }
+    auto first = std::ranges::lower_bound(x, part.from), last = std::ranges::upper_bound(x, part.to);
+    const bool between = first != last || (first != x.begin() && last != x.end());
+    if (first != x.begin()) --first;
+    const auto begin = static_cast<std::size_t>(first - x.begin());
+    auto count = static_cast<std::size_t>(last - first);
+    const bool more = last != x.end() && between;
+    if (more && !part.past) ++count;
+    out.reserve(count);
+    for (std::size_t i = begin; i < std::min(begin + count, rows); ++i) out.push_back(at(x[i], y[i]));
+    out = column_extremes(out, 1);
+    if (more && part.past && count > 0) {
+        const std::size_t i = begin + count - 1;
+        const double share = (part.to - x[i]) / (x[i + 1] - x[i]), end = y[i] * (1 - share) + y[i + 1] * share;
+        if (share > 0 && !std::isnan(end)) out.push_back(at(part.to, end));
+    }
+    return out;
+}
+
+void Plot::draw_bands(Painter& on, const Interval& part) const {
+    const auto fill = [&](std::vector<Vec2> edge, const std::vector<Vec2>& low, Color color) {
+        if (edge.size() < 2 || low.size() < 2) return;
+        edge.insert(edge.end(), low.rbegin(), low.rend());
+        std::erase_if(edge, [](Vec2 p) { return !std::isfinite(p.x + p.y); });
+        on.polyline(edge);
+        on.close();
+        on.fill(color);
+    };
+    for (const Band& b : panel_->bands)
+        fill(points(b.x, b.high, false, part), points(b.x, b.low, false, part),
+             part.past ? b.color.value_or(pale(look(b.look).color, 0.72)) : b.faint);
+    for (const Series& s : panel_->series) {
+        if (!s.filled) continue;
+        std::vector<Vec2> edge = points(s.x, s.y, false, part), low = edge;
+        for (Vec2& p : low) p.y = box_.bottom();
+        fill(std::move(edge), low, part.past ? color_of(s).faded(0.20) : s.faint.faded(0.35));
+    }
+}
+
+void Plot::draw_curve(Painter& on, const Series& s, const Interval& part) const {
+    Pen pen{{},
+            (part.past ? kPastLine : kFutureLine) * style_->unit,
+            dashes(s.dash, style_->unit),
+            s.dash.empty() ? Cap::round : Cap::butt};
+    const auto piece = [&](double from, double to, Color color) {
+        const Interval within{std::max(from, part.from), std::min(to, part.to), part.past};
+        if (!(within.from < within.to)) return;
+        pen.color = color;
+        stroke_curve(on, points(s.x, s.y, false, within), pen);
+    };
+    if (!part.past) return piece(part.from, part.to, s.faint);
+    // Pale pieces first: a piece begins at the row before its interval, which the strong pieces cover.
+    for (const Range& pale : s.pale_within) piece(pale.low, pale.high, s.pale);
+    double from = part.from;
+    for (const Range& pale : s.pale_within) piece(std::exchange(from, pale.high), pale.low, color_of(s));
+    piece(from, part.to, color_of(s));
+}
+
+void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
+    const auto within = [&](double x) { return x >= part.from && x <= part.to; };
+    const auto color = [&](const Dot& d) { return part.past ? d.color : d.faint; };
+    const double u = style_->unit;
+    const Dot* last = nullptr;  // in the path: translucent dots are filled together, or overlaps would be strong
+    for (const Dot& d : panel_->dots) {
+        if (!within(d.x)) continue;
+        if (last && (color(d) != color(*last) || color(d).a == 1)) on.fill(color(*last));
+        on.circle(at(d.x, d.y), (part.past ? kPastDot : kFutureDot) * u);
+        last = &d;
+    }
+    if (last) on.fill(color(*last));
+    if (!part.past) return;
+    for (const EventTick& event : panel_->events) {
+        if (!within(event.x)) continue;
+        // All lanes share the height of two ticks, so that they stay below the curves.
+        const double x = along_x(event.x), tall = event.lanes == 1 ? 10 * u : std::min(8.0, 20.0 / event.lanes) * u;
+        const double foot = box_.bottom() - 1 - tall * event.lane;
+        on.line({x, foot}, {x, foot - (event.lanes == 1 ? tall : 0.85 * tall)}, {event.color, 1.8 * u, {}, Cap::butt});
+    }
+}
+
+void Plot::draw_data(Painter& on, const Interval& part) const {
+    draw_bands(on, part);
+    for (const Series& curve : panel_->series) draw_curve(on, curve, part);
+    draw_dots_and_events(on, part);
+}
+
+}  // namespace beamcam::render::figure

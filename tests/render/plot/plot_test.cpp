@@ -1,0 +1,79 @@
+// One plot serves pages and films.
+#include "render/plot/plot.hpp"
+
+#include <gtest/gtest.h>
+
+#include "render/draw/canvas.hpp"
+
+namespace beamcam::render::figure {
+namespace {
+
+constexpr Box kBox{40, 20, 200, 100};
+
+Panel rising() {
+    Panel panel{.x = {.from = 0, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
+    panel.series.push_back({.x = {0, 0.25, 0.5, 0.75, 1}, .y = {0, 0.25, 0.5, 0.75, 1}, .color = rgb(0xFF0000)});
+    panel.series.back().faint = rgb(0x00FF00);
+    return panel;
+}
+
+// The columns of a picture with this colour.
+Range columns_with(const Image& image, std::uint32_t color) {
+    Range out{1e9, -1};
+    for (int y = 0; y < image.height; ++y)
+        for (int x = 0; x < image.width; ++x)
+            if ((image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)] & 0xFFFFFF) == color)
+                out = {std::min(out.low, double(x)), std::max(out.high, double(x))};
+    return out;
+}
+
+TEST(Plot, HasTheSamePlacesOnAPageAndInAFilm) {
+    const Panel panel = rising();
+    const Fonts fonts;
+    Image image(300, 160);
+    Canvas canvas(image, fonts);
+    const PlotStyle page = style_of(*column_named("elsevier")), film = film_style(palette(Theme::light), 1, 17);
+    Plot printed(panel, page, "test"), shown(panel, film, "test");
+    printed.place(canvas, kBox), shown.place(canvas, kBox);
+    for (const double x : {0.0, 0.3, 1.0}) EXPECT_DOUBLE_EQ(printed.along_x(x), shown.along_x(x));
+    EXPECT_DOUBLE_EQ(shown.along_x(0.5), 140);
+    EXPECT_DOUBLE_EQ(printed.along_x(1), kBox.right());
+}
+
+// The past ends between two rows at its instant; the future goes on to the next row.
+TEST(Plot, DrawsThePastToItsInstantAndTheFutureFainter) {
+    const Panel panel = rising();
+    const Fonts fonts;
+    const PlotStyle film = film_style(palette(Theme::light), 1, 17);
+    for (const bool past : {true, false}) {
+        Image image(300, 160);
+        {
+            Canvas canvas(image, fonts);
+            Plot plot(panel, film, "test");
+            plot.place(canvas, kBox);
+            plot.draw_data(canvas, {.from = 0.5, .to = 0.6, .past = past});
+        }
+        const Range drawn = columns_with(image, past ? 0xFF0000 : 0x00FF00);
+        EXPECT_NEAR(drawn.low, kBox.x + 0.25 * kBox.w, 2);  // from the row before 0.5 on
+        EXPECT_NEAR(drawn.high, kBox.x + (past ? 0.6 : 0.75) * kBox.w, 2);
+        EXPECT_LT(columns_with(image, past ? 0x00FF00 : 0xFF0000).high, 0);
+    }
+}
+
+// A window moves the curves and its numbers, and no number is before the first instant of the film.
+TEST(Plot, AWindowShowsAnotherIntervalOfTime) {
+    Panel panel = rising();
+    panel.x.first_number = 0;
+    const Fonts fonts;
+    Image image(300, 160);
+    Canvas canvas(image, fonts);
+    const PlotStyle film = film_style(palette(Theme::light), 1, 17);
+    Plot plot(panel, film, "test");
+    plot.place(canvas, kBox);
+    plot.show_x(canvas, -0.5, 0.5);
+    EXPECT_DOUBLE_EQ(plot.along_x(0), kBox.centre().x);
+    for (const Tick& tick : plot.x().ticks()) EXPECT_TRUE(tick.label.empty() || tick.at >= 0.5) << tick.label;
+}
+
+}  // namespace
+}  // namespace beamcam::render::figure
