@@ -22,9 +22,6 @@ bool needs_cjk(std::string_view utf8);
 // symbols, Droid Sans Fallback for Chinese. serif: Liberation Serif for all letters.
 enum class Typefaces { screen, print, serif };
 
-// The height of capitals and digits.
-double cap_height(Typefaces typefaces, double size);
-
 // A font file and the Debian package that contains it; `path` is empty if the file is missing.
 struct FontFile {
     std::string name, package;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "render/base/error.hpp"
+#include "render/draw/painter.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -146,7 +147,7 @@ PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::st
 
 double baseline_of(PangoLayout* layout) { return static_cast<double>(pango_layout_get_baseline(layout)) / PANGO_SCALE; }
 
-double cap_height(Typefaces typefaces, double size) { return typography(typefaces).rules.cap_height * size; }
+double Painter::cap_height(double size) const { return typography(fonts_->typefaces()).rules.cap_height * size; }
 
 SetLabel set_text(const Fonts& fonts, std::string_view markup, const TextStyle& style) {
     constexpr double kLetterTop = 0.76;  // of any letter of a page, relative to its size

@@ -310,6 +310,4 @@ void Painter::write(const SetRun& run, Vec2 at, const TextStyle& style) {
     new_path();
 }
 
-double Painter::cap_height(double size) const { return render::cap_height(fonts_->typefaces(), size); }
-
 }  // namespace beamcam::render

@@ -7,12 +7,10 @@
 
 #include <limits>
 #include <optional>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "render/plot/figure.hpp"
-#include "render/plot/tick_marks.hpp"
 
 namespace beamcam::render::figure {
 
@@ -22,6 +20,8 @@ struct Interval {
     double from = -std::numeric_limits<double>::infinity(), to = std::numeric_limits<double>::infinity();
     bool past = true;
 };
+
+enum class Side { left, right, top, bottom };
 
 class Plot {
   public:
