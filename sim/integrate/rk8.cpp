@@ -22,17 +22,10 @@ using namespace dop853;
 constexpr std::size_t kDenseRows = 7;
 
 // The continuous extension at the share s of the step: y out of its start and seven rows, each of n numbers.
-template <class Row>
-void extend(double s, std::size_t n, const double* start, const Row* rows, double* y) {
-    const double r = 1 - s;
+void extend(double s, std::size_t n, const double* start, const double* rows, double* y) {
     for (std::size_t i = 0; i < n; ++i) {
-        double v = rows[6][i] * s;
-        v = (v + rows[5][i]) * r;
-        v = (v + rows[4][i]) * s;
-        v = (v + rows[3][i]) * r;
-        v = (v + rows[2][i]) * s;
-        v = (v + rows[1][i]) * r;
-        v = (v + rows[0][i]) * s;
+        double v = 0;
+        for (std::size_t k = kDenseRows; k-- > 0;) v = (v + rows[k * n + i]) * (k % 2 ? 1 - s : s);
         y[i] = start[i] + v;
     }
 }
@@ -47,19 +40,17 @@ class StoredRk8 final : public StoredSegment {
         t0 = begin;
         t1 = end;
         start_ = numbers.data();
-        for (std::size_t i = 0; i < kDenseRows; ++i) rows_[i] = numbers.data() + (2 + i) * n_;
     }
     void value(double t, double* y) const override {
         if (t == t1)
             std::copy_n(start_ + n_, n_, y);
         else
-            extend((t - t0) / (t1 - t0), n_, start_, rows_.data(), y);
+            extend((t - t0) / (t1 - t0), n_, start_, start_ + 2 * n_, y);
     }
 
   private:
     std::size_t n_;
     const double* start_ = nullptr;
-    std::array<const double*, kDenseRows> rows_{};
 };
 
 class Rk8 final : public Integrator, private Segment {
@@ -67,7 +58,7 @@ class Rk8 final : public Integrator, private Segment {
     Rk8(Ode& ode, double rtol, double atol)
         : ode_(ode), rtol_(rtol), atol_(atol), n_(static_cast<std::size_t>(ode.size)) {
         for (auto& k : k_) k.assign(n_, 0);
-        for (auto& c : dense_) c.assign(n_, 0);
+        dense_.assign(kDenseRows * n_, 0);
         y_.assign(n_, 0);
         end_.assign(n_, 0);
         work_.assign(n_, 0);
@@ -115,7 +106,7 @@ class Rk8 final : public Integrator, private Segment {
         if (!dense_built_) const_cast<Rk8*>(this)->build_dense();
         out.insert(out.end(), y_.begin(), y_.end());
         out.insert(out.end(), end_.begin(), end_.end());
-        for (const std::vector<double>& row : dense_) out.insert(out.end(), row.begin(), row.end());
+        out.insert(out.end(), dense_.begin(), dense_.end());
         return SegmentKind::rk8;
     }
 
@@ -202,14 +193,14 @@ class Rk8 final : public Integrator, private Segment {
         counters.rhs = counted;
         for (std::size_t i = 0; i < n_; ++i) {
             const double difference = end_[i] - y_[i], bend = h * k_[0][i] - difference;
-            dense_[0][i] = difference;
-            dense_[1][i] = bend;
-            dense_[2][i] = difference - h * k_[12][i] - bend;
+            dense_[i] = difference;
+            dense_[n_ + i] = bend;
+            dense_[2 * n_ + i] = difference - h * k_[12][i] - bend;
             for (std::size_t row = 0; row < 4; ++row) {
                 double sum = 0;
                 for (std::size_t j = 0; j < std::size(kDenseStages); ++j)
                     sum += kD[row][j] * k_[static_cast<std::size_t>(kDenseStages[j])][i];
-                dense_[3 + row][i] = h * sum;
+                dense_[(3 + row) * n_ + i] = h * sum;
             }
         }
     }
@@ -238,8 +229,7 @@ class Rk8 final : public Integrator, private Segment {
     double rtol_, atol_;
     std::size_t n_;
     std::array<std::vector<double>, kAllStages> k_;
-    std::array<std::vector<double>, kDenseRows> dense_;
-    std::vector<double> y_, end_, work_;
+    std::vector<double> y_, end_, work_, dense_;
     double next_ = 0;
     bool dense_built_ = false;
 };

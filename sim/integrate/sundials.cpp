@@ -14,11 +14,12 @@
 #include <sunnonlinsol/sunnonlinsol_fixedpoint.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
@@ -32,27 +33,56 @@
 namespace beamcam::sim {
 namespace {
 
-constexpr int kMaxOrder = 12;  // of Adams; BDF uses 5
-constexpr const char* kBelowRounding = "the tolerance asks for more digits than numbers have";
-constexpr const char* kGaveUp = "the integrator gave up";
-
-// One of the suite's solvers, and its own names for its flags (from malloc).
-struct Suite {
+// One of the suite's solvers by those of its functions that both have.
+struct SolverFunctions {
     const char* name;
-    char* (*flag_name)(long int);
-
-    std::string flag(int value) const {
-        const std::unique_ptr<char, decltype(&std::free)> text(flag_name(value), &std::free);
-        return fmt::format("{}: {}", name, text ? text.get() : std::to_string(value).c_str());
-    }
-    void check(int value, const char* call) const {
-        if (value < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, flag(value)));
-    }
-    StepFailure failure(int value, const char* reason) const {
-        return StepFailure(fmt::format("{} ({})", reason, flag(value)));
-    }
+    char* (*flag_name)(long int);  // from malloc
+    int (*set_user_data)(void*, void*);
+    int (*set_weights)(void*, int (*)(N_Vector, N_Vector, void*));
+    int (*set_most_steps)(void*, long int);
+    int (*restart)(void*, double, N_Vector);
+    int (*set_first_step)(void*, double);
+    int (*set_stop_time)(void*, double);
+    int (*step)(void*, double, N_Vector, double*, int);
+    int (*derivative)(void*, double, int, N_Vector);
+    int (*count_steps)(void*, long int*);
+    int (*count_rejected)(void*, long int*);
+    void (*free)(void**);
 };
-constexpr Suite kCvode{"CVODE", CVodeGetReturnFlagName}, kArkode{"ARKODE", ARKStepGetReturnFlagName};
+constexpr SolverFunctions kCvode{"CVODE",           CVodeGetReturnFlagName, CVodeSetUserData,
+                                 CVodeWFtolerances, CVodeSetMaxNumSteps,    CVodeReInit,
+                                 CVodeSetInitStep,  CVodeSetStopTime,       CVode,
+                                 CVodeGetDky,       CVodeGetNumSteps,       CVodeGetNumErrTestFails,
+                                 CVodeFree},
+    kArkode{
+        "ARKODE",           ARKStepGetReturnFlagName,  ARKStepSetUserData, ARKStepWFtolerances, ARKStepSetMaxNumSteps,
+        ARKStepReset,       ARKStepSetInitStep,        ARKStepSetStopTime, ARKStepEvolve,       ARKStepGetDky,
+        ARKStepGetNumSteps, ARKStepGetNumErrTestFails, ARKStepFree};
+static_assert(CV_ONE_STEP == ARK_ONE_STEP && CV_TOO_MUCH_ACC == ARK_TOO_MUCH_ACC && CV_ERR_FAILURE == ARK_ERR_FAILURE &&
+              CV_RHSFUNC_FAIL == ARK_RHSFUNC_FAIL && CV_FIRST_RHSFUNC_ERR == ARK_FIRST_RHSFUNC_ERR &&
+              CV_REPTD_RHSFUNC_ERR == ARK_REPTD_RHSFUNC_ERR && CV_UNREC_RHSFUNC_ERR == ARK_UNREC_RHSFUNC_ERR);
+
+// Why a step failed, by the flag of either solver.
+const char* reason_of(int flag) {
+    switch (flag) {
+        case CV_TOO_MUCH_ACC:
+            return "the tolerance asks for more digits than numbers have";
+        case CV_ERR_FAILURE:
+            return step_failure_reason(true);
+        case CV_CONV_FAILURE:
+            return "the iteration of an implicit step does not converge, however short the step";
+        case CV_LSETUP_FAIL:
+        case CV_LSOLVE_FAIL:
+            return "the equations of an implicit step have no solution";
+        case CV_RHSFUNC_FAIL:
+        case CV_FIRST_RHSFUNC_ERR:
+        case CV_REPTD_RHSFUNC_ERR:
+        case CV_UNREC_RHSFUNC_ERR:
+            return step_failure_reason(false);
+        default:
+            return "the integrator gave up";
+    }
+}
 
 // Right-hand side and error norm of both solvers.
 struct Callbacks {
@@ -93,12 +123,13 @@ struct Callbacks {
     }
 };
 
-// y_i = Σ_k row(k)_i sᵏ
-template <class Row>
-void horner(double s, std::size_t order, std::size_t n, Row&& row, double* y) {
+// A polynomial of time: its instant of expansion, and the coefficients from the constant on, n numbers each.
+void evaluate_polynomial(std::span<const double> numbers, std::size_t n, double t, double* y) {
+    const double s = t - numbers.front();
+    const std::span<const double> rows = numbers.subspan(1);
     for (std::size_t i = 0; i < n; ++i) {
-        double v = row(order)[i];
-        for (std::size_t k = order; k-- > 0;) v = v * s + row(k)[i];
+        double v = rows[rows.size() - n + i];
+        for (std::size_t k = rows.size() / n - 1; k-- > 0;) v = v * s + rows[k * n + i];
         y[i] = v;
     }
 }
@@ -118,22 +149,46 @@ SUNContext make_context() {
     return context;
 }
 
-// Common to CVODE and ARKODE: vectors, start and end of a step.
-class SundialsSolver : public Integrator, protected Segment {
+#if SUNDIALS_VERSION_MAJOR < 7
+void ignore(int, const char*, const char*, char*, void*) {}  // the same
+#endif
+
+// What both solvers share; the derived class creates the solver's memory and evaluates within a step.
+class SundialsIntegrator : public Integrator, protected Segment {
   public:
-    SundialsSolver(const SundialsSolver&) = delete;
-    SundialsSolver& operator=(const SundialsSolver&) = delete;
+    SundialsIntegrator(const SundialsIntegrator&) = delete;
+    SundialsIntegrator& operator=(const SundialsIntegrator&) = delete;
 
     void start(double t, const double* y) final {
         std::copy_n(y, n_, N_VGetArrayPointer(y_));
         std::copy_n(y, n_, end_.begin());
         t1 = t;
-        collect();
-        if (memory_)
-            restart(t);
-        else
-            set_up(t);
-        first_step(limited(call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_)));
+        if (memory_) {
+            count();
+            check(solver_.restart(memory_, t, y_), "a restart");
+        } else {
+            memory_ = created(t);
+            if (!memory_) throw StepFailure("the integrator could not be set up");
+            check(solver_.set_user_data(memory_, &call_), "the start");
+            check(solver_.set_weights(memory_, &Callbacks::weights), "the tolerances");
+            check(solver_.set_most_steps(memory_, 1000000), "the start");
+        }
+        const double h = call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_);
+        check(solver_.set_first_step(memory_, limited(h)), "the first step");
+    }
+
+    const Segment& step() final {
+        t0 = t1;
+        const bool stops = std::isfinite(stop_) && stop_ > t0;
+        if (stops) check(solver_.set_stop_time(memory_, stop_), "the stop time");
+        double t = t0;
+        const int flag = solver_.step(memory_, stops ? stop_ : t0 + kFarTime, y_, &t, CV_ONE_STEP);
+        if (flag < 0) throw StepFailure(fmt::format("{} ({})", reason_of(flag), text_of(flag)));
+        t1 = t;
+        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+        stepped();
+        count();
+        return *this;
     }
 
     const Segment& shorten(double at) final {
@@ -144,160 +199,130 @@ class SundialsSolver : public Integrator, protected Segment {
     }
 
   protected:
-    SundialsSolver(Ode& ode, double rtol, double atol)
-        : call_{ode, rtol, atol}, n_(static_cast<std::size_t>(ode.size)), context_(make_context()), end_(n_, 0) {
-        y_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
-        work_ = N_VNew_Serial(static_cast<sunindextype>(n_), context_);
-    }
-    ~SundialsSolver() override {
+    SundialsIntegrator(const SolverFunctions& solver, Ode& ode, double rtol, double atol)
+        : solver_(solver),
+          call_{ode, rtol, atol},
+          n_(static_cast<std::size_t>(ode.size)),
+          context_(make_context()),
+          y_(N_VNew_Serial(static_cast<sunindextype>(n_), context_)),
+          work_(N_VNew_Serial(static_cast<sunindextype>(n_), context_)),
+          end_(n_, 0) {}
+    ~SundialsIntegrator() override {
+        if (memory_) solver_.free(&memory_);
         N_VDestroy(y_);
         N_VDestroy(work_);
         SUNContext_Free(&context_);
     }
 
-    bool stops() const { return std::isfinite(stop_) && stop_ > t0; }
-    double target() const { return stops() ? stop_ : t0 + kFarTime; }
-    void reached(double t) {
-        t1 = t;
-        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+    void check(int flag, const char* call) const {
+        if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, text_of(flag)));
     }
-    // Adds the solver's counts to `counters`.
-    virtual void collect() = 0;
-    virtual void set_up(double t) = 0;
-    virtual void restart(double t) = 0;
-    virtual void first_step(double h) = 0;
+    // The k-th derivative.
+    const double* derivative(double t, int k) const {
+        check(solver_.derivative(memory_, t, k, work_), "dense output");
+        return N_VGetArrayPointer(work_);
+    }
 
+    // The solver's memory, with its method; null if there is none.
+    virtual void* created(double t) = 0;
+    virtual void stepped() {}
+    // Numbers of right-hand sides and Jacobians since the last (re)start.
+    virtual IntegratorCounters evaluations() const = 0;
+
+    const SolverFunctions& solver_;
     Callbacks call_;
     std::size_t n_;
     SUNContext context_;
     void* memory_ = nullptr;
-    N_Vector y_ = nullptr, work_ = nullptr;
+    N_Vector y_, work_;
     std::vector<double> end_;
+
+  private:
+    std::string text_of(int flag) const {
+        const std::unique_ptr<char, decltype(&std::free)> text(solver_.flag_name(flag), &std::free);
+        return fmt::format("{}: {}", solver_.name, text ? text.get() : std::to_string(flag).c_str());
+    }
+    void count() {
+        IntegratorCounters now = evaluations();
+        solver_.count_steps(memory_, &now.steps);
+        solver_.count_rejected(memory_, &now.rejected);
+        grow(counters.steps, now.steps, last_.steps);
+        grow(counters.rhs, now.rhs, last_.rhs);
+        grow(counters.rejected, now.rejected, last_.rejected);
+        grow(counters.jacobians, now.jacobians, last_.jacobians);
+    }
+
     IntegratorCounters last_;
 };
 
-class Cvode final : public SundialsSolver {
+class Cvode final : public SundialsIntegrator {
   public:
     Cvode(Method method, Ode& ode, double rtol, double atol)
-        : SundialsSolver(ode, rtol, atol), bdf_(method == Method::cvode_bdf) {
-        for (auto& d : taylor_) d.assign(n_, 0);
-    }
+        : SundialsIntegrator(kCvode, ode, rtol, atol), bdf_(method == Method::cvode_bdf) {}
     ~Cvode() override {
-        if (memory_) CVodeFree(&memory_);
+        CVodeFree(&memory_);  // before what it uses
         if (linear_) SUNLinSolFree(linear_);
         if (matrix_) SUNMatDestroy(matrix_);
         if (nonlinear_) SUNNonlinSolFree(nonlinear_);
     }
 
-    const Segment& step() override {
-        t0 = t1;
-        if (stops()) kCvode.check(CVodeSetStopTime(memory_, stop_), "the stop time");
-        double t = t0;
-        const int flag = CVode(memory_, target(), y_, &t, CV_ONE_STEP);
-        if (flag < 0) throw kCvode.failure(flag, reason(flag));
-        reached(t);
-        int order = 1;
-        kCvode.check(CVodeGetLastOrder(memory_, &order), "the order");
-        order_ = std::min(order, kMaxOrder);
-        base_ = t1;
-        double factorial = 1;
-        for (int k = 0; k <= order_; ++k) {
-            if (k > 0) factorial *= k;
-            kCvode.check(CVodeGetDky(memory_, t1, k, work_), "dense output");
-            const double* d = N_VGetArrayPointer(work_);
-            for (std::size_t i = 0; i < n_; ++i) taylor_[static_cast<std::size_t>(k)][i] = d[i] / factorial;
-        }
-        collect();
-        return *this;
-    }
-
-    void value(double t, double* y) const override {
-        horner(t - base_, static_cast<std::size_t>(order_), n_, [&](std::size_t k) { return taylor_[k].data(); }, y);
-    }
+    void value(double t, double* y) const override { evaluate_polynomial(polynomial_, n_, t, y); }
 
     SegmentKind numbers(std::vector<double>& out) const override {
-        out.push_back(base_);
-        for (int k = 0; k <= order_; ++k) {
-            const std::vector<double>& row = taylor_[static_cast<std::size_t>(k)];
-            out.insert(out.end(), row.begin(), row.end());
-        }
+        out.insert(out.end(), polynomial_.begin(), polynomial_.end());
         return SegmentKind::taylor;
     }
 
   private:
-    static const char* reason(int flag) {
-        switch (flag) {
-            case CV_TOO_MUCH_ACC:
-                return kBelowRounding;
-            case CV_ERR_FAILURE:
-                return step_failure_reason(true);
-            case CV_CONV_FAILURE:
-                return "the iteration of an implicit step does not converge, however short the step";
-            case CV_LSETUP_FAIL:
-            case CV_LSOLVE_FAIL:
-                return "the equations of an implicit step have no solution";
-            case CV_RHSFUNC_FAIL:
-            case CV_FIRST_RHSFUNC_ERR:
-            case CV_REPTD_RHSFUNC_ERR:
-            case CV_UNREC_RHSFUNC_ERR:
-                return step_failure_reason(false);
-            default:
-                return kGaveUp;
-        }
-    }
-
-    void collect() override {
-        if (!memory_) return;
-        long steps = 0, rhs = 0, rejected = 0, jacobians = 0, linear_rhs = 0;
-        CVodeGetNumSteps(memory_, &steps);
-        CVodeGetNumRhsEvals(memory_, &rhs);
-        CVodeGetNumErrTestFails(memory_, &rejected);
-        if (bdf_) {
-            CVodeGetNumJacEvals(memory_, &jacobians);
-            CVodeGetNumLinRhsEvals(memory_, &linear_rhs);
-        }
-        rhs += linear_rhs;
-        grow(counters.steps, steps, last_.steps);
-        grow(counters.rhs, rhs, last_.rhs);
-        grow(counters.rejected, rejected, last_.rejected);
-        grow(counters.jacobians, jacobians, last_.jacobians);
-    }
-
-    void restart(double t) override { kCvode.check(CVodeReInit(memory_, t, y_), "a restart"); }
-    void first_step(double h) override { kCvode.check(CVodeSetInitStep(memory_, h), "the first step"); }
-
-    void set_up(double t) override {
-        memory_ = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
-        if (!memory_) throw StepFailure("the integrator could not be set up");
-        kCvode.check(CVodeInit(memory_, &Callbacks::rhs, t, y_), "the start");
-        kCvode.check(CVodeSetUserData(memory_, &call_), "the start");
-        kCvode.check(CVodeWFtolerances(memory_, &Callbacks::weights), "the tolerances");
-        kCvode.check(CVodeSetMaxNumSteps(memory_, 1000000), "the start");
+    void* created(double t) override {
+        void* memory = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
+        if (!memory) return nullptr;
+        check(CVodeInit(memory, &Callbacks::rhs, t, y_), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
-        // Failures are returned as flags and reported by the caller.
-        kCvode.check(CVodeSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr),
-                     "the start");
+        check(CVodeSetErrHandlerFn(memory, ignore, nullptr), "the start");
 #endif
         if (bdf_) {
             matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
             linear_ = SUNLinSol_Dense(y_, matrix_, context_);
-            kCvode.check(CVodeSetLinearSolver(memory_, linear_, matrix_), "the linear solver");
+            check(CVodeSetLinearSolver(memory, linear_, matrix_), "the linear solver");
         } else {
             nonlinear_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
-            kCvode.check(CVodeSetNonlinearSolver(memory_, nonlinear_), "the nonlinear solver");
+            check(CVodeSetNonlinearSolver(memory, nonlinear_), "the nonlinear solver");
         }
+        return memory;
+    }
+
+    void stepped() override {
+        int order = 1;
+        check(CVodeGetLastOrder(memory_, &order), "the order");
+        polynomial_.assign(1, t1);
+        double factorial = 1;
+        for (int k = 0; k <= order; ++k) {
+            if (k > 0) factorial *= k;
+            const double* d = derivative(t1, k);
+            for (std::size_t i = 0; i < n_; ++i) polynomial_.push_back(d[i] / factorial);
+        }
+    }
+
+    IntegratorCounters evaluations() const override {
+        IntegratorCounters now;
+        long linear = 0;
+        CVodeGetNumRhsEvals(memory_, &now.rhs);
+        if (bdf_) {
+            CVodeGetNumJacEvals(memory_, &now.jacobians);
+            CVodeGetNumLinRhsEvals(memory_, &linear);
+        }
+        now.rhs += linear;
+        return now;
     }
 
     bool bdf_;
     SUNMatrix matrix_ = nullptr;
     SUNLinearSolver linear_ = nullptr;
     SUNNonlinearSolver nonlinear_ = nullptr;
-    std::array<std::vector<double>, kMaxOrder + 1> taylor_;
-    int order_ = 0;
-    double base_ = 0;
+    std::vector<double> polynomial_;
 };
 
-// A stored polynomial of CVODE: the instant of expansion, and the coefficients from the constant on.
 class StoredTaylor final : public StoredSegment {
   public:
     explicit StoredTaylor(int size) : n_(static_cast<std::size_t>(size)) {}
@@ -306,89 +331,38 @@ class StoredTaylor final : public StoredSegment {
             throw std::invalid_argument("a segment of the trajectory has the wrong length");
         t0 = begin;
         t1 = end;
-        base_ = numbers.front();
-        rows_ = numbers.subspan(1);
+        polynomial_ = numbers;
     }
-    void value(double t, double* y) const override {
-        horner(t - base_, rows_.size() / n_ - 1, n_, [&](std::size_t k) { return rows_.data() + k * n_; }, y);
-    }
+    void value(double t, double* y) const override { evaluate_polynomial(polynomial_, n_, t, y); }
 
   private:
     std::size_t n_;
-    double base_ = 0;
-    std::span<const double> rows_;
+    std::span<const double> polynomial_;
 };
 
-class Arkode final : public SundialsSolver {
+class Arkode final : public SundialsIntegrator {
   public:
-    Arkode(Ode& ode, double rtol, double atol) : SundialsSolver(ode, rtol, atol) {}
-    ~Arkode() override {
-        if (memory_) ARKStepFree(&memory_);
-    }
+    Arkode(Ode& ode, double rtol, double atol) : SundialsIntegrator(kArkode, ode, rtol, atol) {}
 
-    const Segment& step() override {
-        t0 = t1;
-        if (stops()) kArkode.check(ARKStepSetStopTime(memory_, stop_), "the stop time");
-        double t = t0;
-        const int flag = ARKStepEvolve(memory_, target(), y_, &t, ARK_ONE_STEP);
-        if (flag < 0) throw kArkode.failure(flag, reason(flag));
-        reached(t);
-        collect();
-        return *this;
-    }
-
-    void value(double t, double* y) const override {
-        if (t == t1) {
-            std::copy(end_.begin(), end_.end(), y);
-            return;
-        }
-        kArkode.check(ARKStepGetDky(memory_, t, 0, work_), "dense output");
-        std::copy_n(N_VGetArrayPointer(work_), n_, y);
-    }
+    void value(double t, double* y) const override { std::copy_n(t == t1 ? end_.data() : derivative(t, 0), n_, y); }
 
   private:
-    static const char* reason(int flag) {
-        switch (flag) {
-            case ARK_TOO_MUCH_ACC:
-                return kBelowRounding;
-            case ARK_ERR_FAILURE:
-                return step_failure_reason(true);
-            case ARK_RHSFUNC_FAIL:
-            case ARK_FIRST_RHSFUNC_ERR:
-            case ARK_REPTD_RHSFUNC_ERR:
-            case ARK_UNREC_RHSFUNC_ERR:
-                return step_failure_reason(false);
-            default:
-                return kGaveUp;
-        }
-    }
-
-    void collect() override {
-        if (!memory_) return;
-        long steps = 0, rhs = 0, implicit = 0, rejected = 0;
-        ARKStepGetNumSteps(memory_, &steps);
-        ARKStepGetNumRhsEvals(memory_, &rhs, &implicit);
-        ARKStepGetNumErrTestFails(memory_, &rejected);
-        grow(counters.steps, steps, last_.steps);
-        grow(counters.rhs, rhs, last_.rhs);
-        grow(counters.rejected, rejected, last_.rejected);
-    }
-
-    void restart(double t) override { kArkode.check(ARKStepReset(memory_, t, y_), "a restart"); }
-    void first_step(double h) override { kArkode.check(ARKStepSetInitStep(memory_, h), "the first step"); }
-
-    void set_up(double t) override {
-        memory_ = ARKStepCreate(&Callbacks::rhs, nullptr, t, y_, context_);
-        if (!memory_) throw StepFailure("the integrator could not be set up");
-        kArkode.check(ARKStepSetUserData(memory_, &call_), "the start");
-        kArkode.check(ARKStepWFtolerances(memory_, &Callbacks::weights), "the tolerances");
-        kArkode.check(ARKStepSetTableNum(memory_, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
-        kArkode.check(ARKStepSetInterpolantDegree(memory_, 5), "dense output");
-        kArkode.check(ARKStepSetMaxNumSteps(memory_, 1000000), "the start");
+    void* created(double t) override {
+        void* memory = ARKStepCreate(&Callbacks::rhs, nullptr, t, y_, context_);
+        if (!memory) return nullptr;
+        check(ARKStepSetTableNum(memory, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
+        check(ARKStepSetInterpolantDegree(memory, 5), "dense output");
 #if SUNDIALS_VERSION_MAJOR < 7
-        kArkode.check(ARKStepSetErrHandlerFn(memory_, [](int, const char*, const char*, char*, void*){}, nullptr),
-                      "the start");
+        check(ARKStepSetErrHandlerFn(memory, ignore, nullptr), "the start");
 #endif
+        return memory;
+    }
+
+    IntegratorCounters evaluations() const override {
+        IntegratorCounters now;
+        long implicit = 0;
+        ARKStepGetNumRhsEvals(memory_, &now.rhs, &implicit);
+        return now;
     }
 };
 
