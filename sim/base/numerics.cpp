@@ -13,6 +13,17 @@ void legendre(double z, int count, double* values) {
     for (int j = 1; j + 1 < count; ++j) values[j + 1] = ((2 * j + 1) * z * values[j] - j * values[j - 1]) / (j + 1);
 }
 
+// P_n⁽ʲ⁾ = P_{n−2}⁽ʲ⁾ + (2n − 1) P_{n−1}⁽ʲ⁻¹⁾
+void legendre(double z, int count, int orders, double* values) {
+    legendre(z, count, values);
+    for (int j = 1; j < orders; ++j) {
+        const double* lower = values;
+        values += count;
+        values[0] = 0;
+        for (int n = 1; n < count; ++n) values[n] = (n > 1 ? values[n - 2] : 0) + (2 * n - 1) * lower[n - 1];
+    }
+}
+
 namespace {
 
 // Nodes on [−1, 1], and 2 over their weights, by Newton's method.

@@ -3,20 +3,6 @@
 #include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-// Legendre polynomials at z and their derivatives up to order kNodes − 1: p[j][n] = P_n^{(j)}(z), from
-// P_{n+1}^{(j)} = P_{n−1}^{(j)} + (2n+1) P_n^{(j−1)}.
-void legendre_derivatives(double z, double p[kNodes][kNodes]) {
-    legendre(z, kNodes, p[0]);
-    for (int j = 1; j < kNodes; ++j) {
-        p[j][0] = 0;
-        p[j][1] = j == 1 ? 1 : 0;
-        for (int n = 1; n + 1 < kNodes; ++n) p[j][n + 1] = p[j][n - 1] + (2 * n + 1) * p[j - 1][n];
-    }
-}
-
-}  // namespace
 
 const Collocation& Collocation::get() {
     static const Collocation instance;
@@ -38,7 +24,7 @@ Collocation::Collocation() {
     }
     for (std::size_t i = 0; i < point.size(); ++i) {
         double p[kNodes][kNodes];
-        legendre_derivatives(2 * point[i] - 1, p);
+        sim::legendre(2 * point[i] - 1, kNodes, kNodes, p[0]);
         double power = 1;
         for (std::size_t j = 0; j < kNodes; ++j, power *= 2) {
             derive[i][j] = Lanes{};
@@ -46,7 +32,7 @@ Collocation::Collocation() {
         }
     }
     double middle[kNodes][kNodes], factorial = 1;
-    legendre_derivatives(0, middle);
+    sim::legendre(0, kNodes, kNodes, middle[0]);
     for (std::size_t j = 0; j < kNodes; ++j, factorial *= static_cast<double>(j)) {
         monomial[j] = Lanes{};
         for (std::size_t n = 0; n < kNodes; ++n) monomial[j] += (middle[j][n] / factorial) * legendre[n];
@@ -64,13 +50,6 @@ Collocation::Collocation() {
         integrate_twice[l] = Lanes{};
         for (std::size_t j = 0; j < kNodes; ++j) integrate_twice[l] += integrate[l][static_cast<int>(j)] * integrate[j];
     }
-}
-
-void Collocation::values_at(double s, Lanes& w) const {
-    double p[kNodes];
-    sim::legendre(2 * s - 1, kNodes, p);
-    w = Lanes{};
-    for (std::size_t j = 0; j < kNodes; ++j) w += p[j] * legendre[j];
 }
 
 // ∫₀ˢ P_j(2u − 1) du = [P_{j+1} − P_{j−1}](2s − 1)/(2(2j+1)), and s for j = 0.

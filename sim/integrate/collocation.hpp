@@ -27,9 +27,8 @@ struct Collocation {
     // monomial[j][l]: nodal values to the coefficient of (2s − 1)ʲ.
     std::array<Lanes, kNodes> monomial;
 
-    // w[l] = ∫₀ˢ ℓ_l and ℓ_l(s), for any s.
+    // w[l] = ∫₀ˢ ℓ_l, for any s.
     void weights_to(double s, Lanes& w) const;
-    void values_at(double s, Lanes& w) const;
 
   private:
     Collocation();

@@ -23,7 +23,7 @@ struct Polynomials {
     Lanes at_start;  // ℓ_l at 0, which is ℓ_{7−l} at 1
     Polynomials() {
         const Collocation& gauss = Collocation::get();
-        gauss.values_at(0, at_start);
+        at_start = gauss.derive[0][0];
         for (int j = 0; j < kNodes; ++j) {
             for (int l = 0; l < kNodes; ++l) coefficients[l][j] = gauss.legendre[static_cast<std::size_t>(j)][l];
             frequency[j] = j < 2 ? 0 : std::sqrt(0.5 * (j - 1) * j * (j + 1) * (j + 2));
