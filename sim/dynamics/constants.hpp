@@ -16,9 +16,9 @@ inline constexpr double kLeastShapeBound = 3;  // bounds all shapes of a beam th
 // ---- the rounding of the gap ----
 // Of the length: ten times the rounding error of the gap. Smaller openings and penetrations are rounding.
 inline constexpr double kGapRounding = 1e-14;
-// Baumgarte rate: kDecayOfVibration of the lowest bending frequency or, of a rigid beam, kDecayOfSwing of √(g/L). So it
-// is slower than vibration and faster than the swing.
-inline constexpr double kDecayOfVibration = 0.1, kDecayOfSwing = 10;
+// Baumgarte rate: kDecayOfVibration of the lowest bending frequency or, of a rigid beam, kDecayOfPendulum of √(g/L). So
+// it is slower than vibration and faster than the pendulum.
+inline constexpr double kDecayOfVibration = 0.1, kDecayOfPendulum = 10;
 inline constexpr double kLeastGravity = 1e-3;  // [m/s²] keeps that rate above zero
 
 // ---- equilibria ----
@@ -37,8 +37,6 @@ inline constexpr double kBalanced = 1e-9;         // of the natural forces: larg
 inline constexpr double kFollowingDifference = 5e-3, kLeavingDifference = 1e-5;
 
 // ---- validation ----
-// The largest number in a scene, in SI units: products of a few such numbers do not overflow.
-inline constexpr double kLargestNumber = 1e30;
 inline constexpr double kLeastFiniteRestitution = 0.01;  // for dissipation laws with D → ∞ as c → 0
 inline constexpr double kStartGap =
     1e-12;  // of the length, at least of 1 m: smaller overlaps at the start are rounding

@@ -158,8 +158,7 @@ std::string step_size_limits(const Problem& p, System& system, const BeamState& 
             fmt::format("the dissipation of this touch is divided by its approach speed of {:.2g} m/s (larger "
                         "contact.approach_floor.value: longer steps)",
                         beam.approach));
-    double ratio = 0.5 * p.beam.kelvin_voigt.value_or(0) * fastest;
-    for (const double z : p.beam.damping_ratio) ratio = std::max(ratio, z);
+    const double ratio = system.damping_ratio();
     if (fastest > 0 && ratio > 1 && p.solver.method != Method::cvode_bdf)
         needs.push_back(
             fmt::format("damping {:.2g} times the critical one needs steps near {:.1g} s (\"method\": "

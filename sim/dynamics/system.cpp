@@ -46,7 +46,7 @@ System::System(const Problem& problem)
     for (int i = 0; i + 1 < n_; ++i) highest_frequency_ = std::max(highest_frequency_, model_->frequency(i));
     baumgarte_rate_ =
         n_ > 1 ? kDecayOfVibration * model_->frequency(0)
-               : kDecayOfSwing * std::sqrt(std::max(kLeastGravity, std::fabs(problem.gravity)) / model_->length());
+               : kDecayOfPendulum * std::sqrt(std::max(kLeastGravity, std::fabs(problem.gravity)) / model_->length());
 }
 
 System::System(const System& other)
@@ -65,6 +65,12 @@ System::System(const System& other)
       highest_frequency_(other.highest_frequency_),
       baumgarte_rate_(other.baumgarte_rate_) {
     search_again();
+}
+
+double System::damping_ratio() const {
+    double ratio = 0.5 * problem_.beam.kelvin_voigt.value_or(0) * highest_frequency_;
+    for (const double z : problem_.beam.damping_ratio) ratio = std::max(ratio, z);
+    return ratio;
 }
 
 void System::set_state(double t, const double* y) {
@@ -288,45 +294,6 @@ void System::current_acceleration(double t, const ContactState& c, double* acc) 
     add_torque(t, acc);
     if (phase_.touching) add_contact_force(c, acc);
     accelerate(t, acc);
-}
-
-System::EnergyBalance System::mechanical_balance(double t, const double* y) {
-    set_state(t, y);
-    const double* ledger = y + controlled;
-    EnergyBalance b;
-    b.energies = model_->energies();
-    b.loss_structural = ledger[kLossStructural];
-    b.loss_contact = ledger[kNormalWork];
-    b.loss_friction = ledger[kFrictionWork];
-    b.work_cam = ledger[kWorkCam];
-    b.work_drive = ledger[kWorkDrive];
-    return b;
-}
-
-System::EnergyBalance System::energy_balance(double t, const double* y, double gap) {
-    EnergyBalance b = mechanical_balance(t, y);
-    b.contact = law_.stored_energy(-gap);
-    b.loss_contact -= b.contact;
-    return b;
-}
-
-System::EnergyBalance System::energy_balance(double t, const double* y) {
-    EnergyBalance b = mechanical_balance(t, y);
-    double normal = 0, bristle_energy = 0;
-    if (phase_.touching) {
-        const ContactState c = current_contact(t, y, false);
-        normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
-        if (has_bristle()) {
-            const bool state = phase_.friction == FrictionState::stick || friction_.lags;
-            const double z = state ? y[2 * n_] : friction_.sliding_bristle(phase_.friction, c.force);
-            bristle_energy = 0.5 * friction_.stiffness * z * z;
-        }
-    }
-    // The work done on the contact is stored or lost (S38).
-    b.contact = normal + bristle_energy;
-    b.loss_contact -= normal;
-    b.loss_friction -= bristle_energy;
-    return b;
 }
 
 }  // namespace beamcam::sim

@@ -100,6 +100,8 @@ class System final : public Ode {
     // Computed when first needed, and shared by copies.
     const NaturalModes& natural_modes() const;
     double highest_frequency() const { return highest_frequency_; }
+    // Of the critical damping: the largest one of a mode.
+    double damping_ratio() const;
     double baumgarte_rate() const { return baumgarte_rate_; }  // of sustained contact (S45) [1/s]
 
     bool inertia_lost() const { return inertia_lost_; }

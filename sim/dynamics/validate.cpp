@@ -12,7 +12,7 @@
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/problem/constants.hpp"
-#include "sim/problem/keys.hpp"
+#include "sim/problem/range_check.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -24,66 +24,6 @@ class Issues {
         list.push_back({std::move(path), std::move(message), false});
     }
     std::vector<Issue> list;
-};
-
-// Checks each number against the range of its key.
-class RangeCheck final : public Visitor {
-  public:
-    RangeCheck(Issues& out, std::string path) : out_(out), path_(std::move(path)) {}
-
-    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) override {
-        in_range(key, value, unit, range);
-    }
-    void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char*,
-                const char*) override {
-        if (value) in_range(key, *value, unit, range);
-    }
-    void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range, const Length&,
-                 const char*) override {
-        (void)std::all_of(values.begin(), values.end(), [&](double x) { return in_range(key, x, unit, range); });
-    }
-    void integer(const Key& key, std::optional<int>& value, int min, int max, const char*) override {
-        if (value && (*value < min || *value > max))
-            out_.error(path(key), fmt::format("must be {} to {}, is {}", min, max, *value));
-    }
-    void boolean(const Key&, bool&, const char*) override {}
-    void text(const Key&, std::string&, const char*) override {}
-    void keyword(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
-    void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
-        RangeCheck inside(out_, path(key) + ".");
-        if (!present || *present) fields(inside);
-    }
-    void alternatives(const std::vector<Alternative>& all) override {
-        for (const Alternative& each : all)
-            if (each.chosen) return each.fields(*this);
-    }
-
-  private:
-    std::string path(const Key& key) const { return path_ + key.name; }
-
-    bool in_range(const Key& key, double value, const Unit& unit, const Range& range) {
-        const bool finite = std::isfinite(value);
-        const bool bounded = std::isfinite(range.max);
-        if (finite && range.contains(value) && (bounded || std::fabs(value) <= kLargestNumber)) return true;
-        out_.error(path(key), problem(value, unit, range, bounded, finite) + range.remedy);
-        return false;
-    }
-    static std::string problem(double value, const Unit& unit, const Range& range, bool bounded, bool finite) {
-        if (bounded) return fmt::format("must lie between {:g} and {:g}, is {:g}", range.min, range.max, value);
-        if (finite && range.contains(value))
-            return fmt::format("must lie within ±{:g}, is {:g}: products of larger numbers overflow", kLargestNumber,
-                               value);
-        if (!std::isfinite(range.min)) return fmt::format("must be a finite number, is {:g}", value);
-        if (!range.exclusive_min) return fmt::format("must not be negative, is {:g}", value);
-        return fmt::format("must be a positive number of {}, is {:g}", unit_name(unit), value);
-    }
-    static std::string unit_name(const Unit& unit) {
-        const std::string symbol = unit.symbol();
-        return symbol == "m" ? "metres" : symbol == "s" ? "seconds" : symbol;
-    }
-
-    Issues& out_;
-    std::string path_;
 };
 
 void check_table(Issues& out, const char* t_path, const char* v_path, const std::vector<double>& t,
@@ -316,9 +256,7 @@ void check_products(Issues& out, const Problem& p) {
 
 std::vector<Issue> validate(const Problem& problem) {
     Issues out;
-    Problem visited = problem;  // visitors take references that may be written to; this one only reads
-    RangeCheck ranges(out, "");
-    visit(ranges, visited);
+    check_ranges(problem, out.list);
     check_hub(out, problem);
     check_beam(out, problem);
     check_contact(out, problem);
@@ -341,6 +279,11 @@ std::vector<Issue> validate(const Problem& problem) {
                     "the paper's equation (4) does not conserve energy (its stiffening uses L cos θ); compare with "
                     "\"first-order\"");
     return std::move(out.list);
+}
+
+void require_valid(const Problem& problem) {
+    for (const Issue& finding : validate(problem))
+        if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
 }
 
 }  // namespace beamcam::sim

@@ -26,8 +26,7 @@ std::optional<std::string> tangent_refusal(const Problem& problem) {
 }
 
 void require_tangents(const Problem& problem) {
-    for (const Issue& finding : validate(problem))
-        if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
+    require_valid(problem);
     if (const auto refusal = tangent_refusal(problem)) throw std::invalid_argument(*refusal);
 }
 

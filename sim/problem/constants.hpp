@@ -17,5 +17,7 @@ inline constexpr double kSpeedOfLight = 299792458;                         // [m
 inline constexpr double kMaxHubRadius = 1e6, kMaxCamSize = 1e9;
 // ω₁√(ρAL⁴/(EI)) of a clamped beam, the square of its first eigenvalue.
 inline constexpr double kFirstClampedFrequency = 3.5160152685;
+// The largest number in a scene, in SI units: products of a few such numbers do not overflow.
+inline constexpr double kLargestNumber = 1e30;
 
 }  // namespace beamcam::sim

@@ -159,4 +159,29 @@ Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<co
 
 void visit(Visitor& v, Problem& problem);
 
+// Visits the numbers that a value has, in the shapes of its objects; `path` is that of a key.
+class NumberVisitor : public Visitor {
+  public:
+    void boolean(const Key&, bool&, const char*) final {}
+    void text(const Key&, std::string&, const char*) final {}
+    void keyword(const Key&, const std::vector<std::string>&, std::size_t&, const char*) final {}
+    void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) final {
+        if (present && !*present) return;
+        const std::string outside = path_;
+        path_ += std::string(key.name) + ".";
+        fields(*this);
+        path_ = outside;
+    }
+    void alternatives(const std::vector<Alternative>& all) final {
+        for (const Alternative& each : all)
+            if (each.chosen) each.fields(*this);
+    }
+
+  protected:
+    std::string path(const Key& key) const { return path_ + key.name; }
+
+  private:
+    std::string path_;
+};
+
 }  // namespace beamcam::sim

@@ -9,54 +9,38 @@ namespace beamcam::sim {
 namespace {
 
 // Visits every number with its path.
-class NumberWalk final : public Visitor {
+class NumberWalk final : public NumberVisitor {
   public:
     using Found = std::function<void(NumberKey, const std::function<bool(double)>& set)>;
     explicit NumberWalk(Found found) : found_(std::move(found)) {}
-    using Visitor::number, Visitor::numbers, Visitor::integer, Visitor::object;
 
     void number(const Key& key, double& value, const Unit& unit, const Range&, const char*) override {
-        found_({path_ + key.name, unit.resolved(), false, value}, [&value](double to) { return value = to, true; });
+        found_({path(key), unit.resolved(), false, value}, [&value](double to) { return value = to, true; });
     }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range&, const char*,
                 const char*) override {
-        found_({path_ + key.name, unit.resolved(), false, value.value_or(std::nan(""))},
+        found_({path(key), unit.resolved(), false, value.value_or(std::nan(""))},
                [&value](double to) { return value = to, true; });
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range&, const Length& length,
                  const char*) override {
         for (std::size_t i = 0; i < values.size(); ++i)
-            found_({path_ + key.name + "." + std::to_string(i), unit.resolved(), false, values[i]},
+            found_({path(key) + "." + std::to_string(i), unit.resolved(), false, values[i]},
                    [&values, i](double to) { return values[i] = to, true; });
         if (length.or_one_number)
-            found_({path_ + key.name, unit.resolved(), false, values.size() == 1 ? values.front() : std::nan("")},
+            found_({path(key), unit.resolved(), false, values.size() == 1 ? values.front() : std::nan("")},
                    [&values](double to) { return values.assign(1, to), true; });
     }
     void integer(const Key& key, std::optional<int>& value, int min, int max, const char*) override {
-        found_({path_ + key.name, {}, true, value ? *value : std::nan("")}, [&value, min, max](double to) {
+        found_({path(key), {}, true, value ? *value : std::nan("")}, [&value, min, max](double to) {
             if (std::floor(to) != to || to < min || to > max) return false;
             value = static_cast<int>(to);
             return true;
         });
     }
-    void boolean(const Key&, bool&, const char*) override {}
-    void text(const Key&, std::string&, const char*) override {}
-    void keyword(const Key&, const std::vector<std::string>&, std::size_t&, const char*) override {}
-    void object(const Key& key, const std::function<void(Visitor&)>& fields, const char*, bool* present) override {
-        if (present && !*present) return;
-        const std::string outside = path_;
-        path_ += std::string(key.name) + ".";
-        fields(*this);
-        path_ = outside;
-    }
-    void alternatives(const std::vector<Alternative>& all) override {
-        for (const Alternative& each : all)
-            if (each.chosen) each.fields(*this);
-    }
 
   private:
     Found found_;
-    std::string path_;
 };
 
 }  // namespace

@@ -246,5 +246,7 @@ struct Issue {
 // e >= R, hub-beam basis with a prescribed drive, …), and warnings such as a cam that the beam cannot reach. Simulates
 // nothing.
 std::vector<Issue> validate(const Problem& problem);
+// Throws std::invalid_argument with the first fatal issue.
+void require_valid(const Problem& problem);
 
 }  // namespace beamcam::sim

@@ -37,11 +37,8 @@ Method other_method(const Problem& problem, System& system) {
 }
 
 // The fastest rate that an explicit method must resolve, of vibration or of its decay [1/s].
-double fastest_rate(const Problem& problem, const System& system) {
-    const double fastest = system.highest_frequency();
-    double ratio = 0.5 * problem.beam.kelvin_voigt.value_or(0) * fastest;
-    for (const double z : problem.beam.damping_ratio) ratio = std::max(ratio, z);
-    return fastest * std::max(1.0, 2 * ratio);
+double fastest_rate(const System& system) {
+    return system.highest_frequency() * std::max(1.0, 2 * system.damping_ratio());
 }
 
 // True if only the cam's rotation changes with time and lasting contact has no internal events.
@@ -112,7 +109,7 @@ bool agrees_for_good(const Problem& problem, const Request& angle, const Result&
 Comparison comparison(const Problem& problem, double end) {
     System system(problem);
     Comparison out{at_tolerance(problem), false};
-    if (fastest_rate(problem, system) * end > kExplicitRadians * kMaxComparedSteps) return tighter_comparison(problem);
+    if (fastest_rate(system) * end > kExplicitRadians * kMaxComparedSteps) return tighter_comparison(problem);
     out.problem.solver.method = other_method(problem, system);
     out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMaxComparedSteps));
     return out;

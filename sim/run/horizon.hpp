@@ -3,11 +3,11 @@
 // agreement may end and return. MODEL.md §16.
 #pragma once
 
-#include <functional>
 #include <optional>
-#include <span>
 
-#include "sim/run/simulate.hpp"
+#include "sim/observe/request.hpp"
+#include "sim/observe/result.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 

@@ -91,11 +91,6 @@ std::vector<Result> with_horizons(const Problem& problem, std::span<const Reques
     return results;
 }
 
-void require_valid(const Problem& problem) {
-    for (const Issue& finding : validate(problem))
-        if (finding.fatal) throw std::invalid_argument(finding.path + ": " + finding.message);
-}
-
 template <class Work>
 std::vector<Result> timed(Work&& work) {
     const auto start = Clock::now();
