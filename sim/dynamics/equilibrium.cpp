@@ -1,0 +1,321 @@
+#include "sim/dynamics/equilibrium.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "sim/base/linear_algebra.hpp"
+#include "sim/dynamics/constants.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+// Half the difference of f between x + step and x − step.
+template <class F>
+Eigen::VectorXd central_difference(F&& f, const Eigen::VectorXd& x, const Eigen::VectorXd& step) {
+    Eigen::VectorXd plus(x.size()), minus(x.size());
+    f(x + step, plus);
+    f(x - step, minus);
+    return 0.5 * (plus - minus);
+}
+
+// Newton's method with a Jacobian by finite differences. scale[i] and size[i] are the natural magnitudes of unknown i
+// and of residual i, which make quantities of different units comparable; `difference` is a share of the scale.
+template <class F>
+bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size,
+            double difference = kNewtonDifference) {
+    const Eigen::Index n = x.size();
+    Eigen::VectorXd f(n), g(n);
+    Eigen::MatrixXd jacobian(n, n);
+    const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
+        function(at, r);
+        r = r.cwiseQuotient(size).eval();
+    };
+    residual(x, f);
+    for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
+        for (Eigen::Index j = 0; j < n; ++j) {
+            const Eigen::VectorXd step = difference * scale[j] * Eigen::VectorXd::Unit(n, j);
+            jacobian.col(j) = central_difference(residual, x, step) / difference;
+        }
+        const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
+        if (!dx.allFinite()) return false;
+        double factor = 1;  // damping: halved until the residual does not grow
+        const double before = f.norm();
+        for (int half = 0;; ++half, factor *= 0.5) {
+            const Eigen::VectorXd tried = x + factor * dx;
+            residual(tried, g);
+            if (g.norm() <= before || half > kMaxHalvings) {
+                x = tried;
+                f = g;
+                break;
+            }
+        }
+        if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < kNewtonConverged) return true;
+    }
+    return f.norm() < kBalanced;
+}
+
+// Static forces of the model at ξ, without contact. They are valid even if `assemble` finds the inertia not positive.
+void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {
+    const double rest[kMaxSize] = {};
+    model.set(xi.data(), rest);
+    model.assemble(f.data());
+}
+
+Eigen::VectorXd scales(const Problem& problem, int n) {
+    const double q = problem.beam.model == ModelKind::exact ? 1.0 : problem.beam.length;
+    Eigen::VectorXd scale = Eigen::VectorXd::Constant(n, q);
+    scale[0] = 1;
+    return scale;
+}
+
+// Natural magnitude of forces: weight, torque if that is more, or bending stiffness without either.
+double force_size(const System& system) {
+    const Problem& problem = system.problem();
+    const double length = problem.beam.length, mass = problem.beam.line_density() * length;
+    const double torque = system.drive().has_torque() ? std::fabs(system.drive().torque(0)) : 0;
+    const double force = std::max(mass * std::fabs(problem.gravity), torque / length);
+    return force > 0 ? force : problem.beam.bending_stiffness() / (length * length);
+}
+
+Eigen::VectorXd force_sizes(const System& system, int n) {
+    const Problem& problem = system.problem();
+    const double length = problem.beam.length, force = force_size(system);
+    Eigen::VectorXd size =
+        Eigen::VectorXd::Constant(n, problem.beam.model == ModelKind::exact ? force * length : force);
+    size[0] = force * length;
+    return size;
+}
+
+// Natural magnitudes of the accelerations: those of hub and beam under such forces.
+Eigen::VectorXd acceleration_sizes(const System& system, int n) {
+    const Problem& problem = system.problem();
+    const double length = problem.beam.length, mass = problem.beam.line_density() * length;
+    Eigen::VectorXd size = force_sizes(system, n);
+    size[0] /= problem.hub.inertia + mass * length * length;
+    size.tail(n - 1) /= problem.beam.model == ModelKind::exact ? mass * length * length : mass;
+    return size;
+}
+
+// Equilibrium with the hub clamped at the angle: f(ξ) + τ h = 0, θ(ξ) = angle. False if there is none.
+bool clamped_equilibrium(System& system, double angle, Eigen::VectorXd& xi) {
+    const Problem& problem = system.problem();
+    Model& model = system.model();
+    const int n = model.size();
+    Eigen::VectorXd x(n + 1), scale(n + 1), size(n + 1), force(n);
+    x << xi, 0;
+    size << force_sizes(system, n), 1;
+    scale << scales(problem, n),
+        problem.gravity * model.mass() * model.length() + problem.beam.bending_stiffness() / model.length();
+    const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
+        static_force(model, at.head(n), force);
+        double theta = 0;
+        for (int i = 0; i < n; ++i) {
+            force[i] += at[n] * model.hub_row()[i];
+            theta += model.hub_row()[i] * at[i];
+        }
+        r << force, theta - angle;
+    };
+    const bool found = newton(residual, x, scale, size);
+    xi = x.head(n);
+    return found;
+}
+
+// True if a small bend out of the clamped equilibrium ξ costs energy: the second variation of the potential for θ =
+// const, −∂f/∂q with Θ = −h·q, is positive.
+bool is_stable(Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& scale) {
+    const Eigen::Index n = model.size();
+    const Eigen::Map<const Eigen::VectorXd> hub(model.hub_row(), n);
+    const auto force = [&](const Eigen::VectorXd& at, Eigen::VectorXd& f) { static_force(model, at, f); };
+    Eigen::MatrixXd variation(n - 1, n - 1);
+    for (Eigen::Index j = 1; j < n; ++j) {
+        const double step = kNewtonDifference * scale[j];
+        Eigen::VectorXd bend = step * Eigen::VectorXd::Unit(n, j);
+        bend[0] = -step * hub[j] / hub[0];
+        const Eigen::VectorXd change = central_difference(force, xi, bend) / step;
+        variation.col(j - 1) = -(change.tail(n - 1) - hub.tail(n - 1) * (change[0] / hub[0]));
+    }
+    return Eigen::LLT<Eigen::MatrixXd>(0.5 * (variation + variation.transpose())).info() == Eigen::Success;
+}
+
+// Calls solve(system) for ever softer beams, from one that bends little to the given one, until one has no solution.
+// Each starts from the solution before, so that a beam that bends far takes the equilibrium that its straight form
+// leads to.                                                                                                     (S90)
+template <class Solve>
+bool soften(const System& given, Solve&& solve) {
+    Problem problem = given.problem();
+    const double length = problem.beam.length, stiffness = problem.beam.youngs_modulus;
+    const double load = problem.beam.model == ModelKind::rigid
+                            ? 0
+                            : force_size(given) * length * length / problem.beam.bending_stiffness();
+    const auto steps = static_cast<int>(std::clamp(std::ceil(load / kLoadStep), 1.0, kMostLoadSteps));
+    for (int step = 1; step < steps; ++step) {
+        problem.beam.youngs_modulus = stiffness * steps / step;
+        System stiffer(problem);
+        if (!solve(stiffer)) return false;
+    }
+    System system(given);
+    return solve(system);
+}
+
+// Solves for `s.xi`, the beam on the cam at time t in equilibrium with gravity, torque, friction and the inertia of the
+// given motion: f + τh + (J_n + r J_t)ᵀN = M ξ̈, with N = Kδⁿ or, in impulsive contact, the N that keeps the gap at
+// zero. False if there is no solution, or none with N >= 0.                                                   (S40)
+bool equilibrium_on_cam(System& system, double t, FollowingState& s) {
+    const int n = system.coordinates();
+    const Problem& problem = system.problem();
+    const bool rigid_contact = problem.contact.model == ContactModel::restitution;
+    const bool moves = !s.acceleration.isZero(0) || !s.rate.isZero(0);
+    Model& model = system.model();
+    std::vector<double> y(static_cast<std::size_t>(system.size), 0.0);
+    std::copy_n(s.rate.data(), n, y.begin() + n);
+    const double stiffness = system.normal_law().stiffness, approach = problem.contact.approach_floor.value;
+    Eigen::VectorXd x(n + (rigid_contact ? 1 : 0)), scale(x.size()), size(x.size()), force(n);
+    x.head(n) = s.xi;
+    scale.head(n) = scales(problem, n);
+    size.head(n) = moves ? acceleration_sizes(system, n) : force_sizes(system, n);
+    if (rigid_contact) {
+        scale[n] = force_size(system);
+        x[n] = 0.5 * scale[n];
+        size[n] = problem.beam.length;
+    }
+    const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
+        std::copy_n(at.data(), n, y.begin());
+        const ContactState c = system.contact(t, y.data(), true);
+        // Compliant contact: a separated beam is pulled back by a linear spring, so that Newton's method converges.
+        const double normal = rigid_contact ? at[n]
+                              : c.gap < 0   ? system.normal_law().force(-c.gap, moves ? -c.gap_rate : 0, approach)
+                                            : -c.gap * stiffness * kSeparatedPull;
+        const bool solvable = system.generalized_force(t, c, normal, force.data());
+        if (moves && solvable) model.solve(force.data());
+        if (moves && !solvable) force.setConstant(std::numeric_limits<double>::quiet_NaN());  // rejects the iterate
+        r.head(n) = force - s.acceleration;
+        if (rigid_contact) r[n] = c.gap;
+    };
+    bool found = newton(residual, x, scale, size);
+    if (!found && !rigid_contact) {  // the differences may have exceeded the penetration in a stiff contact
+        const double depth = std::pow(force_size(system) / stiffness, 1 / problem.contact.exponent);
+        x = s.xi;
+        found = newton(residual, x, scale, size,
+                       std::min(kNewtonDifference, kShallowDifference * depth / problem.beam.length));
+    }
+    s.xi = x.head(n);
+    if (!found || rigid_contact) return found && x[n] >= -kBalanced * scale[n];
+    std::copy_n(x.data(), n, y.begin());
+    return system.contact(t, y.data(), true).gap <= kEquilibriumGap * problem.beam.length;
+}
+
+// The start of a beam that follows the turning cam. Equilibria at neighbouring cam angles give the rates, the rates
+// give the inertia forces, and these correct the equilibria. After two corrections the error is of sixth order in the
+// ratio of the cam's speed to the frequencies of beam and contact.                                            (S40)
+class CamFollowing {
+  public:
+    CamFollowing(System& system, const Eigen::VectorXd& guess)
+        : system_(system), step_(kFollowingDifference / std::fabs(system.problem().cam->speed)) {
+        const Eigen::VectorXd zero = Eigen::VectorXd::Zero(guess.size());
+        states_.assign(kPoints, {guess, zero, zero});
+    }
+    bool find() {
+        if (!solve_equilibria(4)) return false;
+        differentiate(2);
+        if (!solve_equilibria(2)) return false;
+        differentiate(0);
+        return solve_equilibria(0);
+    }
+    FollowingState start() const { return states_[kMiddle]; }
+
+  private:
+    static constexpr int kPoints = 9, kMiddle = 4;
+
+    // Equilibria at the instants −reach…reach.
+    bool solve_equilibria(int reach) {
+        for (int k = -reach; k <= reach; ++k)
+            if (!equilibrium_on_cam(system_, k * step_, states_[static_cast<std::size_t>(kMiddle + k)])) return false;
+        return true;
+    }
+    // Rates and accelerations at these instants, by differences of fourth order.
+    void differentiate(int reach) {
+        std::vector<FollowingState> moving = states_;
+        for (int k = -reach; k <= reach; ++k) {
+            const auto at = [&](int i) -> const Eigen::VectorXd& {
+                return states_[static_cast<std::size_t>(kMiddle + k + i)].xi;
+            };
+            FollowingState& s = moving[static_cast<std::size_t>(kMiddle + k)];
+            s.rate = (8 * (at(1) - at(-1)) - (at(2) - at(-2))) / (12 * step_);
+            s.acceleration = (16 * (at(1) + at(-1)) - (at(2) + at(-2)) - 30 * at(0)) / (12 * step_ * step_);
+        }
+        states_ = std::move(moving);
+    }
+
+    System& system_;
+    double step_;
+    std::vector<FollowingState> states_;
+};
+
+// The start on a cam that falls away faster than the beam can follow: the static equilibrium, with the rates of
+// following the cam.
+FollowingState left_behind(System& system, const Eigen::VectorXd& xi) {
+    const double dt = kLeavingDifference / std::fabs(system.problem().cam->speed);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(xi.size());
+    FollowingState later{xi, zero, zero}, earlier = later;
+    if (!equilibrium_on_cam(system, dt, later) || !equilibrium_on_cam(system, -dt, earlier))
+        throw StepFailure("no equilibrium of the beam resting on the turning cam was found");
+    return {xi, (later.xi - earlier.xi) / (2 * dt), zero};
+}
+
+// The rigid rod on that side of the disc against which weight and torque press it, with the static penetration.
+Eigen::VectorXd rod_on_cam(const System& system) {
+    const Problem& problem = system.problem();
+    const Vec2 disc = system.cam(0).disc;
+    const double distance = norm(disc), lever = problem.hub.radius + 0.5 * problem.beam.length;
+    const double direction = std::atan2(disc.y, disc.x);
+    const double tangent = std::asin(std::min(1.0, (problem.cam->radius + system.offset()) / distance));
+    const double torque = system.drive().has_torque() ? system.drive().torque(0) : 0;
+    const double weight = problem.gravity * problem.beam.line_density() * problem.beam.length;
+    const auto moment = [&](double angle) { return torque - weight * lever * std::cos(angle); };
+    const double side = moment(direction + tangent) > 0 && moment(direction - tangent) > 0 ? -1 : 1;
+    const double touching = direction + side * tangent;
+    const double penetration =
+        problem.contact.model == ContactModel::restitution
+            ? 0
+            : std::pow(std::max(-side * moment(touching), 0.0) / (distance * system.normal_law().stiffness),
+                       1 / problem.contact.exponent);
+    Eigen::VectorXd xi = Eigen::VectorXd::Zero(system.coordinates());
+    xi[0] = touching - side * penetration / distance;
+    return xi;
+}
+
+}  // namespace
+
+HeldBeam held_beam(const System& given, double angle) {
+    System system(given);
+    const int n = system.coordinates();
+    HeldBeam held{Eigen::VectorXd::Zero(n), false};
+    held.xi[0] = angle;
+    if (!soften(given, [&](System& softer) { return clamped_equilibrium(softer, angle, held.xi); }))
+        throw StepFailure("no static equilibrium was found for the beam held at the initial angle");
+    held.unstable = n > 1 && !is_stable(system.model(), held.xi, scales(system.problem(), n));
+    return held;
+}
+
+RestingBeam resting_beam(const System& given) {
+    System system(given);
+    const Phase flight;  // the contact force is added by equilibrium_on_cam
+    system.set_phase(flight);
+    const Eigen::VectorXd zero = Eigen::VectorXd::Zero(system.coordinates());
+    RestingBeam beam{{rod_on_cam(system), zero, zero}, false};
+    const auto rest = [&](System& softer) {
+        softer.set_phase(flight);
+        return equilibrium_on_cam(softer, 0, beam.start);
+    };
+    if (!soften(given, rest)) throw StepFailure("no equilibrium of the beam resting on the cam was found");
+    if (system.problem().cam->speed != 0) {
+        CamFollowing following(system, beam.start.xi);
+        beam.left_behind = !following.find();
+        beam.start = beam.left_behind ? left_behind(system, beam.start.xi) : following.start();
+    }
+    return beam;
+}
+
+}  // namespace beamcam::sim
