@@ -3,61 +3,9 @@
 #include <cmath>
 
 #include "sim/beam/constants.hpp"
+#include "sim/beam/linearization.hpp"
 
 namespace beamcam::sim {
-
-ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis basis) {
-    const Beam& beam = problem.beam;
-    const double a = problem.hub.radius, length = beam.length, rho = beam.line_density();
-    const int n = shapes.count();
-    ModalMatrices m;
-    m.J = problem.hub.inertia + rho * (std::pow(a + length, 3) - a * a * a) / 3;
-    m.S = rho * (a * length + 0.5 * length * length);
-    m.U = m.W = m.K = m.slope = Eigen::VectorXd::Zero(n);
-    m.M = m.D = m.G = m.P0 = m.P1 = m.P2 = Eigen::MatrixXd::Zero(n, n);
-    if (n == 0) return m;
-
-    // Products of two shapes oscillate with 2β_n; three nodes per mode and a margin integrate them to rounding.
-    const Quadrature rule = gauss_legendre(3 * n + 24, length);
-    const Eigen::Index nodes = rule.x.size();
-    Eigen::MatrixXd y(n, nodes), y1(n, nodes), y2(n, nodes);
-    for (Eigen::Index k = 0; k < nodes; ++k)
-        shapes.evaluate(rule.x[k], y.col(k).data(), y1.col(k).data(), y2.col(k).data());
-    const Eigen::ArrayXd x = rule.x.array(), w = rho * rule.w.array();
-    m.U.noalias() = y * (w * (a + x)).matrix();  // (S8)
-    m.W.noalias() = y * w.matrix();              // (S9)
-    m.K.noalias() = beam.bending_stiffness() * (y2.cwiseAbs2() * rule.w);
-    const auto product = [&](const Eigen::MatrixXd& f, const Eigen::ArrayXd& weight, Eigen::MatrixXd& out) {
-        out.noalias() = f * weight.matrix().asDiagonal() * f.transpose();
-        out = 0.5 * (out + out.transpose()).eval();
-    };
-    product(y, w, m.M);                                                               // (S10)
-    product(y1, w * (a * (length - x) + 0.5 * (length * length - x.square())), m.D);  // (S11)
-    product(y1, w * (length - x), m.G);                                               // (S12)
-    if (beam.model == ModelKind::paper) {
-        product(y1, w, m.P0);
-        product(y1, w * x, m.P1);
-        product(y1, w * x.square(), m.P2);
-    }
-    if (basis == Basis::hub_beam) {
-        // The hub turns by α = y′(0)·q inside the frame; the root sits at (a − ½aα², aα) (S13).
-        shapes.evaluate(0, nullptr, m.slope.data(), nullptr);
-        m.U.setZero();
-        m.D.noalias() += a * m.S * m.slope * m.slope.transpose();
-        m.G.noalias() += a * rho * length * m.slope * m.slope.transpose();
-    }
-    return m;
-}
-
-struct ModalModel::Tables {
-    ModalMatrices m;
-    Eigen::MatrixXd B;  // (S14): M − D, or M without foreshortening
-    Shapes shapes;
-    std::vector<double> beta4;
-    Eigen::MatrixXd difference;  // 1/(β_i⁴ − β_j⁴), zero on the diagonal
-    Eigen::MatrixXd root;        // the antiderivative of φ_i′φ_j′ at x = 0
-    bool foreshortening = true;
-};
 
 namespace {
 
@@ -69,8 +17,7 @@ double diagonal_entry(double x, double b4, double y, double y1, double y2, doubl
 //   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
 //   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
 // The inner loops run over i, so that compilers vectorize them without a change of the order of summation.
-template <class Tables>
-void antiderivative(const Tables& tables, double x, const double* y, const double* y1, const double* y2,
+void antiderivative(const ModalModel::Tables& tables, double x, const double* y, const double* y1, const double* y2,
                     const double* y3, const double* q, double* out) {
     const std::size_t n = tables.beta4.size();
     double s0[kMaxModes] = {}, s1[kMaxModes] = {}, s2[kMaxModes] = {}, s3[kMaxModes] = {};
@@ -126,11 +73,6 @@ ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.b
     tables_ = tables;
     build_damping(problem);
 }
-
-bool ModalModel::foreshortening() const { return tables_->foreshortening; }
-const ModalMatrices& ModalModel::matrices() const { return tables_->m; }
-const Eigen::MatrixXd& ModalModel::inertia_matrix() const { return tables_->B; }
-const Shapes& ModalModel::shapes() const { return tables_->shapes; }
 
 void ModalModel::shortening_matrix(double x, double* h) const {
     Local here;
@@ -346,19 +288,16 @@ Energies ModalModel::energies() const {
     return e;
 }
 
-void ModalModel::linearize(double* mass, double* stiffness, double* centrifugal) const {
+Linearization ModalModel::linearize() const {
     const ModalMatrices& m = tables_->m;
-    Eigen::Map<Eigen::MatrixXd> mm(mass, size_, size_), kk(stiffness, size_, size_), cc(centrifugal, size_, size_);
-    mm.setZero();
-    kk.setZero();
-    cc.setZero();
-    mm(0, 0) = m.J;
-    for (int i = 0; i < modes_; ++i) {
-        mm(0, 1 + i) = mm(1 + i, 0) = m.U[i];
-        mm(1 + i, 1 + i) = mass_;
-        kk(1 + i, 1 + i) = m.K[i];
-    }
-    cc.bottomRightCorner(modes_, modes_) = -tables_->B;
+    Linearization linear(size_);
+    linear.mass.diagonal().setConstant(mass_);
+    linear.mass(0, 0) = m.J;
+    linear.mass.col(0).tail(modes_) = m.U;
+    linear.mass.row(0).tail(modes_) = m.U.transpose();
+    linear.stiffness.diagonal().tail(modes_) = m.K;
+    linear.centrifugal.bottomRightCorner(modes_, modes_) = -tables_->B;
+    return linear;
 }
 
 double ModalModel::frequency(int i) const { return std::sqrt(tables_->m.K[i] / mass_); }

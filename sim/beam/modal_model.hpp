@@ -5,24 +5,13 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <vector>
 
-#include "sim/base/numerics.hpp"
+#include "sim/beam/modal_matrices.hpp"
 #include "sim/beam/model.hpp"
 #include "sim/beam/shapes.hpp"
 
 namespace beamcam::sim {
-
-// The integrals of MODEL.md (S8)–(S12) over a set of shapes.
-struct ModalMatrices {
-    double J = 0;                // I_h + ρA∫(a+x)² [kg m²]
-    double S = 0;                // ρA∫(a+x) [kg m]
-    Eigen::VectorXd U, W;        // ρA∫(a+x)φ [kg m], ρA∫φ [kg]
-    Eigen::VectorXd K;           // EI∫φ″², diagonal [N/m]
-    Eigen::MatrixXd M, D, G;     // ρA∫φφᵀ, stiffening, gravity [kg], [kg], [kg/m]
-    Eigen::MatrixXd P0, P1, P2;  // ρA∫x^k φ′φ′ᵀ, only for the model `paper` (S15)
-    Eigen::VectorXd slope;       // φ′(0)
-};
-ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis basis);
 
 class ModalModel final : public Model {
   public:
@@ -37,21 +26,31 @@ class ModalModel final : public Model {
     Vec2 convective(double x) const override;
     double bending_moment(double x) const override;
     Energies energies() const override;
-    void linearize(double* mass, double* stiffness, double* centrifugal) const override;
+    Linearization linearize() const override;
     double frequency(int i) const override;
 
     // ---- for integrators that use the form of the equations ----
     ModelKind kind() const { return kind_; }
     bool coupled() const { return coupled_; }  // U ≠ 0
-    bool foreshortening() const;
-    const ModalMatrices& matrices() const;
-    const Eigen::MatrixXd& inertia_matrix() const;  // B of (S14)
-    const Shapes& shapes() const;
+    bool foreshortening() const { return tables_->foreshortening; }
+    const ModalMatrices& matrices() const { return tables_->m; }
+    const Eigen::MatrixXd& inertia_matrix() const { return tables_->B; }
+    const Shapes& shapes() const { return tables_->shapes; }
     // H(x) = ∫₀ˣφ′φ′ᵀ (S5a), column-major N².
     void shortening_matrix(double x, double* h) const;
 
+    // What does not depend on the state; shared by clones.
+    struct Tables {
+        ModalMatrices m;
+        Eigen::MatrixXd B;  // (S14): M − D, or M without foreshortening
+        Shapes shapes;
+        std::vector<double> beta4;
+        Eigen::MatrixXd difference;  // 1/(β_i⁴ − β_j⁴), zero on the diagonal
+        Eigen::MatrixXd root;        // the antiderivative of φ_i′φ_j′ at x = 0
+        bool foreshortening = true;
+    };
+
   private:
-    struct Tables;
     // The shapes at one x and H(x)q, cached because `point` and `jacobian` both need them.
     struct Local {
         double x = -1;

@@ -1,12 +1,13 @@
 #include "sim/beam/model.hpp"
 
-#include <Eigen/Core>
 #include <algorithm>
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/beam/constants.hpp"
+#include "sim/beam/exact_model.hpp"
+#include "sim/beam/linearization.hpp"
 #include "sim/beam/modal_model.hpp"
-#include "sim/beam/quadrature_model.hpp"
+#include "sim/beam/second_order_model.hpp"
 
 namespace beamcam::sim {
 
@@ -75,18 +76,18 @@ void Model::build_damping(const Problem& problem) {
         std::any_of(beam.damping_ratio.begin(), beam.damping_ratio.end(), [](double z) { return z != 0; });
     const bool by_time = beam.kelvin_voigt && *beam.kelvin_voigt > 0;
     if (modes_ == 0 || (!by_ratio && !by_time)) return;
-    Eigen::MatrixXd mass(size_, size_), stiffness(size_, size_), centrifugal(size_, size_);
-    linearize(mass.data(), stiffness.data(), centrifugal.data());
+    const Linearization linear = linearize();
+    const Eigen::MatrixXd& mass = linear.mass;
     const Eigen::Index n = modes_;
     Eigen::MatrixXd damping(n, n);
     if (by_time) {
-        damping = *beam.kelvin_voigt * stiffness.bottomRightCorner(n, n);  // (S21)
+        damping = *beam.kelvin_voigt * linear.stiffness.bottomRightCorner(n, n);  // (S21)
     } else {
         // Modes with a free hub (Θ has no stiffness and is condensed out) or with a prescribed one (S20).
         Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n);
         if (!is_prescribed(problem.hub.drive))
             inertia -= mass.bottomLeftCorner(n, 1) * mass.topRightCorner(1, n) / mass(0, 0);
-        const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
+        const Eigenmodes modes = eigenmodes(linear.stiffness.bottomRightCorner(n, n), inertia);
         Eigen::VectorXd twice(n);
         for (Eigen::Index i = 0; i < n; ++i) {
             const std::size_t k = beam.damping_ratio.size() == 1 ? 0 : static_cast<std::size_t>(i);
@@ -116,8 +117,9 @@ std::unique_ptr<Model> make_model(const Problem& problem) {
         case ModelKind::paper:
             return std::make_unique<ModalModel>(problem);
         case ModelKind::second_order:
+            return make_second_order_model(problem);
         case ModelKind::exact:
-            return make_quadrature_model(problem);
+            return make_exact_model(problem);
     }
     return nullptr;
 }

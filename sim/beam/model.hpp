@@ -33,6 +33,8 @@ struct Energies {
     double elastic = 0;  // bending [J]
 };
 
+struct Linearization;
+
 class Model {
   public:
     virtual ~Model() = default;
@@ -76,9 +78,7 @@ class Model {
     double hub_rate() const;                            // θ̇
     const double* hub_row() const { return hub_row_; }  // ∂θ/∂ξ
 
-    // Linearization about the straight beam at rest, without gravity: inertia and stiffness of ξ, and the centrifugal
-    // stiffness per Ω² of a beam that rotates at Ω. Dense, column-major, size².
-    virtual void linearize(double* mass, double* stiffness, double* centrifugal) const = 0;
+    virtual Linearization linearize() const = 0;  // linearization.hpp
     // Angular frequency that belongs to q_i, i from 0 [rad/s]. Bounds of step sizes are derived from it.
     virtual double frequency(int i) const = 0;
 

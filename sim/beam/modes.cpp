@@ -6,9 +6,27 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/beam/constants.hpp"
+#include "sim/beam/linearization.hpp"
 #include "sim/beam/model.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+// Small displacements are linear in the coordinates: y = (∂Y/∂ξ) ξ at rest, the state of the model.
+std::vector<Vec2> shape_of(const Model& model, const Eigen::VectorXd& xi) {
+    std::vector<Vec2> shape;
+    for (int p = 0; p < kShapePlaces; ++p) {
+        const double x = model.length() * p / (kShapePlaces - 1);
+        double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize], y = 0;
+        model.jacobian(x, jx, jy, jchi);
+        for (Eigen::Index i = 0; i < xi.size(); ++i) y += jy[i] * xi[i];
+        shape.push_back({x, y});
+    }
+    return shape;
+}
+
+}  // namespace
+
 std::vector<Mode> natural_modes(const Problem& given, std::optional<double> speed) {
     Problem problem = given;
     problem.gravity = 0;
@@ -20,23 +38,22 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     const std::unique_ptr<Model> model = make_model(problem);
     const Eigen::Index size = model->size(), n = size - 1;
     if (n == 0) return {};
-    Eigen::MatrixXd mass(size, size), stiffness(size, size), centrifugal(size, size);
-    model->linearize(mass.data(), stiffness.data(), centrifugal.data());
-    if (speed) stiffness += *speed * *speed * centrifugal;
+    Linearization linear = model->linearize();
+    if (speed) linear.stiffness += *speed * *speed * linear.centrifugal;
 
     // Reduction (Θ, q) → q. With a free hub, Θ has no stiffness and follows from its row; with a clamped one,
     // θ = Θ + h·q = 0. Both have the form Θ = −c·q (S42).
     Eigen::RowVectorXd follow(n);
-    for (Eigen::Index i = 0; i < n; ++i) follow[i] = held ? -model->hub_row()[1 + i] : -mass(0, 1 + i) / mass(0, 0);
+    for (Eigen::Index i = 0; i < n; ++i)
+        follow[i] = held ? -model->hub_row()[1 + i] : -linear.mass(0, 1 + i) / linear.mass(0, 0);
     Eigen::MatrixXd reduce(size, n);
     reduce.row(0) = follow;
     reduce.bottomRows(n).setIdentity();
-    const Eigen::MatrixXd m = reduce.transpose() * mass * reduce;
-    Eigen::MatrixXd k = reduce.transpose() * stiffness * reduce;
+    const Eigen::MatrixXd m = reduce.transpose() * linear.mass * reduce;
+    Eigen::MatrixXd k = reduce.transpose() * linear.stiffness * reduce;
     k = 0.5 * (k + k.transpose()).eval();
     const Eigenmodes natural = eigenmodes(k, m);
 
-    // Small displacements are linear in the coordinates: y = (∂Y/∂ξ) ξ at rest.
     const double zero[kMaxSize] = {};
     model->set(zero, zero);
     std::vector<Mode> modes(static_cast<std::size_t>(n));
@@ -44,14 +61,7 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
         Mode& mode = modes[static_cast<std::size_t>(j)];
         const double square = natural.omega_squared[j];
         mode.omega = square >= 0 ? std::sqrt(square) : std::numeric_limits<double>::quiet_NaN();
-        const Eigen::VectorXd xi = reduce * natural.shapes.col(j);
-        for (int p = 0; p < kShapePlaces; ++p) {
-            const double x = model->length() * p / (kShapePlaces - 1);
-            double jx[kMaxSize], jy[kMaxSize], jchi[kMaxSize], y = 0;
-            model->jacobian(x, jx, jy, jchi);
-            for (Eigen::Index i = 0; i < size; ++i) y += jy[i] * xi[i];
-            mode.shape.push_back({x, y});
-        }
+        mode.shape = shape_of(*model, reduce * natural.shapes.col(j));
         const double sign = mode.shape.back().y < 0 ? -1 : 1;
         for (Vec2& at : mode.shape) at.y *= sign;
         for (const double q : natural.shapes.col(j)) mode.q.push_back(sign * q + 0.0);  // no −0

@@ -6,6 +6,7 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/beam/constants.hpp"
+#include "sim/beam/linearization.hpp"
 
 namespace beamcam::sim {
 
@@ -14,13 +15,13 @@ NaturalModes::NaturalModes(const Model& of, const Problem& problem) {
     const std::unique_ptr<Model> model = of.clone();
     const Eigen::Index n = model->size() - 1;
     const double m = model->mass();
-    Eigen::MatrixXd mass(n + 1, n + 1), stiffness(n + 1, n + 1), centrifugal(n + 1, n + 1);
-    model->linearize(mass.data(), stiffness.data(), centrifugal.data());
+    const Linearization linear = model->linearize();
+    const Eigen::MatrixXd& mass = linear.mass;
     J = mass(0, 0);
     Eigen::VectorXd rotation = Eigen::VectorXd::Zero(n);
     if (!is_prescribed(problem.hub.drive)) rotation = mass.bottomLeftCorner(n, 1) / J;
     const Eigen::MatrixXd inertia = mass.bottomRightCorner(n, n) - rotation * mass.topRightCorner(1, n);
-    const Eigenmodes modes = eigenmodes(stiffness.bottomRightCorner(n, n), inertia);
+    const Eigenmodes modes = eigenmodes(linear.stiffness.bottomRightCorner(n, n), inertia);
     omega_squared = modes.omega_squared;
     const Eigen::MatrixXd beam = std::sqrt(m) * modes.shapes;
     shapes = inverse = Eigen::MatrixXd::Identity(n + 1, n + 1);
@@ -50,23 +51,23 @@ void NaturalModes::weigh(Model& model, double gravity) {
 void NaturalModes::bound_shapes(Model& model, double bending_stiffness, double radius) {
     const Eigen::Index count = shapes.rows(), places = kPlacesPerWave * count;
     const double none[kMaxSize] = {};
-    Eigen::VectorXd x(count), y(count), turned(count), curved(count);
-    Eigen::ArrayXd place = Eigen::ArrayXd::Zero(count), slope = place, curvature = place;
+    Eigen::VectorXd x(count), y(count), rotation(count), bending(count);
+    Eigen::ArrayXd displacement = Eigen::ArrayXd::Zero(count), slope = displacement, curvature = displacement;
     for (Eigen::Index k = 0; k <= places; ++k) {
         const double at = model.length() * static_cast<double>(k) / static_cast<double>(places);
         model.set(none, none);
-        model.jacobian(at, x.data(), y.data(), turned.data());
-        place = place.max((shapes.transpose() * y).array().abs());
-        slope = slope.max((shapes.transpose() * turned).array().abs());
+        model.jacobian(at, x.data(), y.data(), rotation.data());
+        displacement = displacement.max((shapes.transpose() * y).array().abs());
+        slope = slope.max((shapes.transpose() * rotation).array().abs());
         for (Eigen::Index i = 1; i < count; ++i) {
             model.set(shapes.col(i).data(), none);
-            curved[i] = model.bending_moment(at) / bending_stiffness;
+            bending[i] = model.bending_moment(at) / bending_stiffness;
         }
-        curvature = curvature.max(curved.array().abs());
+        curvature = curvature.max(bending.array().abs());
     }
     const Eigen::VectorXd hub = shapes.transpose() * Eigen::Map<const Eigen::VectorXd>(model.hub_row(), count);
     for (Eigen::Index i = 1; i < count; ++i) {
-        shape.push_back(kBetweenPlaces * (place[i] + std::fabs(radius * hub[i])));
+        shape.push_back(kBetweenPlaces * (displacement[i] + std::fabs(radius * hub[i])));
         beta.push_back(std::max(kBetweenPlaces * slope[i] / shape.back(),
                                 std::sqrt(kBetweenPlaces * curvature[i] / shape.back())));
         slope_norm.push_back(std::sqrt(model.length()) * shape.back() * beta.back());

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "sim/base/assert.hpp"
-#include "sim/beam/quadrature_model.hpp"
+#include "sim/beam/exact_model.hpp"
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
@@ -38,7 +38,7 @@ ContactExpansion::ContactExpansion(System& system)
       shortening_(model_ && model_->foreshortening()),
       h_(system.model().hub_row() + 1, system.model().hub_row() + 1 + n_),
       y_((kOrder + 1) * n_),
-      turned_((kOrder + 1) * n_),
+      transposed_((kOrder + 1) * n_),
       shorten_(exact() ? 0 : n_ * n_) {
     const Cam& cam = *system.problem().cam;
     disc_ = cam.radius;
@@ -87,7 +87,7 @@ void ContactExpansion::expand(double x) {
         if (shortening_) model_->shortening_matrix(x, shorten_.data());  // symmetric
     }
     for (std::size_t i = 0; i < n_; ++i)
-        for (std::size_t m = 0; m <= kOrder; ++m) turned_[i * (kOrder + 1) + m] = y[m * n_ + i];
+        for (std::size_t m = 0; m <= kOrder; ++m) transposed_[i * (kOrder + 1) + m] = y[m * n_ + i];
 }
 
 // A Legendre polynomial of degree N oscillates like a wave of β = 2(N + ½)/(L√(1 − z²)), z in [−1, 1].
@@ -112,7 +112,7 @@ void ContactExpansion::normal_rows(const ContactKinematics<Lanes>& touch, const 
     for (int m = 1; m <= kOrder; ++m) c[m] = c[m - 1] * x * (1.0 / m);
     if (shortening_)
         for (int j = 0; j < kOrder; ++j) c[1 + j] -= touch.nx * touch.moment[j];
-    product(n_, kOrder + 1, turned_.data(), c, jn);
+    product(n_, kOrder + 1, transposed_.data(), c, jn);
     if (!shortening_) return;
     for (std::size_t i = 0; i < n_; ++i) jn[i] -= touch.nx * (hq[i] + h_[i] * touch.shift);
 }

@@ -4,8 +4,10 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/base/numerics.hpp"
+#include "sim/beam/exact_model.hpp"
 #include "sim/beam/modal_model.hpp"
-#include "sim/beam/quadrature_model.hpp"
+#include "sim/beam/second_order_model.hpp"
 #include "sim/integrate/lane_kernels.hpp"
 
 namespace beamcam::sim {
@@ -74,12 +76,12 @@ class ModalInertia final : public InertiaForces {
                     theta_ddot = s.turn_acceleration + dot(n_, turn_.data(), s.acceleration);
         inertia_.times(z, bq_.data());
         Lanes second = gravity_ * s.sin, fall{};
-        const Lanes* turned = bq_.data();
+        const Lanes* centrifugal = bq_.data();
         if (paper_) {
             const Lanes l = length_ * s.cos;
             second = -theta_dot2 * (radius_ * l + 0.5 * l * l);
             spinning_.times(z, rq_.data());
-            turned = rq_.data();
+            centrifugal = rq_.data();
         }
         if (paper_ || shortens_) second_.times(z, gq_.data());
         if (shortens_) fall = dot(n_, gq_.data(), z);
@@ -90,7 +92,7 @@ class ModalInertia final : public InertiaForces {
         out[0] = J_ * s.turn_acceleration + bent;
         for (std::size_t i = 0; i < n_; ++i) {
             const auto j = static_cast<Eigen::Index>(i);
-            out[1 + i] = mass_ * s.acceleration[i] + turn_[j] * bent - theta_dot2 * turned[i] - second * gq_[i] +
+            out[1 + i] = mass_ * s.acceleration[i] + turn_[j] * bent - theta_dot2 * centrifugal[i] - second * gq_[i] +
                          weight_[j] * pull;
         }
     }
@@ -175,19 +177,9 @@ class SecondOrderInertia final : public InertiaForces {
         // F at the nodes, and F(0)
         for (std::size_t i = 0; i < n_; ++i) combined_[i] = -2.0 * theta_dot * dq[i] - theta_ddot * q[i];
         beyond_.times(combined_.data(), force_.data());
-        for (std::size_t k = 0; k < at_.count; ++k) square_[k] *= 0.5;
-        at_.double_integral.times(square_.data(), stretch_.data());  // ½C s²
-        const Lanes stretched_rate = dot(at_.count, stretch_.data(), mixed_.data()),
-                    stretched = dot(at_.count, stretch_.data(), square_.data());
+        const Sums sums = integrate_shortening();
         for (std::size_t k = 0; k < at_.count; ++k) force_[k] += theta_dot2 * stretch_[k];
-        beyond_transposed_.times(square_.data(), by_square_.data());
-        beyond_transposed_.times(mixed_.data(), by_mixed_.data());
-        beyond_transposed_.times(bent_.data(), by_bent_.data());
-        const Lanes mass_square = dot(at_.count, at_.beyond.data(), square_.data()),
-                    mass_mixed = dot(at_.count, at_.beyond.data(), mixed_.data()),
-                    arm_square = dot(at_.count, arm_beyond_.data(), square_.data()),
-                    arm_mixed = dot(at_.count, arm_beyond_.data(), mixed_.data());
-        const Lanes whole = theta_dot2 * mass_square - dot(at_.count, at_.beyond.data(), bent_.data()) +
+        const Lanes whole = theta_dot2 * sums.mass_square - dot(at_.count, at_.beyond.data(), bent_.data()) +
                             dot(n_, weight_.data(), combined_.data()) + mass_ * along - lever_ * theta_dot2;
         at_.double_integral.times(bent_.data(), stretch_.data());
         for (std::size_t k = 0; k < at_.count; ++k) {
@@ -206,13 +198,13 @@ class SecondOrderInertia final : public InertiaForces {
                          theta_ddot * by_square_[i] - lateral_[i] + hub_row_[j] * (hub - radius_ * alpha * whole);
         }
         // ∫(a + x + u)B_y − ∫vB_x
-        const Lanes lateral_all = dot(n_, weight_.data(), combined_.data()) - 2.0 * theta_dot * mass_mixed -
-                                  theta_ddot * mass_square + lever_ * theta_ddot + mass_ * across;
-        Lanes moment = dot(n_, coupling_.data(), combined_.data()) - 2.0 * theta_dot * arm_mixed -
-                       theta_ddot * arm_square + inertia_ * theta_ddot + lever_ * across + e * lateral_all;
+        const Lanes lateral_all = dot(n_, weight_.data(), combined_.data()) - 2.0 * theta_dot * sums.mass_mixed -
+                                  theta_ddot * sums.mass_square + lever_ * theta_ddot + mass_ * across;
+        Lanes moment = dot(n_, coupling_.data(), combined_.data()) - 2.0 * theta_dot * sums.arm_mixed -
+                       theta_ddot * sums.arm_square + inertia_ * theta_ddot + lever_ * across + e * lateral_all;
         // −½∫s² ∫ₓB_y
-        moment -= dot(n_, by_square_.data(), combined_.data()) - 2.0 * theta_dot * stretched_rate -
-                  theta_ddot * stretched + theta_ddot * arm_square + across * mass_square;
+        moment -= dot(n_, by_square_.data(), combined_.data()) - 2.0 * theta_dot * sums.stretched_rate -
+                  theta_ddot * sums.stretched + theta_ddot * sums.arm_square + across * sums.mass_square;
         products_.times(q, mq_.data());
         for (std::size_t i = 0; i < n_; ++i) {
             const auto j = static_cast<Eigen::Index>(i);
@@ -234,6 +226,24 @@ class SecondOrderInertia final : public InertiaForces {
             mixed_[k] = s_[k] * rate_[k];
             bent_[k] = rate_[k] * rate_[k] + s_[k] * bent_[k];
         }
+    }
+
+    // Integrals of ½s² and of its rate sṡ: with the mass and the static moment beyond each point, and with ½C s².
+    struct Sums {
+        Lanes mass_square, mass_mixed, arm_square, arm_mixed, stretched, stretched_rate;
+    };
+    // Halves the squares; stretch_ ← ½C s².
+    Sums integrate_shortening() {
+        for (std::size_t k = 0; k < at_.count; ++k) square_[k] *= 0.5;
+        at_.double_integral.times(square_.data(), stretch_.data());
+        beyond_transposed_.times(square_.data(), by_square_.data());
+        beyond_transposed_.times(mixed_.data(), by_mixed_.data());
+        beyond_transposed_.times(bent_.data(), by_bent_.data());
+        const auto over = [&](const auto& weights, const std::vector<Lanes>& values) {
+            return dot(at_.count, weights.data(), values.data());
+        };
+        return {over(at_.beyond, square_), over(at_.beyond, mixed_), over(arm_beyond_, square_),
+                over(arm_beyond_, mixed_), over(stretch_, square_),  over(stretch_, mixed_)};
     }
 
     BeamQuadrature at_;

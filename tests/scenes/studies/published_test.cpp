@@ -16,6 +16,7 @@
 #include <sstream>
 #include <string>
 
+#include "sim/beam/linearization.hpp"
 #include "sim/beam/model.hpp"
 #include "sim/beam/shapes.hpp"
 #include "sim/contact/impulse.hpp"
@@ -154,25 +155,22 @@ void hinged_free_eigenvalues(Entry& table) {
 // The matrices of the first-order model at the straight beam hold them: M_Θq = ∫(a+x)φ, and the centrifugal
 // stiffness ∫[a(1−x) + ½(1−x²)]φ′φ′ᵀ − ∫φφᵀ.
 void clamped_mode_integrals(Entry& table) {
-    constexpr int kModes = 4, kSize = kModes + 1;
-    std::vector<double> mass[2], stiffness(kSize * kSize), centrifugal[2];
-    for (int a : {0, 1}) {
-        sim::Problem p = testing::read(unit_beam(kModes).dump()).scene->problem;
-        p.beam.basis = sim::Basis::cantilever;
-        p.hub.radius = a;
-        mass[a].resize(kSize * kSize);
-        centrifugal[a].resize(kSize * kSize);
-        sim::make_model(p)->linearize(mass[a].data(), stiffness.data(), centrifugal[a].data());
-    }
+    sim::Problem p = testing::read(unit_beam(4).dump()).scene->problem;
+    p.beam.basis = sim::Basis::cantilever;
+    p.hub.radius = 0;
+    const sim::Linearization at_axis = sim::make_model(p)->linearize();
+    p.hub.radius = 1;
+    const sim::Linearization off_axis = sim::make_model(p)->linearize();
     const auto check = [&](const char* pointer, auto&& value) {
         const std::vector<double> row = table.numbers(pointer);
-        for (std::size_t i = 0; i < row.size(); ++i) EXPECT_NEAR(value(i + 1), row[i], 1e-12 * row.back()) << pointer;
+        for (std::size_t i = 0; i < row.size(); ++i)
+            EXPECT_NEAR(value(static_cast<Eigen::Index>(i + 1)), row[i], 1e-12 * row.back()) << pointer;
     };
-    check("/int_phi", [&](std::size_t i) { return std::fabs(mass[1][i] - mass[0][i]); });
-    check("/int_x_phi", [&](std::size_t i) { return std::fabs(mass[0][i]); });
-    check("/D_diagonal_int_half(1-x^2)phi'phi'", [&](std::size_t i) { return centrifugal[0][i * kSize + i] + 1; });
+    check("/int_phi", [&](auto i) { return std::fabs(off_axis.mass(i, 0) - at_axis.mass(i, 0)); });
+    check("/int_x_phi", [&](auto i) { return std::fabs(at_axis.mass(i, 0)); });
+    check("/D_diagonal_int_half(1-x^2)phi'phi'", [&](auto i) { return at_axis.centrifugal(i, i) + 1; });
     check("/D0_diagonal_int_(1-x)phi'phi'",
-          [&](std::size_t i) { return centrifugal[1][i * kSize + i] - centrifugal[0][i * kSize + i]; });
+          [&](auto i) { return off_axis.centrifugal(i, i) - at_axis.centrifugal(i, i); });
     double phi[4];
     sim::Shapes::cantilever(4, 1).evaluate(1, phi, nullptr, nullptr);
     for (std::size_t i = 0; i < 4; ++i) EXPECT_NEAR(std::fabs(phi[i]), 2, 1e-13);

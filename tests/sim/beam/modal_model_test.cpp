@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/beam/linearization.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {
@@ -56,8 +57,7 @@ TEST(ModalMatrices, AreEmptyForTheRigidRod) {
 std::vector<double> frequencies(const Problem& p, double speed, bool held) {
     const std::unique_ptr<Model> model = make_model(p);
     const int n = model->size();
-    Matrix mass(n, n), stiffness(n, n), centrifugal(n, n);
-    model->linearize(mass.data(), stiffness.data(), centrifugal.data());
+    const auto [mass, stiffness, centrifugal] = model->linearize();
     Matrix inertia = mass.bottomRightCorner(n - 1, n - 1);
     if (!held) inertia -= mass.bottomLeftCorner(n - 1, 1) * mass.topRightCorner(1, n - 1) / mass(0, 0);
     const Matrix elastic =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/beam/linearization.hpp"
 #include "sim/beam/model.hpp"
 #include "tests/sim/support.hpp"
 
@@ -364,8 +365,8 @@ TEST(LadderRelations, BothBasesHaveTheSameStaticForce) {
 // Eigenvalues of the damped, linearized equations with a positive imaginary part, slowest first.
 std::vector<std::complex<double>> damped_modes(Model& model, bool held) {
     const int n = model.size(), skip = held ? 1 : 0, m = n - skip;
-    Matrix mass(n, n), stiffness(n, n), centrifugal(n, n), damping(n, n);
-    model.linearize(mass.data(), stiffness.data(), centrifugal.data());
+    Matrix damping(n, n);
+    const Linearization linear = model.linearize();
     State s{Vector::Zero(n), Vector::Zero(n)};
     s.xi[0] = kQuarterTurn * 2;  // gravity, constant, is not left by the difference of forces
     for (int i = 0; i < n; ++i) {
@@ -376,9 +377,9 @@ std::vector<std::complex<double>> damped_modes(Model& model, bool held) {
     }
     Matrix companion = Matrix::Zero(2 * m, 2 * m);
     const auto part = [&](const Matrix& full) { return full.bottomRightCorner(m, m); };
-    const Eigen::PartialPivLU<Matrix> inverse(part(mass));
+    const Eigen::PartialPivLU<Matrix> inverse(part(linear.mass));
     companion.topRightCorner(m, m).setIdentity();
-    companion.bottomLeftCorner(m, m) = -inverse.solve(Matrix(part(stiffness)));
+    companion.bottomLeftCorner(m, m) = -inverse.solve(Matrix(part(linear.stiffness)));
     companion.bottomRightCorner(m, m) = -inverse.solve(Matrix(part(damping)));
     std::vector<std::complex<double>> modes;
     for (const std::complex<double>& value : eigenvalues(companion))

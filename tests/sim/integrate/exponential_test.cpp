@@ -1,5 +1,5 @@
 // The exponential collocation: its oscillators against closed forms, its flights and contacts against the Runge–Kutta
-// method at tight tolerance, and what observing or ending a run must not change.
+// method at tight tolerance.
 #include "sim/integrate/exponential.hpp"
 
 #include <algorithm>
@@ -8,10 +8,10 @@
 #include <cstdlib>
 #include <functional>
 #include <limits>
-#include <numbers>
 #include <string>
 
 #include "sim/base/numerics.hpp"
+#include "sim/beam/linearization.hpp"
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/inertia_forces.hpp"
 #include "sim/integrate/lane_kernels.hpp"
@@ -237,8 +237,7 @@ TEST(InertiaForces, AreThoseOfTheModelAtEveryNode) {
                                                                       forces = position;
             Lanes sine, cosine;
             Eigen::MatrixXd bending(n, kNodes);
-            Eigen::MatrixXd mass(n, n), stiffness(n, n), centrifugal(n, n);
-            model->linearize(mass.data(), stiffness.data(), centrifugal.data());
+            const Eigen::MatrixXd stiffness = model->linearize().stiffness;
             for (int k = 0; k < kNodes; ++k) {
                 Eigen::VectorXd xi(n), dxi(n), f(n);
                 for (Eigen::Index i = 0; i < n; ++i) {
@@ -897,8 +896,6 @@ TEST(ExponentialContact, ADriveHoldsWhatTheContactPushes) {
     EXPECT_GT(r.energy_scale, 1);
     EXPECT_LT(r.energy_residual_max, 10 * p.solver.rtol * r.energy_scale);
 }
-
-// ---- what must not change the motion -------------------------------------------------------------
 
 }  // namespace
 }  // namespace beamcam::sim::testing
