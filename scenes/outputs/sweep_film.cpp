@@ -241,7 +241,7 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
         reject("size", fmt::format("{}x{} is too small for a diagram beside the beam; use at least {}x{}",
                                    film.size.width, film.size.height, kLongSide, kShortSide));
     if (const std::string missing = omitted_texts(film.size); !missing.empty())
-        r.diagnostics().warning(r.has("size") ? r.place("size").place : r.node()->place,
+        r.diagnostics().warning(r.place("size").place,
                                 fmt::format("{} is too small to show {}; increase \"size\"", r.object_name(), missing));
     reject("value", problem_with_value("bifurcation", film.value, scene));
     reject("fps", output::rate_problem(codec, film.fps.value()));

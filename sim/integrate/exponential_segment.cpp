@@ -84,10 +84,10 @@ ExponentialSegment::ExponentialSegment(std::shared_ptr<const ModalForm> modal_fo
 
 double ExponentialSegment::theta_dot_at(double p, const double* x) const {
     double quadratic = 0;
-    for (std::size_t g = 0; g < form_->inertia_rows.size(); g += n_) {
+    auto column = form_->inertia_rows.begin();
+    for (std::size_t first = 0; column != form_->inertia_rows.end(); first += kNodes) {
         Lanes rows{};
-        for (std::size_t j = 0; j < n_; ++j) rows += x[j] * form_->inertia_rows[g + j];
-        const std::size_t first = g / n_ * kNodes;
+        for (std::size_t j = 0; j < n_; ++j) rows += x[j] * *column++;
         for (std::size_t i = first; i < std::min(n_, first + kNodes); ++i)
             quadratic += rows[static_cast<int>(i - first)] * x[i];
     }
