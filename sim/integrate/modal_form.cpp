@@ -7,7 +7,6 @@
 #include "sim/beam/constants.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/natural_modes.hpp"
-#include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
 namespace {

@@ -131,9 +131,9 @@ void NodalStep::advance_angle(const Lanes& to) {
     if (!(largest(by) < kSmallRotation)) return evaluate_angle();
     const Lanes b2 = by * by;
     const Lanes c = 1 - b2 * (0.5 - b2 * (1.0 / 24)), s = by * (1 - b2 * (1.0 / 6 - b2 * (1.0 / 120)));
-    const Lanes turned = sin * c + cos * s;
+    const Lanes sine = sin * c + cos * s;
     cos = cos * c - sin * s;
-    sin = turned;
+    sin = sine;
 }
 
 // The part of the forcing that does not depend on q, per mass.
@@ -313,62 +313,6 @@ void NodalStep::finish(const ContactLoad* load) {
     std::copy_n(next.begin(), system.controlled, s.end.begin());
     finish_ledger(load);
     form->to_coordinates(s.end.data());
-}
-
-// Of the step that ends at s.end, in modes.
-void NodalStep::finish_ledger(const ContactLoad* load) {
-    ExponentialSegment& s = segment;
-    s.ledger_changes = load || form->damped || form->prescribed || system.drive().has_torque();
-    if (!s.ledger_changes) {
-        std::copy_n(s.ledger0, kLedgerSize, s.end.begin() + system.controlled);
-        return;
-    }
-    for (Lanes& rate : s.rate) rate = Lanes{};
-    if (form->damped)
-        for (std::size_t i = 0; i < n; ++i) s.rate[kLossStructural] += form->mass * s.f[i] * s.resolved_rate(i);
-    s.boundary0 = s.drive_boundary(s.t0, start_.data());
-    drive_power(load);
-    if (load) {
-        const ContactKinematics<Lanes>& contact = load->contact;
-        s.rate[kNormalWork] = -load->force * contact.gap_rate;
-        s.rate[kFrictionWork] = -load->friction * contact.slip;
-        s.rate[kWorkCam] = load->force * contact.cam_n + load->friction * contact.cam_t;
-        s.rate[kImpulseN] = load->force;
-        s.rate[kImpulseT] = load->friction;
-    }
-    Lanes weights;
-    Collocation::get().weights_to((s.t1 - s.t0) / s.h, weights);
-    s.ledger_at(s.t1, (s.t1 - s.t0) / s.h, weights, s.end.data());
-}
-
-// Power of the drive at the nodes, without the part that `drive_boundary` has in closed form       (S55)
-void NodalStep::drive_power(const ContactLoad* load) {
-    ExponentialSegment& s = segment;
-    const Collocation& gauss = Collocation::get();
-    if (system.drive().has_torque()) {
-        Lanes hub_rate = s.theta_dot;  // and the part of α̇ that the nodes resolve
-        for (std::size_t i = 0; i < n; ++i) hub_rate += form->h[i] * s.resolved_rate(i);
-        s.rate[kWorkDrive] = torque * hub_rate;
-    }
-    if (!form->prescribed) return;
-    Lanes quadratic{}, fall{}, weighted{}, follow{};
-    for (std::size_t i = 0; i < n; ++i) {
-        Lanes a{}, b{};
-        for (std::size_t j = 0; j < n; ++j) {
-            a += form->inertia[i * n + j] * s.q[j];
-            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * s.q[j];
-        }
-        quadratic += a * s.q[i];
-        fall += b * s.q[i];
-        weighted += form->weight[i] * s.q[i];
-        follow += form->U[i] * s.q[i];
-    }
-    const Lanes gravity = form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall));
-    Lanes jerk{};  // of the hub
-    for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
-    s.rate[kWorkDrive] = jerk * follow - acceleration_ * (form->J + quadratic) * s.theta_dot + s.theta_dot * gravity;
-    // The drive balances the moment of the contact.
-    if (load) s.rate[kWorkDrive] -= s.theta_dot * load->torque();
 }
 
 }  // namespace beamcam::sim

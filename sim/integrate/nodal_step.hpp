@@ -6,7 +6,6 @@
 #include <memory>
 #include <vector>
 
-#include "sim/integrate/constants.hpp"
 #include "sim/integrate/contact_lanes.hpp"
 #include "sim/integrate/exponential_segment.hpp"
 #include "sim/integrate/inertia_forces.hpp"

@@ -153,48 +153,50 @@ void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vec
             const double to = k < kNodes ? gauss.c[static_cast<int>(k)] : 1;
             respond(groups[g], (to - gauss.point[k]) * h, responses_.data() + (g * (kNodes + 1) + k) * kResponse);
         }
-    for (std::size_t i = 0; i < oscillators.size(); ++i) {
-        const Oscillator& o = oscillators[i];
-        Row& row = rows[i];
-        const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
-        // From point to point, each by the expansion at its start.
-        double qq = 1, qv = 0, vq = 0, vv = 1;
-        Lanes q{}, v{};
-        for (std::size_t k = 0; k <= kNodes; ++k) {
-            const Lanes* all = responses_.data() + (i / kNodes * (kNodes + 1) + k) * kResponse;
-            double r[kResponse];
-            for (int j = 0; j < kResponse; ++j) r[j] = all[j][static_cast<int>(i % kNodes)];
-            const double a = r[0] + damping * r[1], b = r[1], c = -w2 * r[1], d = r[0];
-            Lanes q1 = a * q + b * v, v1 = c * q + d * v;
-            for (std::size_t j = 0; j < kNodes; ++j) {
-                q1 += (inverse[j] * r[2 + j]) * gauss.derive[k][j];
-                v1 += (inverse[j] * r[1 + j]) * gauss.derive[k][j];
-            }
-            q = q1;
-            v = v1;
-            const double qq1 = a * qq + b * vq, qv1 = a * qv + b * vv;
-            vq = c * qq + d * vq;
-            vv = c * qv + d * vv;
-            qq = qq1;
-            qv = qv1;
-            if (k == kNodes) break;
-            const int lane = static_cast<int>(k);
-            row.qq[lane] = qq;
-            row.qv[lane] = qv;
-            row.vq[lane] = vq;
-            row.vv[lane] = vv;
-            for (std::size_t l = 0; l < kNodes; ++l) {
-                row.q[l][lane] = q[static_cast<int>(l)];
-                row.v[l][lane] = v[static_cast<int>(l)];
-            }
+    for (std::size_t i = 0; i < oscillators.size(); ++i) build_row(i, oscillators[i], inverse);
+}
+
+void StepTable::build_row(std::size_t i, const Oscillator& o, const double* inverse) {
+    const Collocation& gauss = Collocation::get();
+    Row& row = rows[i];
+    const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
+    // From point to point, each by the expansion at its start.
+    double qq = 1, qv = 0, vq = 0, vv = 1;
+    Lanes q{}, v{};
+    for (std::size_t k = 0; k <= kNodes; ++k) {
+        const Lanes* all = responses_.data() + (i / kNodes * (kNodes + 1) + k) * kResponse;
+        double r[kResponse];
+        for (int j = 0; j < kResponse; ++j) r[j] = all[j][static_cast<int>(i % kNodes)];
+        const double a = r[0] + damping * r[1], b = r[1], c = -w2 * r[1], d = r[0];
+        Lanes q1 = a * q + b * v, v1 = c * q + d * v;
+        for (std::size_t j = 0; j < kNodes; ++j) {
+            q1 += (inverse[j] * r[2 + j]) * gauss.derive[k][j];
+            v1 += (inverse[j] * r[1 + j]) * gauss.derive[k][j];
         }
-        row.end_q = q;
-        row.end_v = v;
-        row.end_qq = qq;
-        row.end_qv = qv;
-        row.end_vq = vq;
-        row.end_vv = vv;
+        q = q1;
+        v = v1;
+        const double qq1 = a * qq + b * vq, qv1 = a * qv + b * vv;
+        vq = c * qq + d * vq;
+        vv = c * qv + d * vv;
+        qq = qq1;
+        qv = qv1;
+        if (k == kNodes) break;
+        const int lane = static_cast<int>(k);
+        row.qq[lane] = qq;
+        row.qv[lane] = qv;
+        row.vq[lane] = vq;
+        row.vv[lane] = vv;
+        for (std::size_t l = 0; l < kNodes; ++l) {
+            row.q[l][lane] = q[static_cast<int>(l)];
+            row.v[l][lane] = v[static_cast<int>(l)];
+        }
     }
+    row.end_q = q;
+    row.end_v = v;
+    row.end_qq = qq;
+    row.end_qv = qv;
+    row.end_vq = vq;
+    row.end_vv = vv;
 }
 
 }  // namespace beamcam::sim

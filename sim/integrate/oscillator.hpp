@@ -53,6 +53,8 @@ struct StepTable {
     void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
 
   private:
+    void build_row(std::size_t i, const Oscillator& oscillator, const double* inverse);  // [j]: 1/hʲ
+
     std::vector<Lanes> responses_;  // kept for its memory
 };
 

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/observe/constants.hpp"
 #include "sim/observe/crossings.hpp"
 #include "sim/observe/extrema.hpp"
 #include "sim/observe/warnings.hpp"

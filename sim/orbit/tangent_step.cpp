@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/nodal_step.hpp"
 #include "sim/orbit/constants.hpp"

@@ -48,7 +48,7 @@ class TangentStep {
     std::vector<Jet> acceleration_;
     Eigen::VectorXd y_;
     NodalDerivative derivative_[kNodes];
-    Eigen::MatrixXd unforced_, matrix_, forcing_, next_;
+    Eigen::MatrixXd unforced_, matrix_, forcing_;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };
 
