@@ -15,10 +15,10 @@ Eigen::VectorXd units_of(System& system) {
     const auto& model = dynamic_cast<const ModalModel&>(system.model());
     const int n = system.coordinates();
     const double speed = problem.cam ? std::fabs(problem.cam->speed) : 0;
-    const double swing = std::sqrt(std::fabs(problem.gravity) / problem.beam.length);
+    const double pendulum = std::sqrt(std::fabs(problem.gravity) / problem.beam.length);
     const double inertia = std::sqrt(model.matrices().J), mass = std::sqrt(model.mass());
     Eigen::VectorXd units = Eigen::VectorXd::Constant(2 * n + kTangentMemories, mass);
-    units[0] = inertia * std::max({speed, swing, kSlowestMotion});
+    units[0] = inertia * std::max({speed, pendulum, kSlowestMotion});
     units[n] = inertia;
     for (int i = 1; i < n; ++i) units[i] = mass * model.frequency(i - 1);
     if (system.has_bristle()) units[2 * n] = std::sqrt(system.friction().stiffness);

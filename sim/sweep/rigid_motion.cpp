@@ -74,13 +74,13 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
 }
 
 void RigidMotion::begin(const InitialState& start) {
-    swing_.theta = mirrored_.side * start.y[0];
-    swing_.rate = mirrored_.side * start.y[1];
+    state_.theta = mirrored_.side * start.y[0];
+    state_.rate = mirrored_.side * start.y[1];
     const SurfaceAngle c = surface_.at(0);
     if (start.phase.touching) {
         rest_on(c);
-    } else if (swing_.theta < c.angle) {
-        swing_.theta = c.angle;
+    } else if (state_.theta < c.angle) {
+        state_.theta = c.angle;
         touched_ = true;
     }
 }
@@ -91,23 +91,23 @@ SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
         if (count % kIntervalsPerReport == 0 && progress && !progress(static_cast<double>(turn_) * period_))
             throw Interrupted();
         with_tangent_ = turn_ >= span_.from - kWarmUp;
-        lying_ ? lie() : fly();
+        in_contact_ ? stay_in_contact() : fly();
     }
-    motion_.end.y = {mirrored_.side * swing_.theta, mirrored_.side * swing_.rate};
+    motion_.end.y = {mirrored_.side * state_.theta, mirrored_.side * state_.rate};
     motion_.end.y.resize(2 + kLedgerSize);
-    motion_.end.phase.touching = motion_.end.phase.held = lying_;
+    motion_.end.phase.touching = motion_.end.phase.held = in_contact_;
     return std::move(motion_);
 }
 
 // One Taylor series, or its part up to a touch.
 void RigidMotion::fly() {
     left_ = true;
-    if (with_tangent_ && swing_.d_theta == 0 && swing_.d_rate == 0) {  // first flight, or after sustained contact
+    if (with_tangent_ && state_.d_theta == 0 && state_.d_rate == 0) {  // first flight, or after sustained contact
         annihilated_ = true;
-        swing_.d_theta = 1;
-        swing_.d_rate = 1 / period_;
+        state_.d_theta = 1;
+        state_.d_rate = 1 / period_;
     }
-    series_.expand(swing_, with_tangent_);
+    series_.expand(state_, with_tangent_);
     const double rest = end() - s_, h = std::min(series_.length(), rest);
     const std::optional<double> touch = first_touch(h);
     const double dt = touch.value_or(h);
@@ -115,15 +115,15 @@ void RigidMotion::fly() {
     const double until = ends ? end() : s_ + dt;
     observe(until, [&](double s) { return series_.at(s - s_); });
     motion_.over_the_top = leaves(dt);
-    swing_ = series_.at(dt);
+    state_ = series_.at(dt);
     touched_ = false;
     move_to(until);
     if (touch) impact();
-    const double size = std::hypot(swing_.d_theta, swing_.d_rate * period_);
+    const double size = std::hypot(state_.d_theta, state_.d_rate * period_);
     if (size > kLargestDifference || (size > 0 && size < 1 / kLargestDifference)) {
         growth_ += std::log(size);
-        swing_.d_theta /= size;
-        swing_.d_rate /= size;
+        state_.d_theta /= size;
+        state_.d_rate /= size;
     }
 }
 
@@ -131,8 +131,8 @@ void RigidMotion::fly() {
 bool RigidMotion::leaves(double dt) const {
     // θ changes by less than |θ̇|t + (|k| + |α|)t²/2, which usually excludes this.
     const double moves =
-        (std::fabs(swing_.rate) + 0.5 * (std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha)) * dt) * dt;
-    if (std::fabs(swing_.theta - centre_direction_) + moves < kFarFromAway) return false;
+        (std::fabs(state_.rate) + 0.5 * (std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha)) * dt) * dt;
+    if (std::fabs(state_.theta - centre_direction_) + moves < kFarFromAway) return false;
     const auto away = [&](double t) { return points_away(problem_, mirrored_.side * series_.theta(t)); };
     const auto rate = [&](double t) { return series_.rate(t); };
     const double first = rate(0), last = rate(dt);
@@ -196,10 +196,10 @@ double RigidMotion::falling(double t, double latest, double h) {
 
 void RigidMotion::impact() {
     const SurfaceAngle c = surface_at(s_);
-    const double w = swing_.rate - surface_.rate(c), approach = -c.lever * w;
+    const double w = state_.rate - surface_.rate(c), approach = -c.lever * w;
     const Bounce bounce{approach, problem_.contact.restitution * approach};
     const double pull = c.lever * surface_.push(c);
-    swing_.theta = c.angle;
+    state_.theta = c.angle;
     touched_ = true;
     if (!(approach > 0)) {  // the beam reaches the surface without approach speed
         if (pull > 0) return rest_on(c);
@@ -220,9 +220,9 @@ void RigidMotion::impact() {
     sample_impact(c, after);
     // The saltation matrix [[−e, 0], [(1 + e)(θ̈ − θ̈_c)/w, −e]].                                             (S85)
     const double fall = series_.acceleration(c.angle) - surface_.acceleration(c);
-    swing_.d_rate = (1 + kept) * fall / w * swing_.d_theta - kept * swing_.d_rate;
-    swing_.d_theta *= -kept;
-    swing_.rate = after;
+    state_.d_rate = (1 + kept) * fall / w * state_.d_theta - kept * state_.d_rate;
+    state_.d_theta *= -kept;
+    state_.rate = after;
     if (slow) lift_after_impact();
 }
 
@@ -238,16 +238,16 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) c
 
 // Sustained contact begins, which annihilates the tangent.
 void RigidMotion::rest_on(const SurfaceAngle& c) {
-    lying_ = true;
+    in_contact_ = true;
     rested_ = true;
-    swing_ = {c.angle, surface_.rate(c), 0, 0};
+    state_ = {c.angle, surface_.rate(c), 0, 0};
 }
 
 // Sustained contact until the cam falls away faster than the beam.
-void RigidMotion::lie() {
+void RigidMotion::stay_in_contact() {
     const auto at = [&](double s) {
         const SurfaceAngle c = surface_.at(s);
-        return Swing{c.angle, surface_.rate(c), 0, 0};
+        return RodState{c.angle, surface_.rate(c), 0, 0};
     };
     if (surface_.always_pulls()) return lift(s_ + 0.5 * period_);
     double from = end(), to = from;
@@ -261,12 +261,12 @@ void RigidMotion::lie() {
             window = lift.from + turn > s_ ? std::optional(i) : std::nullopt;
         }
     observe(from, at);
-    swing_ = at(from);
+    state_ = at(from);
     const bool ends = from == end();
     const double stays = to - from;
     move_to(from);
     if (ends) return;
-    end_lasting();
+    end_lasting_sample();
     if (window) record_lift(*window);
     lift(s_ + stays);
 }
@@ -281,10 +281,10 @@ void RigidMotion::record_lift(std::size_t window) {
 
 // Flight begins on the surface. No touch is possible in the first half of the interval with f < 0.
 void RigidMotion::lift(double until) {
-    const double swing_time = 1 / std::sqrt(std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha) + 1e-300);
-    lying_ = false;
+    const double pendulum_time = 1 / std::sqrt(std::fabs(mirrored_.k) + std::fabs(mirrored_.alpha) + 1e-300);
+    in_contact_ = false;
     touched_ = true;
-    clear_until_ = s_ + std::min(0.5 * (until - s_), 0.5 * swing_time);
+    clear_until_ = s_ + std::min(0.5 * (until - s_), 0.5 * pendulum_time);
 }
 
 // Lift from an impact without a rebound.
@@ -320,66 +320,6 @@ void RigidMotion::observe(double until, At&& at) {
     if (sampling_.kind == SampleKind::section)
         each(section_phase_, [&](long, double s) { motion_.samples.push_back(sample(s, at(s))); });
     each(kStrobePhase, [&](long turn, double s) { strobe(turn, at(s)); });
-}
-
-void RigidMotion::strobe(long turn, const Swing& state) {
-    Strobe out{mirrored_.side * state.theta, mirrored_.side * state.rate, kept_impacts_, lying_, left_};
-    const double size = std::hypot(state.d_theta, state.d_rate * period_);
-    const double growth = size > 0 ? growth_ + std::log(size) : 0;
-    annihilated_ = annihilated_ || !(size > 0);
-    if (turn > span_.from)
-        out.growth = annihilated_ ? -std::numeric_limits<double>::infinity() : growth - growth_at_strobe_;
-    growth_at_strobe_ = growth;
-    annihilated_ = false;
-    left_ = !lying_;
-    motion_.strobes.push_back(out);
-}
-
-MotionSample RigidMotion::sample(double s, const Swing& state) const {
-    const double t = static_cast<double>(turn_) * period_ + s;
-    MotionSample out;
-    out.fill(kNan);
-    out[kSampleTime] = t;
-    out[kCamPhase] = turn_fraction(s / period_);
-    out[kTheta] = mirrored_.side * state.theta;
-    out[kThetaDot] = mirrored_.side * state.rate;
-    out[kCamAngle] = problem_.cam->phase - problem_.cam->speed * t;
-    return out;
-}
-
-void RigidMotion::sample_impact(const SurfaceAngle& c, double rate_after) {
-    lasting_ = false;
-    if (turn_ < span_.from) return;
-    ++kept_impacts_;
-    if (sampling_.kind != SampleKind::impacts) return;
-    MotionSample out = sample(s_, swing_);
-    out[kContactX] = c.lever - problem_.hub.radius;
-    out[kNormalBefore] = c.lever * (swing_.rate - surface_.rate(c));
-    out[kTangentialBefore] = slip(c, swing_.rate);
-    lasting_ = std::isnan(rate_after);
-    if (!lasting_) {
-        out[kNormalAfter] = c.lever * (rate_after - surface_.rate(c));
-        out[kTangentialAfter] = slip(c, rate_after);
-        out[kDuration] = 0;
-    }
-    motion_.samples.push_back(out);
-}
-
-// The sampled contact that became sustained ends at the lift.
-void RigidMotion::end_lasting() {
-    if (!lasting_) return;
-    lasting_ = false;
-    MotionSample& last = motion_.samples.back();
-    last[kNormalAfter] = 0;
-    last[kTangentialAfter] = slip(surface_.at(s_), swing_.rate);
-    last[kDuration] = static_cast<double>(turn_) * period_ + s_ - last[kSampleTime];
-}
-
-// v_t (S27).
-double RigidMotion::slip(const SurfaceAngle& c, double rate) const {
-    const CamPose pose = cam_pose(mirrored_.cam, s_);
-    const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * reach_;
-    return mirrored_.side * (along + contact_offset(problem_) * rate);
 }
 
 }  // namespace beamcam::sim

@@ -9,8 +9,8 @@
 #include "sim/run/chatter.hpp"
 #include "sim/run/simulate.hpp"
 #include "sim/sweep/cam_surface.hpp"
+#include "sim/sweep/flight_series.hpp"
 #include "sim/sweep/sampling.hpp"
-#include "sim/sweep/swing_series.hpp"
 
 namespace beamcam::sim {
 
@@ -44,7 +44,7 @@ class RigidMotion {
 
     void begin(const InitialState& start);
     void fly();
-    void lie();
+    void stay_in_contact();
     SurfaceAngle surface_at(double s);  // caches the last result
     std::optional<double> first_touch(double h);
     double falling(double t, double latest, double h);
@@ -58,10 +58,10 @@ class RigidMotion {
     void move_to(double s);
     template <class At>
     void observe(double until, At&& at);
-    void strobe(long turn, const Swing& state);
-    MotionSample sample(double s, const Swing& state) const;
+    void strobe(long turn, const RodState& state);
+    MotionSample sample(double s, const RodState& state) const;
     void sample_impact(const SurfaceAngle& c, double rate_after);  // NaN: sustained contact follows
-    void end_lasting();
+    void end_lasting_sample();
     double slip(const SurfaceAngle& c, double rate) const;
     double end() const {
         return static_cast<double>(span_.to - turn_) * period_;
@@ -74,7 +74,7 @@ class RigidMotion {
     double period_;
     Mirrored mirrored_;
     CamSurface surface_;
-    SwingSeries series_;
+    FlightSeries series_;
     double reach_;
     double centre_direction_;  // of the cam's axis as seen from the hub, mirrored [rad]
     double cached_at_ = kNan;
@@ -82,14 +82,14 @@ class RigidMotion {
 
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
-    Swing swing_;
-    bool lying_ = false;  // in sustained contact
+    RodState state_;
+    bool in_contact_ = false;  // in sustained contact
     bool rested_ = false;
     std::vector<std::optional<Return>> last_lifts_;  // for each lift interval of the surface: turn and impacts
     std::optional<Return> returned_;
-    bool lasting_ = false;    // sustained contact follows the last sample
-    bool touched_ = false;    // the flight starts on the surface
-    double clear_until_ = 0;  // no touch is possible before this time, after a lift
+    bool sample_lasts_ = false;  // sustained contact follows the last sample
+    bool touched_ = false;       // the flight starts on the surface
+    double clear_until_ = 0;     // no touch is possible before this time, after a lift
     double last_rebound_ = 0;
     double section_phase_;  // fraction of a turn: 0 … 1
     bool with_tangent_ = false, left_ = false;

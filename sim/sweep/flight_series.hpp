@@ -5,22 +5,22 @@
 namespace beamcam::sim {
 
 // A state and, optionally, a tangent.
-struct Swing {
+struct RodState {
     double theta = 0, rate = 0;      // [rad], [rad/s]
     double d_theta = 0, d_rate = 0;  // of the tangent
-    bool operator==(const Swing&) const = default;
+    bool operator==(const RodState&) const = default;
 };
 
-class SwingSeries {
+class FlightSeries {
   public:
-    SwingSeries(double k, double alpha) : k_(k), alpha_(alpha) {}
+    FlightSeries(double k, double alpha) : k_(k), alpha_(alpha) {}
 
     // Expands the motion from a state; `tangent`: also that of the tangent.
-    void expand(const Swing& from, bool tangent);
+    void expand(const RodState& from, bool tangent);
     double length() const { return length_; }  // [s]
     double theta(double dt) const { return value(a_, dt); }
     double rate(double dt) const { return slope(a_, dt); }
-    Swing at(double dt) const;
+    RodState at(double dt) const;
     double acceleration(double theta) const;
 
   private:

@@ -1,4 +1,4 @@
-#include "sim/sweep/swing_series.hpp"
+#include "sim/sweep/flight_series.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@ namespace beamcam::sim {
 
 // With s = sin θ, c = cos θ: j s_j = Σ i a_i c_{j−i}, j c_j = −Σ i a_i s_{j−i}, (j+1)(j+2) a_{j+2} = −k c_j + α δ_{j0};
 // a tangent obeys δ̈ = k s δ.                                                                                 (S83)
-void SwingSeries::expand(const Swing& from, bool tangent) {
+void FlightSeries::expand(const RodState& from, bool tangent) {
     tangent_ = tangent;
     double s[kOrder], c[kOrder], turn[kOrder + 1];  // turn[i] = i a_i
     a_[0] = from.theta;
@@ -52,25 +52,25 @@ void SwingSeries::expand(const Swing& from, bool tangent) {
               std::min({reaches(kOrder), reaches(kOrder - 1), 1 / std::sqrt(std::fabs(k_) + std::fabs(alpha_))});
 }
 
-double SwingSeries::value(const double* a, double dt) {
+double FlightSeries::value(const double* a, double dt) {
     if (dt == 0) return a[0];
     double sum = a[kOrder];
     for (int j = kOrder - 1; j >= 0; --j) sum = sum * dt + a[j];
     return sum;
 }
 
-double SwingSeries::slope(const double* a, double dt) {
+double FlightSeries::slope(const double* a, double dt) {
     if (dt == 0) return a[1];
     double sum = kOrder * a[kOrder];
     for (int j = kOrder - 1; j >= 1; --j) sum = sum * dt + j * a[j];
     return sum;
 }
 
-Swing SwingSeries::at(double dt) const {
+RodState FlightSeries::at(double dt) const {
     if (!tangent_) return {theta(dt), rate(dt), 0, 0};
     return {theta(dt), rate(dt), value(d_, dt), slope(d_, dt)};
 }
 
-double SwingSeries::acceleration(double theta) const { return alpha_ - k_ * std::cos(theta); }
+double FlightSeries::acceleration(double theta) const { return alpha_ - k_ * std::cos(theta); }
 
 }  // namespace beamcam::sim
