@@ -96,8 +96,7 @@ Problem spin_up(double speed, int modes) {
     p.beam.modes = modes;
     p.initial.angle = 0;
     p.hub.drive = SpinUp{speed, 15};
-    p.solver.rtol = 1e-10;
-    p.solver.atol = 1e-13;
+    set_tolerance(p, 1e-10);
     return p;
 }
 

@@ -59,8 +59,7 @@ TEST(Exponents_, SumIsThatOfImpactsAndDamping) {
             p.initial.angle = 0.6;
         }
         p.contact.restitution = c.restitution;
-        p.solver.rtol = 1e-12;
-        p.solver.atol = 1e-15;
+        set_tolerance(p, 1e-12);
         const Exponents e = lyapunov_exponents(p, {0, 0, c.duration, 2});
         double expected = 2 * static_cast<double>(e.impacts) / c.duration * std::log(c.restitution);
         System system(p);

@@ -22,8 +22,7 @@ AccuracyRequest quick(double end) {
 
 Problem falling() {
     Problem p = testing::falling_beam(ModelKind::first_order);
-    p.solver.rtol = 1e-8;
-    p.solver.atol = 1e-11;
+    testing::set_tolerance(p, 1e-8);
     return p;
 }
 
@@ -141,8 +140,7 @@ TEST(Accuracy, HorizonOfADrivenHubIsTheTips) {
     p.initial = {0.45, 0, InitialShape::straight};
     p.cam->speed = 40;
     p.beam.youngs_modulus = 2e9;
-    p.solver.rtol = 1e-4;
-    p.solver.atol = 1e-7;
+    testing::set_tolerance(p, 1e-4);
     Request request;
     request.end_time = 4;
     request.horizon = true;

@@ -90,8 +90,7 @@ TEST(RepeatedEvents, OfAReboundLostInTheStepsOfAMultistepMethodEnd) {
     for (const Method method : {Method::cvode_adams, Method::cvode_bdf}) {
         Problem p;
         p.solver.method = method;
-        p.solver.rtol = 1e-5;
-        p.solver.atol = 1e-8;
+        set_tolerance(p, 1e-5);
         p.contact.model = ContactModel::restitution;
         p.initial = {0.41, -2, InitialShape::straight};
         const Result r = run(p, 0.06);

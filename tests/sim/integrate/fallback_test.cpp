@@ -1,0 +1,130 @@
+// Where the collocation gives up, another method takes over; this and other departures are counted and reported.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "sim/observe/run_statistics.hpp"
+#include "sim/observe/warnings.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+// The foot lies so near the tip that the expansion about it does not fit: the contact is handed over before its first
+// step.
+Problem contact_at_the_end() {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.gravity = 0;
+    p.cam = Cam{{0.999999, -0.01}, 0.01, 0, 0, 0, {}, 0.3};
+    p.initial = {0.35, -2, InitialShape::straight};
+    p.contact.damping = DampingLaw::none;
+    return p;
+}
+
+TEST(Fallback, AContactHandedOverKeepsItsFirstStepShort) {
+    Problem p = contact_at_the_end();
+    for (const double stiffness : {1e8, 1e10, 1e12})
+        for (const double rtol : {1e-3, 1e-6, 1e-8}) {
+            p.contact.stiffness = stiffness;
+            set_tolerance(p, rtol);
+            const Result r = run(p, 0.4);
+            ASSERT_EQ(r.impacts.size(), 1u) << stiffness << " " << rtol;
+            EXPECT_NEAR(r.impacts[0].restitution.value_or(0), 1, 0.3 * rtol + 2e-8) << stiffness << " " << rtol;
+        }
+}
+
+bool reports(const Result& result, const char* words) {
+    return std::ranges::any_of(result.warnings,
+                               [&](const std::string& w) { return w.find(words) != std::string::npos; });
+}
+
+using StepsByMethod = std::vector<std::pair<Method, long>>;
+
+TEST(Fallback, AContactAtTheEndOfTheBeamIsHandedOverCountedAndReported) {
+    Problem p = contact_at_the_end();
+    const Result r = run(p, 0.4);
+    EXPECT_TRUE(reports(r, "1 contact could not be solved by the exponential collocation; rk8 made"));
+    ASSERT_EQ(r.steps_by_method.size(), 2u);
+    EXPECT_EQ(r.steps_by_method[0].first, Method::exponential);
+    EXPECT_EQ(r.steps_by_method[1].first, Method::rk8);
+    EXPECT_EQ(r.steps_by_method[0].second + r.steps_by_method[1].second, r.counters.steps);
+    p.cam->centre.x = 0.9;
+    EXPECT_FALSE(reports(run(p, 0.4), "could not be solved"));
+}
+
+TEST(Fallback, StepsAreCountedByTheMethodThatTookThem) {
+    Problem p;
+    Result r = run(p, 0.5);
+    EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::exponential, r.counters.steps}}));
+    p.contact.friction = StickSlipFriction{0.3, 0.5, 1e5, 0.5};
+    r = run(p, 0.5);
+    ASSERT_EQ(r.steps_by_method.size(), 2u);
+    EXPECT_EQ(r.steps_by_method[1].first, Method::rk8);
+    EXPECT_GT(r.steps_by_method[1].second, 10);
+    EXPECT_EQ(r.steps_by_method[0].second + r.steps_by_method[1].second, r.counters.steps);
+    p.solver.method = Method::cvode_adams;
+    r = run(p, 0.5);
+    EXPECT_EQ(r.steps_by_method, (StepsByMethod{{Method::cvode_adams, r.counters.steps}}));
+}
+
+// A step carries the tip past a small cam by more than 10⁵ halves of its radius.
+TEST(Fallback, ACappedSearchForATouchIsCountedAndReported) {
+    Problem p;
+    p.beam.model = ModelKind::rigid;
+    p.gravity = 0;
+    p.initial = {0.05, -1, InitialShape::straight};
+    p.solver.method = Method::rk8;
+    p.cam = Cam{{1.001, 0}, 1e-7, 0, 0, 0, {}, 0.3};
+    EXPECT_TRUE(reports(run(p, 0.1), "a touch may be missed"));
+    p.cam->radius = 1e-4;
+    EXPECT_FALSE(reports(run(p, 0.1), "a touch may be missed"));
+}
+
+TEST(Fallback, AGapLeftAtAnEventIsReported) {
+    Problem p;
+    p.solver.method = Method::rk8;
+    set_tolerance(p, 1e-2);
+    EXPECT_TRUE(reports(run(p, 0.6), "remained at a touch or release and was set to zero"));
+    set_tolerance(p, 1e-10);
+    EXPECT_FALSE(reports(run(p, 0.6), "set to zero"));
+}
+
+// The state after a strike is as uncertain as a step: where the rebound is lower, the gap closes again at the same
+// instant.
+TEST(Fallback, AReboundWithinTheErrorOfAStepIsCountedAsPlasticAndReported) {
+    Problem p;
+    p.contact.model = ContactModel::restitution;
+    for (const Method method : {Method::cvode_adams, Method::cvode_bdf})
+        for (const double rtol : {1e-2, 1e-3}) {
+            p.solver = {method, rtol, 1e-3 * rtol, p.solver.max_steps};
+            EXPECT_TRUE(reports(run(p, 0.6), "taken as plastic")) << name(method) << " " << rtol;
+        }
+    p.solver = Solver{};
+    EXPECT_FALSE(reports(run(p, 0.6), "taken as plastic"));
+}
+
+// A grip that can neither hold nor slide needs rounding to come about: no scene shows it on every machine.
+TEST(Fallback, EachIsReportedWithItsCount) {
+    const auto reported = [](const Fallbacks& fallbacks, const char* words) {
+        RunStatistics statistics;
+        statistics.fallbacks = fallbacks;
+        const Problem p;
+        const std::vector<std::string> all = warnings(p, Result{}, statistics, 0);
+        return all.size() == 1 && all.front().find(words) != std::string::npos;
+    };
+    EXPECT_TRUE(reported({.friction_changes = 1}, "in 1 step the friction alternated between stick and slip"));
+    EXPECT_TRUE(reported({.friction_changes = 3}, "in 3 steps the friction"));
+    EXPECT_TRUE(reported({.strikes = 1}, "1 strike taken as plastic"));
+    EXPECT_TRUE(reported({.strikes = 2}, "2 strikes taken as plastic"));
+    EXPECT_TRUE(reported({.coarse = 2}, "in 2 steps the beam vibrates faster than the search for touches"));
+    EXPECT_TRUE(reported({.left_behind = 1}, "no motion was found in which the resting beam follows"));
+    EXPECT_TRUE(reported({.searches = 2}, "search for extrema is incomplete in 2 steps"));
+    EXPECT_TRUE(reported({.gap = 2e-9}, "a gap of 2e-09 m remained"));
+    RunStatistics rounding;
+    rounding.fallbacks.gap = 1e-15;
+    EXPECT_TRUE(warnings(Problem{}, Result{}, rounding, 0).empty());
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
