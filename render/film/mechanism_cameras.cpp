@@ -91,6 +91,8 @@ std::vector<Perspective> MechanismCameras::projections() const {
     std::vector<Perspective> out{looking(home_, view.shot.yaw, view.shot.pitch)};
     for (const double way : {-1.0, -0.5, 0.5, 1.0})
         if (view.swing != 0) out.push_back(looking(home_, view.shot.yaw + way * view.swing, view.shot.pitch));
+    for (const CameraMove& move : home_.context.setup->moves)
+        out.push_back(looking(home_, move.shot.yaw, move.shot.pitch));
     return out;
 }
 

@@ -225,7 +225,7 @@ class LabelPlacer {
 
     // The place nearest to the first of these arrows that no body meets while they are shown.
     Box pinned_place(Vec2 size, std::size_t first, std::size_t end) const {
-        OccupancyGrid room(at.box.inset(4 * u), 4 * u);
+        OccupancyGrid room(at.label_area(), 4 * u);
         for (std::size_t i = first; i < end; ++i)
             room = with_bodies(std::move(room), needs.frames[i], &needs.arrows[i]);
         const MechanismView now = cameras.view(needs.frames[first]);

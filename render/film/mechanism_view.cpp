@@ -56,11 +56,16 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
     return drawn_beam(its, pose, factor, look.depth, context.section_reference(whose));
 }
 
+Box MechanismView::label_area() const {
+    const Box all = box.inset(4 * unit);
+    return {all.x, all.y, all.w, all.h - 34 * unit};
+}
+
 Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base) const {
     const Vec2 middle = seen(px(moved ? base.value_or(label.base) : label.base), view) + label.offset;
     Box place{middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
     if (moved) {
-        const Box within = box.inset(4 * unit);
+        const Box within = label_area();
         place.x = std::max(within.x, std::min(place.x, within.right() - place.w));
         place.y = std::max(within.y, std::min(place.y, within.bottom() - place.h));
     }

@@ -204,15 +204,17 @@ class Drawing : private Sketch {
     }
 
     void gravity() {
-        const double x = 0.28 * size_;
+        const double length = 0.17 * unit_;
+        double x = 0.28 * size_, low = 0.98 * size_ * std::sin(theta_) - length;
         // Above the dimension of the beam, which is low where the beam is.
-        const double line = x * std::tan(theta_) + kDimension * size_ / std::cos(theta_), length = 0.17 * unit_;
-        double low = 0.98 * size_ * std::sin(theta_) - length;
+        const double line = x * std::tan(theta_) + kDimension * size_ / std::cos(theta_);
+        const bool steep = theta_ > 0.7 && low < line + 0.03 * unit_;
+        if (steep) x = (std::cos(theta_) + 0.22) * size_;  // on the other side of the beam
         if (theta_ > 0 && theta_ < 0.7) low = std::max(low, line + 0.05 * unit_);
         const Vec2 from{x, low + length}, to{x, low};
         arrow(from, to, kInk, 0.9);
         // On the other side than the dimension, if that is close.
-        label(0.5 * (from + to), "$g$", {theta_ > 0.7 && low > line ? -0.8 : 0.8, 0});
+        label(0.5 * (from + to), "$g$", {theta_ > 0.7 && !steep ? -0.8 : 0.8, 0});
     }
 
     const sim::Problem& p_;
