@@ -41,7 +41,8 @@ class Plot {
     // pixels.
     std::vector<Vec2> points(const std::vector<double>& x, const std::vector<double>& y, bool right = false,
                              const Interval& part = {}) const;
-    double along_x(double x) const { return box_.x + x_->place(x, box_.w); }
+    // Rounding decides to which column of pixels a point belongs: each medium keeps its own order of multiplication.
+    double along_x(double x) const { return box_.x + (style_->palette ? x_->place(x, box_.w) : box_.w * x_->place(x)); }
     double along_y(double y) const { return box_.bottom() - box_.h * y_->place(y); }
     double color_share(double value) const { return bar_ ? bar_->place(value) : 0; }
     const AxisMap& x() const { return *x_; }
