@@ -285,9 +285,9 @@ void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, const Samp
     offer(e, t, std::nextafter(rim(), 0.0));
 }
 
-void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration) {
+void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) {
     step_.begin(s);
-    Extremum of_force{0, s.from, force.value_or(0), s.from}, of_gap{-penetration, s.from, 0, s.from};
+    Extremum of_force{0, s.from, peaks.force.value_or(0), s.from}, of_gap{-peaks.penetration, s.from, 0, s.from};
     StepChannels::SampledStates states;
     const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
         if (step_.modes().touch() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
@@ -295,8 +295,7 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, std::optional<double
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
     raise(ChannelKind::gap, -1, of_gap);
-    force = of_force.max;
-    penetration = -of_gap.min;
+    peaks = {of_force.max, -of_gap.min};
 }
 
 }  // namespace beamcam::sim

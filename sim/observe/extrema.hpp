@@ -34,7 +34,7 @@ class ExtremaFinder {
     // Searches that ended before all intervals were decided.
     long incomplete() const { return incomplete_; }
     // Raises the two to the largest normal force and penetration within the step.
-    void contact_peaks(const SegmentInterval& s, std::optional<double>& force, double& penetration);
+    void contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks);
     // The step that is searched, for crossings (crossings.hpp).
     StepChannels& step_channels() { return step_; }
 

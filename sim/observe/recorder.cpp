@@ -31,6 +31,7 @@ Recorder::Recorder(const System& system, const Request& request, const std::func
       extrema_(std::make_unique<ExtremaFinder>(system, request.extrema, poll)),
       y_(static_cast<std::size_t>(system.size)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (request.impact_peaks) summary_.impact.emplace();
     result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
 }
 
@@ -67,19 +68,26 @@ void Recorder::record(const SegmentInterval& s, const SegmentSummary* known) {
     samples_.step(s);
     if (impacts_.open()) samples_.contact_step(s);
     if (lasts) find_events(s, known);
-    if (known) {
+    if (known)
         static_cast<RunPeaks&>(summary_) = *known;
-    } else {
-        if (lasts && impacts_.open()) extrema_->contact_peaks(s, summary_.force_peak, summary_.penetration_peak);
+    else
         record_balance(s);
-    }
     if (Impact* impact = impacts_.open()) {
-        impact->force_peak = summary_.force_peak;
-        impact->penetration_peak = summary_.penetration_peak;
+        if (lasts) find_peaks(s, known);
+        impact->force_peak = summary_.impact ? summary_.impact->force : std::nullopt;
+        impact->penetration_peak = summary_.impact ? summary_.impact->penetration : kNan;
     }
     // In contact the balance depends on how the gap was found.
     const bool shared = !known && !evaluator_.system().phase().touching;
     if (lasts) extrema_->step(s, shared ? &evaluator_.energy_balance() : nullptr, result_.extrema);
+}
+
+void Recorder::find_peaks(const SegmentInterval& s, const SegmentSummary* known) {
+    if (!summary_.impact) return;
+    if (known && known->impact)
+        summary_.impact = known->impact;
+    else
+        extrema_->contact_peaks(s, *summary_.impact);
 }
 
 void Recorder::find_events(const SegmentInterval& s, const SegmentSummary* known) {
@@ -120,8 +128,7 @@ void Recorder::record_balance(const SegmentInterval& s) {
 void Recorder::touch(double t, const double* y, const ContactState& contact) {
     impacts_.touch(t, y, contact);
     samples_.begin_contact();
-    summary_.force_peak = impacts_.open()->force_peak;
-    summary_.penetration_peak = impacts_.open()->penetration_peak;
+    if (summary_.impact) summary_.impact = {impacts_.open()->force_peak, impacts_.open()->penetration_peak};
 }
 
 void Recorder::finish(double t, const double* y, const RunStatistics& statistics) {

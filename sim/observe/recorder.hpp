@@ -39,6 +39,7 @@ class Recorder {
     Result& result() { return result_; }
 
   private:
+    void find_peaks(const SegmentInterval& s, const SegmentSummary* known);
     void find_events(const SegmentInterval& s, const SegmentSummary* known);
     void note_balance();
     void record_balance(const SegmentInterval& s);

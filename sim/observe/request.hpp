@@ -47,6 +47,7 @@ struct Request {
     std::vector<PointRequest> points;
     std::vector<Channel> extrema;                 // searched on the dense output
     bool apexes = false, zero_crossings = false;  // of θ; each searches every ripple of the hub
+    bool impact_peaks = true;                     // the largest force and penetration of each impact, by a search
     bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs further runs
     // The run ends early at the event that completes these counts.
     std::optional<EventCounts> enough = {};

@@ -27,8 +27,8 @@ struct Impact {
     double v_n_before = 0, v_t_before = 0;       // at touch [m/s]
     std::optional<double> v_n_after, v_t_after;  // at release [m/s]
     std::optional<double> duration;              // [s]
-    std::optional<double> force_peak;            // [N]; absent: a pure impulse has no finite force
-    double penetration_peak = 0;                 // [m]
+    std::optional<double> force_peak;            // [N]; absent: a pure impulse has no finite force; or not requested
+    double penetration_peak = 0;                 // [m]; NaN: not requested
     double impulse_n = 0, impulse_t = 0;         // [N s]
     std::optional<double> restitution;           // −v_n_after / v_n_before
     double energy_lost = 0;                      // contact + friction losses between touch and release [J]

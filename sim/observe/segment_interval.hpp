@@ -18,15 +18,19 @@ struct SegmentInterval {
 };
 
 // Largest values up to the end of an interval: of the open impact, and of the whole run.
+struct ImpactPeaks {
+    decltype(Impact::force_peak) force{};  // [N]
+    double penetration = 0;                // [m]
+};
 struct RunPeaks {
-    decltype(Impact::force_peak) force_peak{};                              // [N]
-    double penetration_peak = 0;                                            // [m]
     double energy_scale = 0, energy_residual_max = 0, largest_elastic = 0;  // [J]; the last: of the bending energy
 };
 
 // Everything about an interval that does not depend on the request; computed once, for all recorders.
 struct SegmentSummary : RunPeaks {
-    std::optional<std::vector<Apex>> apexes;  // absent: not searched
+    // Absent: not searched.
+    std::optional<ImpactPeaks> impact;
+    std::optional<std::vector<Apex>> apexes;
     std::optional<std::vector<ZeroCrossing>> theta_zero;
 };
 

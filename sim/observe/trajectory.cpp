@@ -163,6 +163,7 @@ void TrajectoryWriter::begin(const Phase& phase, const std::vector<double>& y) {
 void TrajectoryWriter::record(const Segment& segment, double from, double to, bool event,
                               const RunStatistics& statistics, const SegmentSummary* summary) {
     if (broken_) return;
+    if (summary && !summary->impact) summary = nullptr;  // only complete ones are kept
     ++steps_;
     {
         const OpenRecord record(buffer_, RecordKind::interval);

@@ -99,11 +99,12 @@ void visit(Archive& a, std::optional<std::vector<T>>& list) {
 
 template <class Archive>
 void visit(Archive& a, SegmentSummary& s) {
-    bool has_peak = s.force_peak.has_value();
-    double peak = s.force_peak.value_or(0);
+    if (!s.impact) s.impact.emplace();
+    bool has_peak = s.impact->force.has_value();
+    double peak = s.impact->force.value_or(0);
     a(has_peak), a(peak);
-    s.force_peak = has_peak ? std::optional(peak) : std::nullopt;
-    a(s.penetration_peak), a(s.energy_scale), a(s.energy_residual_max), a(s.largest_elastic);
+    s.impact->force = has_peak ? std::optional(peak) : std::nullopt;
+    a(s.impact->penetration), a(s.energy_scale), a(s.energy_residual_max), a(s.largest_elastic);
     visit(a, s.apexes);
     visit(a, s.theta_zero);
 }

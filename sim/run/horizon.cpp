@@ -81,6 +81,7 @@ Request horizon_request(const Problem& problem, double end) {
     table.times.push_back(end);
     Request request;
     request.tables.push_back(std::move(table));
+    request.impact_peaks = false;
     return request;
 }
 

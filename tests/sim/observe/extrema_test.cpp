@@ -242,6 +242,25 @@ TEST(ContactPeaks, AreThoseOfDenseSampling) {
     EXPECT_NEAR(*r.impacts[5].force_peak, 1237.51, 0.01);  // a neighbour is 1237.4922
     expect_peaks_of_dense_sampling(p, r);
 }
+TEST(ContactPeaks, CostNothingUnlessRequested) {
+    const Problem p = six_impacts();
+    Request all, none;
+    all.end_time = none.end_time = 0.29;
+    none.impact_peaks = false;
+    const Request both[] = {none, all};
+    const std::vector<Result> r = simulate(p, both);
+    const Result alone = simulate(p, none);
+    ASSERT_EQ(r[0].impacts.size(), r[1].impacts.size());
+    EXPECT_NEAR(*r[1].impacts[5].force_peak, 1237.51, 0.01);
+    for (const Impact& impact : r[0].impacts) {
+        EXPECT_FALSE(impact.force_peak);
+        EXPECT_TRUE(std::isnan(impact.penetration_peak));
+    }
+    EXPECT_EQ(*r[0].impacts[5].t_end, *r[1].impacts[5].t_end);
+    EXPECT_EQ(*alone.impacts[5].t_end, *r[1].impacts[5].t_end);
+    EXPECT_FALSE(alone.collisions[0].force_peak);
+}
+
 TEST(ContactPeaks, OfOtherModelsAreThoseOfDenseSampling) {
     SKIP_UNDER_SANITIZERS();
     for (const ModelKind kind : {ModelKind::second_order, ModelKind::exact}) {
