@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <random>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "render/base/error.hpp"
 #include "render/draw/fonts.hpp"
@@ -124,14 +126,14 @@ void expect_no_curve_beneath(const Drawn& all, const std::string& what) {
 
 void try_scenes(unsigned seed, int count) {
     Dice dice(seed);
-    const std::span<const plot::Column> columns = plot::columns();
+    const std::vector<std::string> columns = plot::column_names();
     int made = 0;
     for (int k = 0; k < count; ++k) {
         const char* name = dice.one_of({"series", "series", "series", "schematic", "free-fall", "deflection",
                                         "distance", "collision", "energy", "contact-places", "phase", "kymograph",
                                         "spectrogram", "strobe", "impact-maps", "impact-histograms", "tip-vibration"});
         const std::string output = std::string(name) == "series" ? ", " + series(dice) : "";
-        const char* column = columns[static_cast<std::size_t>(k) % columns.size()].name;
+        const std::string& column = columns[static_cast<std::size_t>(k) % columns.size()];
         const std::string text =
             fmt::format(R"({{{}, "outputs": [{{"type": "figure", "figure": "{}", "column": "{}", "lang": "{}"{}}}]}})",
                         mechanics(dice), name, column, dice.chance(5) ? "zh" : "en", output);
