@@ -72,7 +72,7 @@ Image Chart::past(const Fonts& fonts) const {
     Canvas canvas(image, fonts);
     outline_on(canvas, palette_, style_.unit);
     figure::Plot moved = plot_;
-    moved.move_to({kAround, kAround});
+    moved.move_data({-box.x, -box.y});
     moved.draw_data(canvas, whole(true));
     return image;
 }

@@ -141,7 +141,7 @@ void Plot::show_x(const Painter& on, double from, double to) {
 
 Vec2 Plot::at(double x, double y, bool right) const {
     const AxisMap& vertical = right && right_ ? *right_ : *y_;
-    return {along_x(x), box_.bottom() - box_.h * vertical.place(y)};
+    return Vec2{along_x(x), box_.bottom() - box_.h * vertical.place(y)} + shift_;
 }
 
 // ---- axes and frame -------------------------------------------------------------------------------------

@@ -31,7 +31,7 @@ class Plot {
 
     void fit(const Painter& on, double width, double height);  // chooses the ticks for a plot of about this size
     void place(const Painter& on, const Box& box) { box_ = box, fit(on, box.w, box.h); }
-    void move_to(Vec2 corner) { box_.x = corner.x, box_.y = corner.y; }
+    void move_data(Vec2 by) { shift_ = by; }  // draws the data elsewhere than the axes
     // In films: another interval of x, whose numbers move with time.
     void show_x(const Painter& on, double from, double to);
 
@@ -73,6 +73,7 @@ class Plot {
     std::string what_;
     std::optional<AxisMap> x_, y_, right_, bar_;
     Box box_;
+    Vec2 shift_;
     double width_ = 0, height_ = 0;
 };
 

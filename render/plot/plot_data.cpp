@@ -68,7 +68,7 @@ void Plot::draw_bands(Painter& on, const Interval& part) const {
     for (const Series& s : panel_->series) {
         if (!s.filled) continue;
         std::vector<Vec2> edge = points(s.x, s.y, false, part), low = edge;
-        for (Vec2& p : low) p.y = box_.bottom();
+        for (Vec2& p : low) p.y = box_.bottom() + shift_.y;
         fill(std::move(edge), low, part.past ? color_of(s).faded(0.20) : s.faint.faded(0.35));
     }
 }
@@ -108,8 +108,9 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     for (const EventTick& event : panel_->events) {
         if (!within(event.x)) continue;
         // All lanes share the height of two ticks, so that they stay below the curves.
-        const double x = along_x(event.x), tall = event.lanes == 1 ? 10 * u : std::min(8.0, 20.0 / event.lanes) * u;
-        const double foot = box_.bottom() - 1 - tall * event.lane;
+        const double x = along_x(event.x) + shift_.x,
+                     tall = event.lanes == 1 ? 10 * u : std::min(8.0, 20.0 / event.lanes) * u;
+        const double foot = box_.bottom() + shift_.y - 1 - tall * event.lane;
         on.line({x, foot}, {x, foot - (event.lanes == 1 ? tall : 0.85 * tall)}, {event.color, 1.8 * u, {}, Cap::butt});
     }
 }
