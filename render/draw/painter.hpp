@@ -64,7 +64,7 @@ class Painter {
     // Draws a text, which is markup (markup.hpp); returns its box.
     virtual Box text(Vec2 at, std::string_view markup, const TextStyle& style) = 0;
     virtual Box measure(std::string_view markup, const TextStyle& style) const = 0;  // at (0, 0), left, not turned
-    double cap_height(double size) const;  // of capitals and digits
+    double cap_height(double size) const;                                            // of capitals and digits
     void fill(Color color);
     void fill_keeping_path(Color color);
     void stroke(const Pen& pen);

@@ -8,7 +8,8 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kSteep = 3;  // length of a curve relative to that of its projection
+constexpr double kWindow = 1.0 / 3;  // of the period of dashes: two to three widths of the line
+constexpr double kLonger = 3;        // length of a curve in the window, in periods and in distances of its ends
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
@@ -41,11 +42,12 @@ DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double per
             continue;
         }
         const double middle = (x[i] + x[i + 1]) / 2;
-        const auto first = std::ranges::lower_bound(x, middle - period / 2) - x.begin(),
-                   last = std::ranges::upper_bound(x, middle + period / 2) - x.begin() - 1;
+        const auto first = std::ranges::lower_bound(x, middle - kWindow * period / 2) - x.begin(),
+                   last = std::ranges::upper_bound(x, middle + kWindow * period / 2) - x.begin() - 1;
         const std::size_t from = std::min(static_cast<std::size_t>(first), i),
                           to = std::max(static_cast<std::size_t>(last), i + 1);
-        const bool narrow = length[to] - length[from] > kSteep * std::max(period, x[to] - x[from]);
+        const double apart = is_finite(points[from]) && is_finite(points[to]) ? norm(points[to] - points[from]) : 0;
+        const bool narrow = length[to] - length[from] > kLonger * std::max(period, apart);
         std::vector<Vec2>& piece = narrow ? out.solid : out.dashed;
         if (open != &piece) {
             if (!piece.empty()) piece.push_back({kNan, kNan});

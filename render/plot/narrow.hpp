@@ -12,8 +12,8 @@ struct DashedCurve {
     std::vector<Vec2> dashed, solid;
 };
 
-// A piece is solid if the curve within one `period` of its dashes, measured along x, is more than three periods long.
-// Curves that are not functions of x stay dashed.
+// A piece is solid if the curve within a third of the `period` of its dashes, measured along x, goes more than three
+// periods up and back. Curves that are not functions of x stay dashed.
 DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double period);
 
 // Strokes a curve, dashed by the pen except in narrow spikes.

@@ -29,12 +29,14 @@ TEST(Spikes, AreDrawnWithoutDashes) {
 }
 
 TEST(Spikes, WideCurvesAndLoopsStayDashed) {
-    std::vector<Vec2> wave, loop;
+    std::vector<Vec2> wave, loop, pulse, step;  // the pulse is as wide as a dash; the step does not come back
     for (int i = 0; i <= 200; ++i) {
         wave.push_back({double(i), 20 * std::sin(i * 0.05)});
         loop.push_back({50 * std::cos(i * 0.1), 50 * std::sin(i * 0.1)});
+        pulse.push_back({double(i), 200 * std::exp(-std::pow((i - 100) / 5.0, 2))});
+        step.push_back({double(i), i < 100 ? 0.0 : 100.0});
     }
-    for (const auto* curve : {&wave, &loop}) {
+    for (const auto* curve : {&wave, &loop, &pulse, &step}) {
         const DashedCurve pieces = without_dashes_in_spikes(*curve, 10);
         EXPECT_TRUE(pieces.solid.empty());
         EXPECT_EQ(pieces.dashed.size(), curve->size());
