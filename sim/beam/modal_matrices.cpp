@@ -49,4 +49,11 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
     return m;
 }
 
+std::vector<double> bounding_vector(const Eigen::MatrixXd& b, const Eigen::VectorXd& squares) {
+    const Eigen::VectorXd c = squares.cwiseSqrt();
+    const double share = b.cwiseAbs().cwiseQuotient(c * c.transpose()).maxCoeff();
+    const Eigen::VectorXd scaled = std::sqrt(share) * c;
+    return {scaled.begin(), scaled.end()};
+}
+
 }  // namespace beamcam::sim

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <vector>
 
 #include "sim/beam/shapes.hpp"
 #include "sim/problem/problem.hpp"
@@ -19,5 +20,9 @@ struct ModalMatrices {
     Eigen::VectorXd slope;       // φ′(0)
 };
 ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis basis);
+
+// A vector c with |B_ij| <= c_i c_j, in proportion to the roots of `squares` > 0. B need not be definite: a hub of
+// negative radius makes D and G negative for some shapes.
+std::vector<double> bounding_vector(const Eigen::MatrixXd& b, const Eigen::VectorXd& squares);
 
 }  // namespace beamcam::sim

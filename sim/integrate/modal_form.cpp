@@ -18,14 +18,6 @@ void copy_rows(const Eigen::MatrixXd& m, double factor, std::vector<double>& out
         for (Eigen::Index j = 0; j < n; ++j) out[static_cast<std::size_t>(i * n + j)] = factor * m(i, j);
 }
 
-// A vector c with |B_ij| <= c_i c_j, in proportion to the roots of `squares` > 0.
-std::vector<double> bounding_vector(const Eigen::MatrixXd& b, const Eigen::VectorXd& squares) {
-    const Eigen::VectorXd c = squares.cwiseSqrt();
-    const double share = b.cwiseAbs().cwiseQuotient(c * c.transpose()).maxCoeff();
-    const Eigen::VectorXd scaled = std::sqrt(share) * c;
-    return {scaled.begin(), scaled.end()};
-}
-
 }  // namespace
 
 std::shared_ptr<ModalForm> ModalForm::begin(const System& system, const Model& model) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "sim/base/numerics.hpp"
@@ -20,7 +21,11 @@ BestValue best_so_far(ChannelKind kind, double sign, const Extremum& e) {
                     : BestValue{sign, -e.min, e.t_min, negligible(kind)};
 }
 
-double bound(const ModalChannels::Range& range, double sign) { return sign > 0 ? range.high : -range.low; }
+// What cannot be computed is no bound: candidates need an order.
+double bound(const ModalChannels::Range& range, double sign) {
+    const double high = sign > 0 ? range.high : -range.low;
+    return std::isnan(high) ? std::numeric_limits<double>::infinity() : high;
+}
 
 bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, double sign, const Extremum& e) {
     return bound(range, sign) <= best_so_far(kind, sign, e).to_beat();

@@ -50,22 +50,26 @@ void ModeBasis::of_coordinates(System& system) {
     S = std::fabs(m.S);
     const int n = model.size() - 1;
     const double* damping = model.diagonal_damping();
+    if (n == 0) return;
     double at_tip[kMaxModes], root[kMaxModes];
-    if (n > 0) {
-        model.shapes().evaluate(length, at_tip, nullptr, nullptr);
-        model.shapes().evaluate(0, root, nullptr, nullptr);
-    }
+    model.shapes().evaluate(length, at_tip, nullptr, nullptr);
+    model.shapes().evaluate(0, root, nullptr, nullptr);
+    const double behind = mass * std::max(0.0, -system.problem().hub.radius);
+    const std::vector<double> inertia =
+                                  bounding_vector(model.inertia_matrix(), m.M.diagonal() + m.D.diagonal().cwiseAbs()),
+                              weight = bounding_vector(m.G, m.G.diagonal() + 2 * behind * m.slope.cwiseAbs2());
     for (int i = 0; i < n; ++i) {
         const auto mode = static_cast<std::size_t>(i);
         const double shape = system.gap_bound().shape_bound(mode), wave = system.gap_bound().wave_number(mode);
         tip.push_back(at_tip[i] - root[i] - length * m.slope[i]);
         modes.push_back({std::fabs(m.slope[i]), m.slope[i], tip.back(), std::fabs(m.U[i]), std::fabs(m.W[i]), m.K[i],
-                         std::sqrt(m.M(i, i)) + std::sqrt(m.D(i, i)), std::sqrt(m.G(i, i)), shape, shape * wave, wave,
-                         model.frequency(i), damping ? damping[i] / mass : 0});
+                         inertia[mode], weight[mode], shape, shape * wave, wave, model.frequency(i),
+                         damping ? damping[i] / mass : 0});
     }
 }
 
-// The quadratic terms of foreshortening are at most ½m(reach)s² in inertia and ms² in weight, s² = ∫φ′².
+// The quadratic terms of foreshortening are at most m(|a| + ½L)s² in inertia and ms² in weight, s² = ∫φ′²; those of the
+// root, which the hub turns, the share |a|/L of that.
 void ModeBasis::of_natural_modes(System& system) {
     const NaturalModes& m = system.natural_modes();
     const std::unique_ptr<Model> model = system.model().clone();
@@ -83,6 +87,8 @@ void ModeBasis::of_natural_modes(System& system) {
     to_natural.assign(inverse_rows.data(), inverse_rows.data() + inverse_rows.size());
     J = m.J;
     S = std::fabs(m.S);
+    const double root_mass = std::sqrt(mass), with_root = std::sqrt(reach / length),
+                 arm = std::sqrt(reach - 0.5 * length);
     Eigen::VectorXd damping = Eigen::VectorXd::Zero(n);
     if (const std::vector<double> all = model->damping_matrix(); !all.empty()) {
         const Eigen::MatrixXd beam = m.shapes.bottomRightCorner(n, n);
@@ -90,9 +96,9 @@ void ModeBasis::of_natural_modes(System& system) {
     }
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(i);
-        const double square = std::max(0.0, m.omega_squared[i]), steep = m.slope_norm[k], root_mass = std::sqrt(mass);
+        const double square = std::max(0.0, m.omega_squared[i]), steep = m.slope_norm[k] * with_root;
         modes.push_back({std::fabs(m.h[k]), m.h[k], by_mode[i + 1], std::fabs(m.U[i]), mass * std::fabs(m.weight[i]),
-                         mass * square, root_mass * (1 + std::sqrt(0.5 * reach) * steep), root_mass * steep, m.shape[k],
+                         mass * square, root_mass * (1 + arm * steep), root_mass * steep, m.shape[k],
                          m.shape[k] * m.beta[k], m.beta[k], std::sqrt(square), damping[i]});
     }
 }
