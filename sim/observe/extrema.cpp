@@ -271,6 +271,24 @@ double ExtremaFinder::rim() { return 2 * std::numbers::pi * step_.system().probl
 // The arc on the disc jumps at a mark; without that jump, next to another.
 double ExtremaFinder::unwrapped(double arc, double near) { return arc - rim() * std::round((arc - near) / rim()); }
 
+// The arc has a corner where the foot of the contact reaches or leaves an end of the beam.
+template <class F>
+void ExtremaFinder::offer_corners(const F& arc, const SegmentInterval& s, BestValue& best) {
+    const double length = step_.system().problem().beam.length;
+    const auto at_end = [&](double t) {
+        const double x = step_.value(s, {ChannelKind::contact_x}, t);
+        return !(x > 0 && x < length);
+    };
+    for (std::size_t k = 0; k + 1 < StepChannels::kSamples; ++k) {
+        double a = sample_time(s, k), b = sample_time(s, k + 1);
+        const bool before = at_end(a);
+        if (at_end(b) == before) continue;
+        for (double t = 0.5 * (a + b); t > a && t < b; t = 0.5 * (a + b)) (at_end(t) == before ? a : b) = t;
+        best.offer({a, arc(a)});
+        best.offer({b, arc(b)});
+    }
+}
+
 void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, const Samples& sampled, Extremum& e) {
     constexpr Channel kArc{ChannelKind::contact_s};
     const auto arc = [&](double t) { return unwrapped(step_.value(s, kArc, t), sampled[0]); };
@@ -279,6 +297,7 @@ void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, const Samp
     BestValue best = best_so_far(kArc.kind, sign, e);
     const double before = best.value;
     climb_step(arc, s, kArc, samples, best);
+    offer_corners(arc, s, best);
     if (!(best.value > before)) return;
     const double value = sign * best.value;
     if (value >= 0 && unwrapped(value, 0) != 0 && value < rim()) return offer(e, best.t, value);

@@ -72,6 +72,8 @@ class ExtremaFinder {
     void search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples, Extremum& e);
     template <class F>
     void climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
+    template <class F>
+    void offer_corners(const F& arc, const SegmentInterval& s, BestValue& best);
     void search_arc(const SegmentInterval& s, double sign, const Samples& samples, Extremum& e);
     double rim();
     double unwrapped(double arc, double near);

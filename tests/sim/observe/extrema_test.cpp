@@ -165,6 +165,15 @@ TEST(Extrema, OfABeamThatReachesBehindTheAxisExceedEverySample) {
     }
 }
 
+// The place on the disc that is nearest to the beam turns back where the foot reaches an end of the beam.
+TEST(Extrema, OfAFootThatReachesAnEndExceedEverySample) {
+    Problem p = turning_cam(ModelKind::first_order, 2, -0.5);
+    p.cam->centre.x = 0.6;
+    p.initial.angular_velocity = 4;
+    set_tolerance(p, 1e-3);
+    expect_true_extrema(p, 0.4, 8'000);
+}
+
 TEST(Extrema, OfImpulsiveContactAndRestExceedEverySample) {
     Problem p = turning_cam(ModelKind::first_order, 2, 3);
     p.contact.model = ContactModel::restitution;
