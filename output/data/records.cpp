@@ -93,7 +93,7 @@ Node extrema_of(const sim::Result& result, const std::vector<sim::Channel>& chan
     return map;
 }
 
-// Also within steps, if the extrema of the residual were computed.
+// Also at nodes within steps, if the extrema of the residual were computed.
 double largest_residual(const sim::Result& result, const std::vector<sim::Channel>& channels) {
     double largest = result.energy_residual_max;
     for (std::size_t i = 0; i < channels.size(); ++i)

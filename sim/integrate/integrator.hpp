@@ -64,7 +64,7 @@ struct ModalBounds {
     double h = 0;                           // length of the collocation step [s]
     bool resolved = false;                  // every component is a polynomial, and its power that of the ledger
     double power_cam = 0, power_drive = 0;  // of magnitudes [W]
-    double balance_error = 0;  // by how much the error of the energy balance within the step exceeds its ends [J]
+    double balance_error = 0;  // estimate: of the error of the energy balance within the step, beyond its ends [J]
 };
 
 class Segment {

@@ -231,8 +231,7 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples,
                            Extremum& e) {
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, samples, e);
-    // Within a step of the collocation the error of the energy balance is stationary at the nodes, where the forcing is
-    // exact, and largest at one of them.
+    // An error: where the forcing is exact is enough.
     if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
         return;

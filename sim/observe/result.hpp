@@ -83,7 +83,7 @@ struct Result {
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
     std::vector<Extremum> extrema;   // one per Request::extrema
-    double energy_residual_max = 0;  // at the ends of steps [J]; within them: the extremum of that channel
+    double energy_residual_max = 0;  // at the ends of steps [J]; at nodes within: the extremum of that channel
     double energy_scale = 0;         // [J]
     // With Request::horizon:
     std::optional<double> reproducible_until;       // the first loss, or the end [s]
