@@ -216,21 +216,21 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
 void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign,
                                  StepChannels::SampledStates& sampled, Extremum& e) {
     const std::vector<SegmentInterval> parts = step_.parts(s);
-    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual)
-        return search(s, channel, sign, step_.sample(s, channel, sampled), e);
+    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, sampled, e);
     // Vibrations of which too little reaches the channel need no parts.
     if (is_beaten(step_.sampled_range(s, channel, sampled), channel.kind, sign, e)) return;
     for (const SegmentInterval& part : parts) {
         step_.begin(part);
         StepChannels::SampledStates states;
-        search(part, channel, sign, step_.sample(part, channel, states), e);
+        search(part, channel, sign, states, e);
     }
     step_.begin(s);
 }
 
-void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples,
+void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
                            Extremum& e) {
-    if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, samples, e);
+    if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, sampled, e);
+    const Samples samples = step_.sample(s, channel, sampled);
     // An error: where the forcing is exact is enough.
     if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
@@ -272,31 +272,32 @@ double ExtremaFinder::unwrapped(double arc, double near) { return arc - rim() * 
 
 // The arc has a corner where the foot of the contact reaches or leaves an end of the beam.
 template <class F>
-void ExtremaFinder::offer_corners(const F& arc, const SegmentInterval& s, BestValue& best) {
+void ExtremaFinder::offer_corners(const F& arc, const SegmentInterval& s, const Samples& feet, BestValue& best) {
     const double length = step_.system().problem().beam.length;
-    const auto at_end = [&](double t) {
-        const double x = step_.value(s, {ChannelKind::contact_x}, t);
-        return !(x > 0 && x < length);
-    };
-    for (std::size_t k = 0; k + 1 < StepChannels::kSamples; ++k) {
+    const auto at_end = [&](double x) { return !(x > 0 && x < length); };
+    for (std::size_t k = 0; k + 1 < feet.size(); ++k) {
+        const bool before = at_end(feet[k]);
+        if (at_end(feet[k + 1]) == before) continue;
         double a = sample_time(s, k), b = sample_time(s, k + 1);
-        const bool before = at_end(a);
-        if (at_end(b) == before) continue;
-        for (double t = 0.5 * (a + b); t > a && t < b; t = 0.5 * (a + b)) (at_end(t) == before ? a : b) = t;
+        for (double t = 0.5 * (a + b); t > a && t < b; t = 0.5 * (a + b))
+            (at_end(step_.value(s, {ChannelKind::contact_x}, t)) == before ? a : b) = t;
         best.offer({a, arc(a)});
         best.offer({b, arc(b)});
     }
 }
 
-void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, const Samples& sampled, Extremum& e) {
+void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, StepChannels::SampledStates& sampled,
+                               Extremum& e) {
     constexpr Channel kArc{ChannelKind::contact_s};
-    const auto arc = [&](double t) { return unwrapped(step_.value(s, kArc, t), sampled[0]); };
-    Samples samples = sampled;
-    for (double& value : samples) value = unwrapped(value, sampled[0]);
+    Samples samples = step_.sample(s, kArc, sampled);
+    const Samples feet = step_.sample(s, {ChannelKind::contact_x}, sampled);
+    const double first = samples[0];
+    const auto arc = [&](double t) { return unwrapped(step_.value(s, kArc, t), first); };
+    for (double& value : samples) value = unwrapped(value, first);
     BestValue best = best_so_far(kArc.kind, sign, e);
     const double before = best.value;
     climb_step(arc, s, kArc, samples, best);
-    offer_corners(arc, s, best);
+    offer_corners(arc, s, feet, best);
     if (!(best.value > before)) return;
     const double value = sign * best.value;
     if (value >= 0 && unwrapped(value, 0) != 0 && value < rim()) return offer(e, best.t, value);

@@ -69,12 +69,13 @@ class ExtremaFinder {
     void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
     void search_parts(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
                       Extremum& e);
-    void search(const SegmentInterval& s, Channel channel, double sign, const Samples& samples, Extremum& e);
+    void search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
+                Extremum& e);
     template <class F>
     void climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
     template <class F>
-    void offer_corners(const F& arc, const SegmentInterval& s, BestValue& best);
-    void search_arc(const SegmentInterval& s, double sign, const Samples& samples, Extremum& e);
+    void offer_corners(const F& arc, const SegmentInterval& s, const Samples& feet, BestValue& best);
+    void search_arc(const SegmentInterval& s, double sign, StepChannels::SampledStates& sampled, Extremum& e);
     double rim();
     double unwrapped(double arc, double near);
 
