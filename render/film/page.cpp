@@ -22,7 +22,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "the page's numbers are little-endian");
 
 constexpr std::size_t kStations = 25;  // of the stored polyline
-constexpr double kTurns = std::numbers::pi * 2;
+constexpr double kFullTurn = std::numbers::pi * 2;
 
 // The stored data of one instant.
 struct Instant {
@@ -107,7 +107,7 @@ std::string trace_json(const FilmContext& context, double radius) {
     };
     std::vector<Place> places;
     for (const TraceSample& s : context.samples.front()) {
-        const double angle = std::floor(s.s / radius / kTurns * 360) * kTurns / 360;
+        const double angle = std::floor(s.s / radius / kFullTurn * 360) * kFullTurn / 360;
         const auto same = std::ranges::find(places, angle, &Place::angle);
         if (same == places.end())
             places.push_back({s.t, angle, s.force});

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kWindow = 1.0 / 3;  // of the period of dashes: two to three widths of the line
 constexpr double kLonger = 3;        // length of a curve in the window, in periods and in distances of its ends
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr Vec2 kInterruption{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
 bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
 
@@ -50,7 +50,7 @@ DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double per
         const bool narrow = length[to] - length[from] > kLonger * std::max(period, apart);
         std::vector<Vec2>& piece = narrow ? out.solid : out.dashed;
         if (open != &piece) {
-            if (!piece.empty()) piece.push_back({kNan, kNan});
+            if (!piece.empty()) piece.push_back(kInterruption);
             piece.push_back(points[i]);
         }
         piece.push_back(points[i + 1]);

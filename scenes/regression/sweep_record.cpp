@@ -20,7 +20,7 @@ using sim::AttractorClass;
 constexpr double kSureErrors = 10;
 constexpr double kSureErrorsOfAll = 8;     // the same of sums over all points
 constexpr std::size_t kMostOfOrbit = 500;  // compared samples of a periodic motion: its whole orbit
-constexpr std::size_t kMostLines = 4;
+constexpr std::size_t kMostDifferences = 4;
 
 bool has_period(AttractorClass kind) {
     return kind == AttractorClass::rest || kind == AttractorClass::following || kind == AttractorClass::periodic;
@@ -56,7 +56,7 @@ class SweepComparer {
         else
             of_values.insert(of_values.end(), of_class.begin(), of_class.end());
         if (of_values.empty()) return all;
-        const std::size_t shown = std::min(of_values.size(), kMostLines);
+        const std::size_t shown = std::min(of_values.size(), kMostDifferences);
         all = {Verdict::different, {of_values.begin(), of_values.begin() + static_cast<std::ptrdiff_t>(shown)}};
         if (of_values.size() > shown) all.lines.push_back(fmt::format("and {} more points", of_values.size() - shown));
         return all;
