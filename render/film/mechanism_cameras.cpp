@@ -11,6 +11,8 @@ using std::numbers::pi;
 
 double solid_distance(const Box& box) { return 2.4 * std::max(box.w, box.h); }  // a mild perspective
 
+bool swings(const View& view) { return view.style == Style::solid && view.swing != 0; }
+
 }  // namespace
 
 MechanismCameras::MechanismCameras(const MechanismView& home) : home_(home) {
@@ -23,8 +25,6 @@ void MechanismCameras::follow(const std::vector<Followed>& parts) {
     if (first.zoom == 1 && first.follow == Anchor{} && setup.moves.empty()) return;
     shots_ = camera_frames(first, setup.moves, home_.look.camera, home_.box, parts, setup.fps);
 }
-
-static bool swings(const View& view) { return view.style == Style::solid && view.swing != 0; }
 
 bool MechanismCameras::move() const { return near() || swings(home_.context.setup->view); }
 

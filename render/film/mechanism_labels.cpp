@@ -109,7 +109,7 @@ class LabelPlacer {
         return out;
     }
 
-    Box box(const LabelPlace& label) const { return at.label_box(label, view ? &*view : nullptr); }
+    Box box(const LabelPlace& label) const { return at.label_box(label, usual()); }
 
     template <class Visit>
     void for_each_arrow_box(double way, const Visit& visit) const {
@@ -129,7 +129,7 @@ class LabelPlacer {
         const std::size_t step = 1 + needs.arrows.size() / kMeasuredPushes;
         for (std::size_t i = 0; i < needs.arrows.size(); i += step) measure(needs.arrows[i]);
         const Vec2 size{width, label_size(at) * 4 / 3};
-        LabelPlace out = place(room, beside_tip(at, view ? &*view : nullptr, most, size), at.px(most.foot));
+        LabelPlace out = place(room, beside_tip(at, usual(), most, size), at.px(most.foot));
         if (cameras.move())
             pin(out);
         else
@@ -138,6 +138,17 @@ class LabelPlacer {
     }
 
   private:
+    // The mechanism at a frame, as its camera sees it.
+    struct Seen {
+        Seen(const MechanismCameras& cameras, int k)
+            : frame(k), at(cameras.view(k)), projection(cameras.perspective(at, k)) {}
+        const Perspective* by() const { return projection ? &*projection : nullptr; }
+
+        int frame;
+        MechanismView at;
+        std::optional<Perspective> projection;
+    };
+
     double least_angle() const { return std::max({needs.angles.low, -needs.angles.high, 0.0}); }
 
     Box speed_box(double way, double width) const {
@@ -149,7 +160,8 @@ class LabelPlacer {
     }
 
     Vec2 axis() const { return at.px(at.problem().cam->centre); }
-    Vec2 on(Vec2 flat) const { return at.seen(flat, view ? &*view : nullptr); }
+    const Perspective* usual() const { return view ? &*view : nullptr; }
+    Vec2 on(Vec2 flat) const { return at.seen(flat, usual()); }
 
     Box beside_tip(const MechanismView& now, const Perspective* seen_by, const ForceArrow& arrow, Vec2 size) const {
         const Vec2 n{arrow.normal.x, -arrow.normal.y};
@@ -167,13 +179,12 @@ class LabelPlacer {
         return {on_base, found.centre() - on(at.px(on_base)), {preferred.w, preferred.h}, {}, {}};
     }
 
-    // Covers the bodies at a frame, as its camera sees them, and the arrow of the force.
-    OccupancyGrid with_bodies(OccupancyGrid room, int frame, const ForceArrow* arrow = nullptr) const {
-        const MechanismView now = cameras.view(frame);
-        const std::optional<Perspective> seen_by = cameras.perspective(now, frame);
-        SweptRegion parts(now, std::move(room), seen_by ? std::vector{*seen_by} : std::vector<Perspective>());
-        const sim::Pose pose = at.context.pose(at.member, frame);
-        parts.add_shape(mechanism_shape(at.problem(), pose, at.drawn(at.member, pose), now.look, at.palette));
+    // Covers the bodies and the arrow of the force.
+    OccupancyGrid with_bodies(OccupancyGrid room, const Seen& now, const ForceArrow* arrow = nullptr) const {
+        SweptRegion parts(now.at, std::move(room),
+                          now.projection ? std::vector{*now.projection} : std::vector<Perspective>());
+        const sim::Pose pose = at.context.pose(at.member, now.frame);
+        parts.add_shape(mechanism_shape(at.problem(), pose, at.drawn(at.member, pose), now.at.look, at.palette));
         if (arrow) parts.add_arrow(*arrow);
         return std::move(parts.room);
     }
@@ -183,15 +194,14 @@ class LabelPlacer {
         if (!cameras.move() && room.covered(box(label)) == 0) return;
         std::vector<int> met;
         for (int k = 0; k < at.context.frames(); ++k) {
-            const MechanismView now = cameras.view(k);
-            const std::optional<Perspective> seen_by = cameras.perspective(now, k);
-            if (meets_body(now.label_box(label, seen_by ? &*seen_by : nullptr), k)) met.push_back(k);
+            const Seen now(cameras, k);
+            if (meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);
         }
         fade_about(label, met);
     }
 
-    bool meets_body(const Box& box, int frame) const {
-        return with_bodies(OccupancyGrid(box, 4 * u), frame).covered(box.inset(0.01)) > 0.01;
+    bool meets_body(const Box& box, const Seen& now) const {
+        return with_bodies(OccupancyGrid(box, 4 * u), now).covered(box.inset(0.01)) > 0.01;
     }
 
     void fade_about(LabelPlace& label, const std::vector<int>& met) const {
@@ -217,7 +227,7 @@ class LabelPlacer {
             const Box place = pinned_place(label.size, first, end);
             for (std::size_t i = first; i < end; ++i) {
                 label.pinned[static_cast<std::size_t>(needs.frames[i])] = place.centre();
-                if (meets_body(place, needs.frames[i])) met.push_back(needs.frames[i]);
+                if (meets_body(place, Seen(cameras, needs.frames[i]))) met.push_back(needs.frames[i]);
             }
         }
         fade_about(label, met);
@@ -227,10 +237,9 @@ class LabelPlacer {
     Box pinned_place(Vec2 size, std::size_t first, std::size_t end) const {
         OccupancyGrid room(at.label_area(), 4 * u);
         for (std::size_t i = first; i < end; ++i)
-            room = with_bodies(std::move(room), needs.frames[i], &needs.arrows[i]);
-        const MechanismView now = cameras.view(needs.frames[first]);
-        const std::optional<Perspective> seen_by = cameras.perspective(now, needs.frames[first]);
-        const Box beside = beside_tip(now, seen_by ? &*seen_by : nullptr, needs.arrows[first], size);
+            room = with_bodies(std::move(room), Seen(cameras, needs.frames[i]), &needs.arrows[i]);
+        const Seen now(cameras, needs.frames[first]);
+        const Box beside = beside_tip(now.at, now.by(), needs.arrows[first], size);
         return room.nearest_free(beside.inset(-4 * u)).inset(4 * u);
     }
 

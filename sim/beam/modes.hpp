@@ -16,9 +16,9 @@ struct Mode {
     std::vector<double> q;    // the coordinates of that shape, `size() − 1` of the model
 };
 
-// Without the rigid rotation. No `speed`: at rest, with a free
-// hub (clamped if the drive prescribes its angle). With `speed` [rad/s]: in-plane vibration of a beam that is clamped
-// to a hub rotating at this speed. Empty for a rigid beam.
+// Without the rigid rotation. No `speed`: at rest, with a free hub (clamped if the drive prescribes its angle). With
+// `speed` [rad/s]: in-plane vibration of a beam that is clamped to a hub rotating at this speed. Empty for a rigid
+// beam.
 std::vector<Mode> natural_modes(const Problem& problem, std::optional<double> speed = std::nullopt);
 
 }  // namespace beamcam::sim
