@@ -70,9 +70,6 @@ inline constexpr double kSettledFoot = 3e-3;   // of the length: corrections by 
 // ---- events within a step ----
 inline constexpr double kOnKink = 1e-6;        // of an interval: a passing so early means that it starts on the kink
 inline constexpr int kMostEventHalvings = 16;  // then the ends decide: 10⁻⁵ of the interval
-// So do they where the rate changes by less than this share of its level: there the rounding of the values, divided by
-// the span, would soon decide instead.
-inline constexpr double kSteadyRate = 1e-6;
 
 // ---- the end of a step in contact ----
 inline constexpr int kMostCuts = 8;            // of a step, to end it at an event

@@ -87,11 +87,11 @@ double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
             }
         }
         if (clamps && !between.keeps_side(level, start_side_, none)) {
-            auto at = first_passing(probe, a, c, level, start_side_, none, ripple);
+            auto at = first_passing(probe, a, c, level, start_side_, none, deep, ripple);
             // It starts on the kink, and the assumed side was wrong.
             if (at && std::fabs(a.rate - level) <= none && *at - a.t <= kOnKink * (c.t - a.t)) {
                 start_side_ = -start_side_;
-                at = first_passing(probe, a, c, level, start_side_, none, ripple);
+                at = first_passing(probe, a, c, level, start_side_, none, deep, ripple);
             }
             if (at && *at > 0 && *at < std::min(first, h)) {
                 first = *at;

@@ -119,10 +119,11 @@ std::optional<double> first_fall(Probe&& probe, const Guard& a, const Guard& b, 
 }
 
 // The first instant in (a, b] where the rate passes `level`; `side` is the sign of rate − level before. Differences up
-// to `none` from the level have no side: a search that starts there begins where the rate leaves it.
+// to `none` from the level have no side: a search that starts there begins where the rate leaves it. Where the value
+// departs from a line by no more than its `rounding`, the ends decide.
 template <class Probe, class RippleOf = NoRipple>
 std::optional<double> first_passing(Probe&& probe, const Guard& a, const Guard& b, double level, double side,
-                                    double none, RippleOf ripple = {}, int halvings = 0) {
+                                    double none, double rounding, RippleOf ripple = {}, int halvings = 0) {
     using namespace event_search;
     BEAMCAM_ASSERT(a.t < b.t && std::fabs(side) == 1 && none >= 0);
     const auto over = [&](double rate) { return side * (rate - level); };
@@ -133,13 +134,12 @@ std::optional<double> first_passing(Probe&& probe, const Guard& a, const Guard& 
     const double t = a.t + 0.5 * q.span;
     if (beyond && d0 > none && (d1 > q.rate_error || d2 < -q.rate_error))
         return find_root([&](double at) { return over(probe(at).rate); }, a.t, b.t, d0, d3);
-    const auto [least, most] = std::minmax({d0, d1, d2, d3});
-    const bool steady = most - least + q.rate_error < kSteadyRate * std::fabs(level);
-    if (steady || halvings == kMostEventHalvings || !(t > a.t && t < b.t))
+    if (q.error <= rounding || halvings == kMostEventHalvings || !(t > a.t && t < b.t))
         return beyond ? std::optional(b.t) : std::nullopt;
     const Guard middle = probe(t);
-    if (const auto found = first_passing(probe, a, middle, level, side, none, ripple, halvings + 1)) return found;
-    return first_passing(probe, middle, b, level, side, none, ripple, halvings + 1);
+    if (const auto found = first_passing(probe, a, middle, level, side, none, rounding, ripple, halvings + 1))
+        return found;
+    return first_passing(probe, middle, b, level, side, none, rounding, ripple, halvings + 1);
 }
 
 }  // namespace beamcam::sim

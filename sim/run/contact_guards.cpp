@@ -156,7 +156,8 @@ std::optional<double> ContactGuards::clamp_event(const Segment& segment, const G
     const auto penetration = [&](double t) { return evaluate(segment, t).release; };
     std::optional<double> at;
     for (int tries = 0; tries < 2; ++tries, state_.clamp_side = -state_.clamp_side) {
-        at = first_passing(penetration, a.release, b.release, level, state_.clamp_side, -kZeroFactor * level);
+        at = first_passing(penetration, a.release, b.release, level, state_.clamp_side, -kZeroFactor * level,
+                           kGapRounding * probe_.system.model().length());
         // Otherwise the step starts on the kink, and the assumed side of it was wrong.
         if (known || !at || *at - t0 > kOnKink * (t1 - t0)) break;
     }

@@ -106,7 +106,7 @@ TEST(FirstPassing, FindsEveryExcursionOfTheRate) {
         const double small = 1e-5 * std::fabs(level) + 1e-9;  // an excursion that is no larger may be passed over
         if (!(f(0).rate > level)) continue;
         const auto seen = first_sample([&](double t) { return f(t).rate < level - small; });
-        const auto found = first_passing(f, f(0), f(1), level, 1, 1e-9 * std::fabs(level));
+        const auto found = first_passing(f, f(0), f(1), level, 1, 1e-9 * std::fabs(level), 0);
         if (seen) {
             ++passes;
             ASSERT_TRUE(found) << repeat;
@@ -127,8 +127,31 @@ TEST(FirstPassing, BeginsWhereASearchThatStartsOnTheLevelHasLeftIt) {
     const auto f = [](double t) {
         return Guard{t, 0.5 * t * t - 0.5 * t * t * t, t - 1.5 * t * t};
     };  // ṫ = 0 at 0, 2/3
-    EXPECT_NEAR(*first_passing(f, f(0), f(1), 0, 1, 1e-12), 2.0 / 3, 1e-9);
-    EXPECT_FALSE(first_passing(f, f(0), f(0.6), 0, 1, 1e-12));
+    EXPECT_NEAR(*first_passing(f, f(0), f(1), 0, 1, 1e-12, 0), 2.0 / 3, 1e-9);
+    EXPECT_FALSE(first_passing(f, f(0), f(0.6), 0, 1, 1e-12, 0));
+}
+
+// Starts on the level, and so briefly before the end that rounding, here a fast wave, hides how the value curves.
+TEST(FirstPassing, DoesNotSearchTheRoundingOfTheValue) {
+    constexpr double level = -0.2, span = 1e-11, none = 2e-10;
+    Dice dice(3);
+    int probes = 0, unlimited = 0;
+    for (int repeat = 0; repeat < 100; ++repeat) {
+        const double start = dice.between(1e-5, 1e-3), acceleration = dice.about_zero(1e6);
+        const auto f = [&](double t) {
+            ++probes;
+            return Guard{t, start + level * t + 1e-15 * std::sin(1e15 * t), level + acceleration * t};
+        };
+        const auto found = first_passing(f, f(0), f(span), level, 1, none, 1e-14);
+        ASSERT_EQ(found.has_value(), acceleration < 0) << repeat;
+        EXPECT_EQ(found.value_or(span), span) << repeat;
+        const int before = probes;
+        first_passing(f, f(0), f(span), level, 1, none, 0);
+        unlimited += probes - before;
+        probes = before;
+    }
+    EXPECT_EQ(probes, 200);  // the ends
+    EXPECT_GT(unlimited, 10000);
 }
 
 }  // namespace
