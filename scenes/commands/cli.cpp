@@ -156,8 +156,13 @@ int parse_and_run(int argc, const char* const* argv) {
     return kDone;
 }
 
+template <class... Errors>
+bool is_one_of(const std::exception& e) {
+    return (dynamic_cast<const Errors*>(&e) || ...);
+}
+
 int fail(int code, const std::string& text) {
-    if (!text.empty()) output::print_message("{}{}", text, text.ends_with('\n') ? "" : "\n");
+    output::print_message("beamcam: {}\n", text);
     return code;
 }
 
@@ -165,6 +170,29 @@ int fail(int code, const std::string& text) {
 int fail_or_blame_memory(int code, const std::string& text) {
     if (!render::memory_is_short()) return fail(code, text);
     return fail(kInputOutput, fmt::format("{}\nbeamcam: {}", text, render::out_of_memory_message()));
+}
+
+// Prints the message of an error; returns the exit code.
+int report(const std::exception& e) {
+    const std::string text = e.what();
+    if (is_one_of<SceneError>(e)) {  // its messages begin with their places
+        if (!text.empty()) output::print_message("{}{}", text, text.ends_with('\n') ? "" : "\n");
+        return kBadScene;
+    }
+    if (is_one_of<UsageError, NameClash>(e)) return fail(kUsage, text);
+    if (is_one_of<UnreadableFile>(e)) return fail(kInputOutput, text);
+    if (is_one_of<std::bad_alloc>(e)) return fail(kInputOutput, render::out_of_memory_message());
+    if (is_one_of<sim::Interrupted>(e)) return fail(kInterrupted, "interrupted; nothing half-written is left");
+    if (is_one_of<output::UnsupportedOption, Incomplete, render::PictureError>(e))
+        return fail_or_blame_memory(kBadScene, text);
+    if (const auto* solver = dynamic_cast<const sim::SolverError*>(&e))
+        return fail_or_blame_memory(kSolverFailed, fmt::format("{} (reached {:.9g} s)", text, solver->last_time));
+    if (is_one_of<output::MissingCodec, render::MissingPart>(e)) return fail_or_blame_memory(kMissingPart, text);
+    if (is_one_of<output::IoError, render::ThreadError>(e)) return fail_or_blame_memory(kInputOutput, text);
+    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&e))
+        return fail_or_blame_memory(kInputOutput, output::io_error(*file).what());
+    return fail_or_blame_memory(
+        kBug, fmt::format("internal error: {}; please report it with the scene and the command", text));
 }
 
 }  // namespace
@@ -176,43 +204,10 @@ int command_line(int argc, const char* const* argv) {
         render::ignored_gl_settings();  // the environment may be changed while there is one thread
         output::silence_encoder_logs();
         return parse_and_run(argc, argv);
-    } catch (const UsageError& e) {
-        return fail(kUsage, fmt::format("beamcam: {}", e.what()));
-    } catch (const NameClash& e) {
-        return fail(kUsage, fmt::format("beamcam: {}", e.what()));
-    } catch (const SceneError& e) {
-        return fail(kBadScene, e.what());
-    } catch (const output::UnsupportedOption& e) {
-        return fail_or_blame_memory(kBadScene, fmt::format("beamcam: {}", e.what()));
-    } catch (const Incomplete& e) {
-        return fail_or_blame_memory(kBadScene, fmt::format("beamcam: {}", e.what()));
-    } catch (const render::PictureError& e) {
-        return fail_or_blame_memory(kBadScene, fmt::format("beamcam: {}", e.what()));
-    } catch (const sim::SolverError& e) {
-        return fail_or_blame_memory(kSolverFailed,
-                                    fmt::format("beamcam: {} (reached {:.9g} s)", e.what(), e.last_time));
-    } catch (const output::MissingCodec& e) {
-        return fail_or_blame_memory(kMissingPart, fmt::format("beamcam: {}", e.what()));
-    } catch (const render::MissingPart& e) {
-        return fail_or_blame_memory(kMissingPart, fmt::format("beamcam: {}", e.what()));
-    } catch (const render::ThreadError& e) {
-        return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", e.what()));
-    } catch (const output::IoError& e) {
-        return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", e.what()));
-    } catch (const std::filesystem::filesystem_error& e) {
-        return fail_or_blame_memory(kInputOutput, fmt::format("beamcam: {}", output::io_error(e).what()));
-    } catch (const UnreadableFile& e) {
-        return fail(kInputOutput, fmt::format("beamcam: {}", e.what()));
-    } catch (const sim::Interrupted&) {
-        return fail(kInterrupted, "beamcam: interrupted; nothing half-written is left");
-    } catch (const std::bad_alloc&) {
-        return fail(kInputOutput, fmt::format("beamcam: {}", render::out_of_memory_message()));
     } catch (const std::exception& e) {
-        return fail_or_blame_memory(
-            kBug,
-            fmt::format("beamcam: internal error: {}; please report it with the scene and the command", e.what()));
+        return report(e);
     } catch (...) {
-        return fail(kBug, "beamcam: internal error of unknown kind; please report it with the scene and the command");
+        return fail(kBug, "internal error of unknown kind; please report it with the scene and the command");
     }
 }
 
