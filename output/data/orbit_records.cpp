@@ -29,12 +29,6 @@ Node state_node(const sim::PeriodicOrbit& orbit) {
 
 // `out`: the keys before those of the orbit.
 Node orbit_node(const sim::PeriodicOrbit& orbit, Node out = object_node()) {
-    Node touches = array_node(), multipliers = array_node();
-    for (const sim::OrbitImpact& impact : orbit.impacts)
-        touches.items.push_back(
-            object_node({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}, {"x", impact.x}}));
-    for (const std::complex<double>& m : orbit.multipliers)
-        multipliers.items.push_back(array_node({m.real(), m.imag()}));
     add(out, "period", orbit.turns);
     add(out, "duration", orbit.period);
     add(out, "impacts", orbit.impacts.size());
@@ -42,22 +36,24 @@ Node orbit_node(const sim::PeriodicOrbit& orbit, Node out = object_node()) {
     add(out, "chatters", orbit.chatters());
     add(out, "always_touching", orbit.always_touching());
     add(out, "residual", orbit.residual);
-    add(out, "multipliers", std::move(multipliers));
+    add(out, "multipliers", array_node(orbit.multipliers, [](const std::complex<double>& m) {
+            return array_node({m.real(), m.imag()});
+        }));
     add(out, "state", state_node(orbit));
-    add(out, "touches", std::move(touches));
+    add(out, "touches", array_node(orbit.impacts, [](const sim::OrbitImpact& impact) {
+            return object_node({{"cam_angle", impact.cam_angle}, {"approach", impact.approach}, {"x", impact.x}});
+        }));
     return out;
 }
 
 Node branch_node(const sim::Branch& branch) {
-    Node points = array_node();
-    for (const sim::BranchPoint& point : branch.points)
-        points.items.push_back(orbit_node(point.orbit, object_node({{"value", point.parameter}})));
     const sim::PeriodicOrbit& orbit = branch.points.front().orbit;
-    Node out = object_node({{"period", orbit.turns},
-                            {"impacts", orbit.impacts.size()},
-                            {"ends", array_node({branch.first_end, branch.last_end})}});
-    add(out, "points", std::move(points));
-    return out;
+    return object_node({{"period", orbit.turns},
+                        {"impacts", orbit.impacts.size()},
+                        {"ends", array_node({branch.first_end, branch.last_end})},
+                        {"points", array_node(branch.points, [](const sim::BranchPoint& point) {
+                             return orbit_node(point.orbit, object_node({{"value", point.parameter}}));
+                         })}});
 }
 
 void add_rows(ColumnTable& table, double branch, double index, double value, const sim::PeriodicOrbit& orbit) {
@@ -111,8 +107,7 @@ std::string exponents_json(const sim::Exponents& e) {
 }
 
 std::string orbits_json(const BranchTable& table) {
-    Node orbits = array_node(), branches = array_node(), events = array_node();
-    for (const sim::PeriodicOrbit& orbit : table.orbits) orbits.items.push_back(orbit_node(orbit));
+    Node branches = array_node(), events = array_node();
     for (const sim::Branch& branch : table.branches) {
         for (const sim::SpecialPoint& point : branch.special)
             events.items.push_back(orbit_node(point.at.orbit, object_node({{"kind", name(point.change)},
@@ -130,13 +125,13 @@ std::string orbits_json(const BranchTable& table) {
                               {"x", "m"},
                               {"theta", "rad"},
                               {"theta_dot", "rad/s"}});
-    Node out = object_node({{"units", std::move(units)},
-                            {"parameter", over ? Node(table.key) : Node()},
-                            {"start", over ? Node(table.start) : Node()}});
-    add(out, "orbits", std::move(orbits));
-    add(out, "branches", std::move(branches));
-    add(out, "events", std::move(events));
-    return to_text(out);
+    return to_text(object_node(
+        {{"units", std::move(units)},
+         {"parameter", over ? Node(table.key) : Node()},
+         {"start", over ? Node(table.start) : Node()},
+         {"orbits", array_node(table.orbits, [](const sim::PeriodicOrbit& orbit) { return orbit_node(orbit); })},
+         {"branches", std::move(branches)},
+         {"events", std::move(events)}}));
 }
 
 ColumnTable orbit_columns(const BranchTable& branches, std::vector<std::pair<std::string, std::string>> attributes) {

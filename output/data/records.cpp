@@ -59,12 +59,11 @@ void for_each_field(const sim::Collision& c, Visit visit) {
 
 template <typename Record>
 Node array_of(const std::vector<Record>& records) {
-    Node list = array_node();
-    for (const Record& record : records) {
-        Node& object = list.items.emplace_back(object_node());
+    return array_node(records, [](const Record& record) {
+        Node object = object_node();
         for_each_field(record, [&object](const std::string& name, const auto& value) { add(object, name, value); });
-    }
-    return list;
+        return object;
+    });
 }
 
 void append_cell(std::string& line, double value) { append_number(line, value); }
@@ -104,10 +103,9 @@ double largest_residual(const sim::Result& result, const std::vector<sim::Channe
 
 void add_reproducibility(const sim::Result& result, Node& out) {
     add(out, "reproducible_until", result.reproducible_until);
-    Node lost = array_node();
-    for (const sim::Interval& interval : result.not_reproducible)
-        lost.items.push_back(array_node({interval.from, interval.to}));
-    add(out, "not_reproducible", std::move(lost));
+    add(out, "not_reproducible", array_node(result.not_reproducible, [](const sim::Interval& lost) {
+            return array_node({lost.from, lost.to});
+        }));
     if (result.reproducible_again_from) add(out, "reproducible_again_from", result.reproducible_again_from);
     add(out, "compared_with", result.compared_with);
     add(out, "reproducibility", result.reproducibility);
@@ -118,20 +116,24 @@ Node timing_node(const sim::Timing& time) {
     return object_node({{"median", time.median}, {"low", time.low}, {"high", time.high}, {"repeats", time.repeats}});
 }
 
-// `out`: the keys that identify the row.
-Node accuracy_row(Node out, const sim::AccuracyRow& row) {
-    add(out, "error", row.error);
-    if (!row.error) {
-        add(out, "note", row.note);
+// `identity`: the object of the keys that identify a row.
+template <class Row, class Identity>
+Node accuracy_rows(const std::vector<Row>& rows, Identity identity) {
+    return array_node(rows, [&](const Row& row) {
+        Node out = identity(row);
+        add(out, "error", row.error);
+        if (!row.error) {
+            add(out, "note", row.note);
+            return out;
+        }
+        add(out, "trusted_until", row.trusted_until);
+        add(out, "seconds", timing_node(row.time));
+        add(out, "steps", row.steps);
+        add(out, "rhs_evaluations", row.rhs_evaluations);
+        add(out, "impacts", row.impacts);
+        add(out, "touch_error", row.touch_error);
         return out;
-    }
-    add(out, "trusted_until", row.trusted_until);
-    add(out, "seconds", timing_node(row.time));
-    add(out, "steps", row.steps);
-    add(out, "rhs_evaluations", row.rhs_evaluations);
-    add(out, "impacts", row.impacts);
-    add(out, "touch_error", row.touch_error);
-    return out;
+    });
 }
 
 }  // namespace
@@ -183,12 +185,11 @@ Node agreement_node(const Agreement& each, const char* unit) {
     Node out =
         object_node({{"label", each.label}, {"file", each.file}, {"channel", sim::name(each.channel)}, {"unit", unit}});
     add_part(each.whole, out);
-    Node collisions = array_node();
-    for (const auto& after : each.collisions) {
-        collisions.items.push_back(object_node({{"collision", after.collision}, {"t_start", after.t_start}}));
-        add_part(after, collisions.items.back());
-    }
-    add(out, "collisions", std::move(collisions));
+    add(out, "collisions", array_node(each.collisions, [](const Agreement::AfterCollision& after) {
+            Node part = object_node({{"collision", after.collision}, {"t_start", after.t_start}});
+            add_part(after, part);
+            return part;
+        }));
     if (!each.beyond) return out;
     const auto both = [](const Agreement::Statistics& s) {
         return object_node({{"mean", s.mean}, {"deviation", s.deviation}});
@@ -205,11 +206,11 @@ Node agreement_node(const Agreement& each, const char* unit) {
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema, const Work* work,
                          const std::vector<Agreement>& data) {
-    Node steps = object_node(), zeros = array_node(), agreements = array_node(), counts = object_node();
+    Node steps = object_node(), counts = object_node();
     for (const auto& [method, count] : result.steps_by_method) add(steps, sim::name(method), count);
-    for (const sim::ZeroCrossing& zero : result.theta_zero)
-        zeros.items.push_back(object_node({{"t", zero.t}, {"theta_dot", zero.theta_dot}}));
-    for (const Agreement& each : data) agreements.items.push_back(agreement_node(each, unit(each.channel, problem)));
+    Node zeros = array_node(result.theta_zero, [](const sim::ZeroCrossing& zero) {
+        return object_node({{"t", zero.t}, {"theta_dot", zero.theta_dot}});
+    });
     if (work) for_each_count(*work, [&](const char* name, long count) { add(counts, name, count); });
 
     Node out = object_node({{"units", units(problem)},
@@ -227,33 +228,31 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                             {"impacts", result.impacts.size()},
                             {"collisions", result.collisions.size()}});
     if (result.reproducible_until) add_reproducibility(result, out);
-    if (!data.empty()) add(out, "data", std::move(agreements));
+    if (!data.empty())
+        add(out, "data",
+            array_node(data, [&](const Agreement& each) { return agreement_node(each, unit(each.channel, problem)); }));
     add(out, "warnings", result.warnings);
     if (work) add(out, "work", std::move(counts));
     return to_text(out);
 }
 
 std::string modes_json(const std::vector<sim::Mode>& modes) {
-    Node all = array_node();
-    for (const sim::Mode& mode : modes) {
-        Node shape = array_node();
-        for (const sim::Vec2& at : mode.shape) shape.items.push_back(array_node({at.x, at.y}));
-        all.items.push_back(object_node({{"omega", mode.omega},
-                                         {"hz", mode.omega / (2 * std::numbers::pi)},
-                                         {"shape", std::move(shape)},
-                                         {"q", array_node({mode.q.begin(), mode.q.end()})}}));
-    }
-    return to_text(object_node({{"modes", std::move(all)}}));
+    const auto point = [](const sim::Vec2& at) { return array_node({at.x, at.y}); };
+    return to_text(object_node({{"modes", array_node(modes, [&](const sim::Mode& mode) {
+                                     return object_node({{"omega", mode.omega},
+                                                         {"hz", mode.omega / (2 * std::numbers::pi)},
+                                                         {"shape", array_node(mode.shape, point)},
+                                                         {"q", array_node({mode.q.begin(), mode.q.end()})}});
+                                 })}}));
 }
 
 std::string accuracy_json(const sim::Accuracy& a) {
-    Node work = array_node(), modes = array_node(), models = array_node(), contact = array_node();
-    for (const auto& row : a.work)
-        work.items.push_back(accuracy_row(object_node({{"method", sim::name(row.method)}, {"rtol", row.rtol}}), row));
-    for (const auto& row : a.modes) modes.items.push_back(accuracy_row(object_node({{"modes", row.modes}}), row));
-    for (const auto& row : a.models)
-        models.items.push_back(accuracy_row(object_node({{"model", sim::name(row.model)}}), row));
-    for (const auto& row : a.contact) contact.items.push_back(accuracy_row(object_node({{"change", row.change}}), row));
+    Node work = accuracy_rows(a.work, [](const auto& row) {
+        return object_node({{"method", sim::name(row.method)}, {"rtol", row.rtol}});
+    });
+    Node modes = accuracy_rows(a.modes, [](const auto& row) { return object_node({{"modes", row.modes}}); });
+    Node models = accuracy_rows(a.models, [](const auto& row) { return object_node({{"model", name(row.model)}}); });
+    Node contact = accuracy_rows(a.contact, [](const auto& row) { return object_node({{"change", row.change}}); });
     Node recommendation;
     if (const auto& r = a.recommendation)
         recommendation = object_node({{"rtol", r->rtol},

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <concepts>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -83,6 +84,13 @@ inline const Member& Members::back() const { return all_.back(); }
 inline std::size_t Members::size() const { return all_.size(); }
 
 Node array_node(std::vector<Node> items = {});
+// Of make(value) for each of the values.
+template <class Values, class Make>
+Node array_node(const Values& values, Make&& make) {
+    Node array = array_node();
+    for (const auto& value : values) array.items.push_back(std::invoke(make, value));
+    return array;
+}
 Node object_node(std::vector<std::pair<std::string, Node>> members = {});
 void add(Node& object, std::string key, Node value);
 void remove(Node& object, std::string_view key);

@@ -1,26 +1,169 @@
-// `beamcam accept`: the pictures and motions of a report become references.
-#include "scenes/regression/accept.hpp"
-
+// `beamcam accept`: the pictures and motions in the report of a regression test, from any machine, become references.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <map>
+#include <optional>
+
+#include "output/files/atomic_file.hpp"
+#include "output/files/digest.hpp"
+#include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/regression/baseline_edit.hpp"
+#include "scenes/regression/entry_files.hpp"
+#include "scenes/regression/report.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
+namespace fs = std::filesystem;
+
 struct AcceptArguments {
     Common common;
-    std::string report;
-    AcceptOptions options;
+    std::string report;                    // folder that `beamcam test --report` wrote, or one that contains only it
+    std::optional<std::string> baselines;  // absent: the file that the report names
+    std::vector<std::string> entries;      // names or patterns; empty: all entries that are not identical
+};
+
+struct AcceptedEntry {
+    std::string name;
+    bool replaced = false;  // references and digests were replaced; else added for another renderer
+    std::string rejected;   // the reason if nothing was accepted
+};
+
+// Adds the digests of equivalent pictures and of pictures of a new renderer to the accepted ones, and stores the
+// pictures of a new renderer. If pictures or the motion differ, those of the report replace the references. Skips
+// entries for which the report contains nothing to accept. Throws UsageError for unknown names, IoError for a report
+// that is damaged, incomplete, or of other baselines; then nothing changes.
+class Acceptor {
+  public:
+    Acceptor(const AcceptArguments& args, const Report& report)
+        : args_(args),
+          report_(report),
+          path_(args.baselines.value_or(report.baselines)),
+          baselines_(read_recovered(path_)),
+          update_(path_, baselines_.references, args.common.force) {}
+
+    std::vector<AcceptedEntry> run() {
+        for (const Baseline* entry : chosen_entries(baselines_, path_, args_.entries)) {
+            const auto found = report_.entries.find(entry->name);
+            if (found == report_.entries.end() || !(found->second.differs || has_pictures(*entry, found->second)))
+                continue;
+            accepted_.push_back({entry->name, found->second.differs, rejection(*entry, found->second)});
+            if (accepted_.back().rejected.empty()) accept(*entry, found->second);
+        }
+        if (!edits_.empty())
+            update_.commit(baselines_.source.text, edited(baselines_, edits_, report_.renderers), pixels_);
+        return std::move(accepted_);
+    }
+
+    const std::string& path() const { return path_; }  // of the baselines
+
+  private:
+    // Pictures that are compared with a file of the user are never accepted.
+    static bool has_pictures(const Baseline& entry, const ReportedEntry& found) {
+        return !found.sha256.empty() && entry.expected.empty();
+    }
+
+    // Why the entry cannot be accepted; empty: it can.
+    static std::string rejection(const Baseline& entry, const ReportedEntry& found) {
+        if (!entry.problem.empty()) return entry.problem.substr(0, entry.problem.find('\n'));
+        if (!has_pictures(entry, found) && found.motion_files.empty())
+            return found.reason.empty() ? "the report contains neither its pictures nor its motion" : found.reason;
+        return found.differs ? found.not_reproducible : "";
+    }
+
+    void accept(const Baseline& entry, const ReportedEntry& found) {
+        by_digest_.clear();
+        for (const auto& [name, file] : marked_files(folder_of(entry)))
+            if (!file.pixels.empty()) by_digest_[file.pixels] = folder_of(entry) / name;
+        BaselineEdit edit{entry.name, entry.accepted, entry.reproducible_until};
+        if (has_pictures(entry, found)) {
+            if (found.differs) edit.accepted.clear();
+            edit.accepted.push_back({found.renderer, found.sha256});
+            found.differs ? replace(entry, found) : add_pictures(entry, found);
+        } else {
+            copy_motion(entry, found, update_.extend(entry.name));
+        }
+        if (found.reproducible_until) edit.reproducible_until = found.reproducible_until;
+        pixels_[entry.name];
+        edits_.push_back(std::move(edit));
+    }
+
+    fs::path folder_of(const Baseline& entry) const { return baselines_.references / entry.name; }
+
+    void replace(const Baseline& entry, const ReportedEntry& found) {
+        const fs::path fresh = update_.replace(entry.name), old = folder_of(entry);
+        for (std::size_t k = 0; k < found.sha256.size(); ++k)
+            copy_picture(entry, found, k, fresh / picture_name(static_cast<long>(k)));
+        for (const auto& [name, file] : marked_files(old))  // the motion
+            if (!name.ends_with(".png") && output::path_exists(old / name))
+                output::write_file(fresh / name, output::read_file(old / name));
+        copy_motion(entry, found, fresh);
+    }
+
+    // Stores the pictures that differ from those of the first renderer.
+    void add_pictures(const Baseline& entry, const ReportedEntry& found) {
+        if (entry.accepted.empty() || std::ranges::any_of(entry.accepted, [&](const Accepted& accepted) {
+                return accepted.renderer == found.renderer;
+            }))
+            return;
+        const std::vector<std::string>& first = entry.accepted.front().sha256;
+        const auto is_available = [&](std::size_t k) {  // of equal pictures of others there may be digests only
+            return is_changed(found, k) || by_digest_.contains(found.sha256[k]);
+        };
+        for (std::size_t k = 0; k < found.sha256.size(); ++k)
+            if ((k >= first.size() || first[k] != found.sha256[k]) && is_available(k))
+                copy_picture(entry, found, k,
+                             update_.extend(entry.name) / picture_name(static_cast<long>(k), found.renderer));
+    }
+
+    static bool is_changed(const ReportedEntry& found, std::size_t k) {
+        return std::ranges::count(found.changed, static_cast<long>(k)) > 0;
+    }
+
+    // From the report if it is not one of the accepted pictures, else from the references.
+    void copy_picture(const Baseline& entry, const ReportedEntry& found, std::size_t k, const fs::path& target) {
+        const auto frame = static_cast<long>(k);
+        const auto reference = by_digest_.find(found.sha256[k]);
+        const fs::path source = is_changed(found, k) ? report_.folder / report_picture(entry.name, frame, "actual")
+                                : reference != by_digest_.end() ? reference->second
+                                                                : folder_of(entry) / picture_name(frame);
+        const std::string digest = output::digest(output::read_png(source));
+        if (digest != found.sha256[k])
+            throw output::IoError(fmt::format(
+                "{} is not the picture that was tested: it is damaged or from another run", source.string()));
+        output::write_file(target, output::read_file(source));
+        pixels_[entry.name][target.filename().string()] = digest;
+    }
+
+    void copy_motion(const Baseline& entry, const ReportedEntry& found, const fs::path& fresh) {
+        for (const auto& [name, sha256] : found.motion_files) {
+            const fs::path source = report_.folder / entry.name / name;
+            if (output::sha256_of_file(source) != sha256)
+                throw output::IoError(fmt::format(
+                    "{} is not the motion that was tested: it is damaged or from another run", source.string()));
+            output::write_file(fresh / name, output::read_file(source));
+        }
+    }
+
+    const AcceptArguments& args_;
+    const Report& report_;
+    const std::string path_;
+    const Baselines baselines_;
+    ReferenceUpdate update_;
+    std::map<std::string, fs::path> by_digest_;  // reference pictures of the entry
+    std::vector<BaselineEdit> edits_;
+    std::map<std::string, std::map<std::string, std::string>> pixels_;
+    std::vector<AcceptedEntry> accepted_;
 };
 
 int act(const AcceptArguments& args) {
-    AcceptOptions options = args.options;
-    options.report = args.report;
-    options.force = args.common.force;
-    const Acceptance done = accept_report(options);
+    const Report report = read_report(args.report);
+    Acceptor acceptor(args, report);
     bool changed = false, complete = true;
-    for (const AcceptedEntry& entry : done.entries) {
+    for (const AcceptedEntry& entry : acceptor.run()) {
         const bool accepted = entry.rejected.empty();
         (accepted ? changed : complete) = accepted;
         print_text(fmt::format("{:<8}  {}{}\n",
@@ -29,7 +172,7 @@ int act(const AcceptArguments& args) {
                                                 : "added",
                                entry.name, accepted ? "" : ": " + entry.rejected));
     }
-    inform(args.common, changed ? fmt::format("{} was changed; check it before you keep it", done.baselines)
+    inform(args.common, changed ? fmt::format("{} was changed; check it before you keep it", acceptor.path())
                                 : "the report contains nothing to accept");
     return complete ? kDone : kDiffers;
 }
@@ -42,9 +185,8 @@ void add_accept(Grammar& grammar) {
     app.examples = {"accept report", "accept downloads/report 'fall-*' --baselines tests/baselines.json"};
     app.positional("REPORT", &args.report, "The folder that `beamcam test --report` wrote, here or in a CI run")
         .required();
-    app.positional("NAME", &args.options.entries,
-                   "Only these entries; patterns such as 'fall-*' are allowed (default: all)");
-    app.option("--baselines", &args.options.baselines, "FILE",
+    app.positional("NAME", &args.entries, "Only these entries; patterns such as 'fall-*' are allowed (default: all)");
+    app.option("--baselines", &args.baselines, "FILE",
                "File of baselines to change (default: the file that the report names)");
     add_force(app, args.common);
     add_quiet(app, args.common);

@@ -83,10 +83,7 @@ Node output_node(const FigureArguments& args) {
     if (args.impacts) add(output, "impacts", true);
     if (args.residuals) add(output, "residuals", true);
     if (args.apart) add(output, "comparison", "panels");
-    if (args.notes.empty()) return output;
-    Node notes = array_node();
-    for (const std::string& note : args.notes) notes.items.push_back(note_node(note));
-    add(output, "notes", std::move(notes));
+    if (!args.notes.empty()) add(output, "notes", array_node(args.notes, note_node));
     return output;
 }
 

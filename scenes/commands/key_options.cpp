@@ -89,9 +89,9 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
         for (const KeyOptions::Option& option : group->options_)
             if (option.given()) given.push_back(&option);
     for (const KeyOptions::Option* option : given) {
-        Node list = array_node();
-        for (const std::string& text : option->values) list.items.push_back(value_of(text, messages));
-        set_value(output, option->key, option->value ? value_of(*option->value, messages) : std::move(list), messages);
+        const auto value = [&](const std::string& text) { return value_of(text, messages); };
+        set_value(output, option->key, option->value ? value(*option->value) : array_node(option->values, value),
+                  messages);
     }
     SceneFiles files;
     std::vector<Message> of_reader;

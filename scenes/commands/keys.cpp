@@ -76,17 +76,9 @@ std::string text_of(const std::vector<KeyRow>& rows) {
 }
 
 void act(const KeysArguments& args) {
-    if (args.markdown) {
-        print_data(reference_text());
-        return;
-    }
+    if (args.markdown) return print_data(reference_text());
     const std::vector<KeyRow> rows = chosen(args.pattern);
-    if (args.json) {
-        Node all = array_node();
-        for (const KeyRow& row : rows) all.items.push_back(json_of(row));
-        print_data(to_text(all));
-        return;
-    }
+    if (args.json) return print_data(to_text(array_node(rows, json_of)));
     if (rows.empty()) {
         std::vector<std::string> names;
         for (const KeyRow& row : key_rows()) names.push_back(row.path);

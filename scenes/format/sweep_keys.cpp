@@ -137,9 +137,7 @@ ValueFormat seed_format(SweepSeeds& seeds) {
     const auto write = [&seeds]() -> std::optional<Node> {
         if (seeds.random > 0) return std::nullopt;
         if (seeds.kinds.size() == 1) return name(seeds.kinds.front());
-        Node all = array_node();
-        for (const SeedKind kind : seeds.kinds) all.items.emplace_back(name(kind));
-        return all;
+        return array_node(seeds.kinds, [](SeedKind kind) { return name(kind); });
     };
     return {"\"same\", \"carry-up\", \"carry-down\", several of them, \"random:N\", or object",
             R"({"anyOf": [{"enum": ["same", "carry-up", "carry-down", "carry-up,carry-down"]}, )"

@@ -75,12 +75,11 @@ Node stages_of(const Plan& plan) {
 }  // namespace
 
 std::string to_json(const Plan& plan) {
-    Node out = object_node(), skipped = array_node();
-    add(out, "stages", stages_of(plan));
+    Node out = object_node({{"stages", stages_of(plan)}});
     add_cost(out, plan.cost(), "bytes");
-    for (const Skipped& each : plan.skipped)
-        skipped.items.push_back(object_node({{"what", each.what}, {"why", each.why}}));
-    add(out, "skipped", std::move(skipped));
+    add(out, "skipped", array_node(plan.skipped, [](const Skipped& each) {
+            return object_node({{"what", each.what}, {"why", each.why}});
+        }));
     return to_text(out);
 }
 

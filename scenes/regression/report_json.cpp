@@ -165,12 +165,10 @@ std::string to_json(const Comparison& c) {
         add(out, "table", table(*c.table));
         return to_text(out);
     }
-    Node pictures = array_node();
-    for (const PictureComparison& p : c.pictures) pictures.items.push_back(picture(p));
     add(out, "pictures_a", c.pictures_a);
     add(out, "pictures_b", c.pictures_b);
     add(out, "identical", std::min(c.pictures_a, c.pictures_b) - c.pictures.size());
-    add(out, "pictures", std::move(pictures));
+    add(out, "pictures", array_node(c.pictures, picture));
     return to_text(out);
 }
 

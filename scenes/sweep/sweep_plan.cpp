@@ -25,9 +25,7 @@ std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& fi
     const double seconds = cost.seconds / std::max(used, 1);
     const double columns = kCommonColumns + (grid.sampling().kind == sim::SampleKind::impacts ? 11 : 5);
     const double rows = std::max(cost.rows, static_cast<double>(grid.points()));
-    if (json) {
-        Node made = array_node();
-        for (const PlannedFile& each : files) made.items.emplace_back(each.file);
+    if (json)
         return to_text(object_node({{"points", grid.points()},
                                     {"tasks", grid.tasks()},
                                     {"threads", used},
@@ -35,8 +33,7 @@ std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& fi
                                     {"rows", std::round(rows)},
                                     {"csv_bytes", std::round(rows * columns * kTextOfNumber)},
                                     {"npz_bytes", std::round(rows * columns * kNumber)},
-                                    {"files", std::move(made)}}));
-    }
+                                    {"files", array_node(files, &PlannedFile::file)}}));
     std::string text = "sweep\n";
     for (const output::SweepAxis& axis : grid.axes())
         text += fmt::format("  {}: {}, {:.10g} to {:.10g}{}\n", axis.name, counted(axis.values.size(), "value"),

@@ -1,5 +1,10 @@
-// The normal force of compliant contact, F = K δⁿ (1 + D δ̇/δ̇₋), clamped at zero. MODEL.md (S30).
+// The forces of compliant contact. The normal force is F = K δⁿ (1 + D δ̇/δ̇₋), clamped at zero, MODEL.md (S30); friction
+// is regularized Coulomb friction, or a bristle that sticks and slips, MODEL.md §8.
 #pragma once
+
+#include <cmath>
+
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 
@@ -22,6 +27,44 @@ struct NormalLaw {
     double stored_energy(double penetration) const;  // K δⁿ⁺¹/(n+1) [J]
     // 1 + D δ̇/δ̇₋; where it is negative the force is clamped.
     double factor(double rate, double approach) const { return 1 + damping * rate / approach; }
+};
+
+// State of stick-slip friction: stick, or slip towards +t or −t.
+enum class FrictionState { stick, slide_plus, slide_minus };
+
+struct FrictionLaw {
+    double kinetic = 0, limit = 0;      // μ, μ_s [–]
+    double slip_speed = 1e-3;           // v_s of Coulomb friction [m/s]
+    bool bristle = false;               // stick-slip friction
+    double stiffness = 0, damping = 0;  // of the bristle: k [N/m], c [N s/m]
+    // The dashpot makes the bristle lag behind its force so far that its deflection z is a state while sliding, too
+    // (S36).
+    bool lags = false;
+
+    // `mass`: mass of the beam [kg].
+    static FrictionLaw of(const Problem& problem, const NormalLaw& normal, double mass);
+
+    bool none() const { return kinetic == 0 && limit == 0; }
+    // F_t/N of Coulomb friction (S34).
+    double ratio(double slip) const { return -kinetic * std::tanh(slip / slip_speed); }
+    double coulomb(double normal, double slip) const { return -kinetic * normal * std::tanh(slip / slip_speed); }
+    // Friction force on the beam along t, for a bristle with the deflection z [N].
+    double force(FrictionState state, double normal, double slip, double z) const;
+    // The bristle's deflection at which its spring carries the sliding force (S36).
+    double sliding_bristle(FrictionState state, double normal) const {
+        return sign(state) * kinetic * normal / stiffness;
+    }
+    // The deflection when sliding ends: spring and dashpot continue the sliding force.
+    double caught_bristle(FrictionState state, double normal, double slip) const {
+        return sliding_bristle(state, normal) - damping / stiffness * slip;
+    }
+    double bristle_rate(FrictionState state, double normal, double slip, double z) const;  // ż [m/s]
+    // Speed of the bristle's foot over the cam in the direction of sliding, ±(v_t − ż).
+    double foot_speed(FrictionState state, double normal, double slip, double z) const {
+        return sign(state) * (slip - bristle_rate(state, normal, slip, z));
+    }
+    // +1 or −1, the direction of sliding; −1 while sticking, too.
+    static double sign(FrictionState state) { return state == FrictionState::slide_plus ? 1 : -1; }
 };
 
 }  // namespace beamcam::sim

@@ -12,7 +12,7 @@
 #include "sim/base/ode.hpp"
 #include "sim/beam/drive.hpp"
 #include "sim/beam/model.hpp"
-#include "sim/contact/friction.hpp"
+#include "sim/contact/contact_law.hpp"
 #include "sim/contact/impulse.hpp"
 #include "sim/dynamics/contact_geometry.hpp"
 #include "sim/dynamics/gap_bound.hpp"
