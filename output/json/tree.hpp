@@ -70,6 +70,7 @@ struct Node {
     std::vector<Node> items;  // of an array
     Members members;          // of an object; unique keys
 
+    bool is_null() const { return kind == Kind::null; }
     const Member* find(std::string_view key) const { return members.find(key); }
     Member* find(std::string_view key) { return members.find(key); }
 };

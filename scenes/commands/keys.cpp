@@ -52,7 +52,7 @@ Node json_of(const KeyRow& row) {
     add(out, "type", key.type);
     if (!key.words.empty()) add(out, "words", key.words);
     add(out, "unit", key.unit.empty() ? Node{} : Node(key.unit));
-    add(out, "default", key.value && !key.required() ? *key.value : Node{});
+    add(out, "default", key.required() ? Node() : key.value);
     add(out, "min", bound(key.range.min));
     add(out, "max", bound(key.range.max));
     add(out, "required", key.required());

@@ -42,13 +42,9 @@ ValueFormat channels_format(std::vector<sim::Channel>& channels) {
     const auto read = [&channels](ObjectReader& r, const Node& node, const std::string& key) {
         read_channels(r, node, key, all_channels(r.context().scene.problem), channels);
     };
-    const auto write = [&channels]() -> std::optional<Node> {
-        if (channels.empty()) return std::nullopt;
-        return channel_names(channels);
-    };
     return {"[channel, …]",
             R"({"type": "array", "minItems": 1, "uniqueItems": true, "items": {"$ref": "#/$defs/channel"}})", read,
-            write};
+            [&channels] { return channels.empty() ? Node() : Node(channel_names(channels)); }};
 }
 
 // One panel for each unit, in order of first occurrence.
@@ -74,7 +70,7 @@ ValueFormat grouped_channels_format(std::vector<SeriesPanel>& panels) {
         channels_format(channels).read(r, node, key);
         panels = panels_by_unit(channels, r.context().scene.problem);
     };
-    format.write = [] { return std::nullopt; };  // the key "panels" is written instead
+    format.write = [] { return Node(); };  // the key "panels" is written instead
     return format;
 }
 
@@ -89,7 +85,7 @@ ValueFormat abscissa_format(std::string& against) {
     };
     return {"channel, \"turns\", \"phase\" or \"frequency\"",
             R"({"anyOf": [{"enum": ["turns", "phase", "frequency"]}, {"$ref": "#/$defs/channel"}]})", read,
-            [&against] { return against; }};
+            [&against] { return Node(against); }};
 }
 
 }  // namespace beamcam::scenes

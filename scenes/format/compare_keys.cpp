@@ -67,7 +67,7 @@ void visit(SceneVisitor& v, Compared& motion) {
         base = *other;
         move_to(*base, node.place);
     };
-    v.value("scene", {"file name", R"({"type": "string"})", read_other, [] { return std::nullopt; }},
+    v.value("scene", {"file name", R"({"type": "string"})", read_other, [] { return Node(); }},
             "File of another scene, relative to this scene's folder; by default this scene.");
     const auto read_set = [&](ObjectReader& r, const Node& node, const std::string& key) {
         if (readable) set_values(r, node, key, *base);

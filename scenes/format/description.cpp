@@ -20,10 +20,6 @@ Node bounded(const Range& range) {
     return number;
 }
 
-Node any_of(std::vector<Node> choices) {
-    return choices.size() == 1 ? std::move(choices.front()) : object_node({{"anyOf", array_node(std::move(choices))}});
-}
-
 Node with_text(const Unit& unit) {
     return node_of(same(unit.dimension, sim::dimension::kNone) ? R"({"$ref": "#/$defs/percentage"})"
                                                                : R"({"$ref": "#/$defs/withUnit"})");
@@ -49,14 +45,12 @@ class Describer final : public SceneVisitor {
     }
 
     void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) override {
-        DescribedKey& d = number_key(key, unit, range, meaning, nullptr);
-        d.value = value;
+        number_key(key, unit, range, meaning, nullptr).value = value;
     }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char* meaning,
                 const char* word) override {
         DescribedKey& d = number_key(key, unit, range, meaning, word);
-        if (value) d.value = *value;
-        if (!value && word) d.value = word;
+        d.value = !value && word ? Node(word) : Node(value);
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range,
                  const Length& length, const char* meaning) override {
@@ -68,18 +62,19 @@ class Describer final : public SceneVisitor {
                                   meaning);
         d.unit = symbol(unit);
         d.range = range;
-        Node item = any_of({bounded(range), with_text(unit)}), list = node_of(R"({"type": "array"})");
+        Node item = one_of("anyOf", {bounded(range), with_text(unit)}), list = node_of(R"({"type": "array"})");
         if (length.min > 0) add(list, "minItems", length.min);
         if (fixed) add(list, "maxItems", length.max);
         add(list, "items", item);
-        d.schema = length.or_one_number ? any_of({bounded(range), with_text(unit), std::move(list)}) : std::move(list);
+        d.schema = length.or_one_number ? one_of("anyOf", {bounded(range), with_text(unit), std::move(list)})
+                                        : std::move(list);
         if (!values.empty()) d.value = values;
     }
     void integer(const Key& key, std::optional<int>& value, int min, int max, const char* meaning) override {
         DescribedKey& d = add_key(key, "whole number", meaning);
         d.range = sim::between(min, max);
         d.schema = node_of(fmt::format(R"({{"type": "integer", "minimum": {}, "maximum": {}}})", min, max));
-        if (value) d.value = *value;
+        d.value = value;
     }
     void boolean(const Key& key, bool& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "true or false", meaning);
@@ -161,7 +156,7 @@ class Describer final : public SceneVisitor {
         std::vector<Node> choices{bounded(range)};
         if (word) choices.push_back(node_of(fmt::format(R"({{"const": "{}"}})", word)));
         if (!unit.plain) choices.push_back(with_text(unit));
-        d.schema = any_of(std::move(choices));
+        d.schema = one_of("anyOf", std::move(choices));
         return d;
     }
 
@@ -170,6 +165,10 @@ class Describer final : public SceneVisitor {
 };
 
 }  // namespace
+
+Node one_of(const char* choice, std::vector<Node> all) {
+    return all.size() == 1 ? std::move(all.front()) : object_node({{choice, array_node(std::move(all))}});
+}
 
 const DescribedObject& scene_format() {
     static const DescribedObject kFormat = [] {

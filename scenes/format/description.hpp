@@ -27,16 +27,19 @@ struct DescribedKey {
     std::string name, type, unit, meaning;
     sim::Range range;
     std::vector<std::string> words;       // allowed values
-    std::optional<Node> value;            // default; nullopt: none, or it depends on other keys
+    Node value;                           // default; null: none, or it depends on other keys
     std::string example;                  // of a required key
     Node schema;                          // of the value
     std::vector<DescribedObject> shapes;  // of an object, or of the objects in a list
     bool list = false, nullable = false;
-    std::optional<Node> item_schema;  // of items that are not objects
-    std::string nested;               // the items of the list have the shapes of what contains it, by that name
+    Node item_schema;    // of items that are not objects
+    std::string nested;  // the items of the list have the shapes of what contains it, by that name
 
     bool required() const { return !example.empty(); }
 };
+
+// The schema of a value that has one of these; `choice`: "anyOf" or "oneOf".
+Node one_of(const char* choice, std::vector<Node> all);
 
 // The scene itself: one shape without tags.
 const DescribedObject& scene_format();

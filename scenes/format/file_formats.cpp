@@ -43,10 +43,8 @@ ValueFormat file_format(std::string& file, std::initializer_list<const char*> al
             return r.reject_value(node, key, ": {}", problem);
         file = node.text;
     };
-    const auto write = [&file]() -> std::optional<Node> {
-        return file.empty() ? std::nullopt : std::optional<Node>(file);
-    };
-    return {"file name", schema_of_file(endings, numbered), read, write};
+    return {"file name", schema_of_file(endings, numbered), read,
+            [&file] { return file.empty() ? Node() : Node(file); }};
 }
 
 void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const char*> endings, const char* ending,

@@ -25,7 +25,7 @@ struct ValueFormat {
     const char* type;    // for the reference: "[width, height]"
     std::string schema;  // JSON Schema
     std::function<void(ObjectReader& reader, const Node& node, const std::string& key)> read;
-    std::function<std::optional<Node>()> write;  // nullopt: the key is left out
+    std::function<Node()> write;  // null: the key is left out
 };
 
 struct List {
@@ -52,9 +52,6 @@ class SceneVisitor : public sim::Visitor {
     // A rule between the keys visited so far, or between them and the scene. Only the reader applies it.
     virtual void check(const std::function<void(ObjectReader&)>&) {}
 
-    void value_or_object(const Key& key, const ValueFormat& format, const Fields& fields, const char* meaning) {
-        value(key, format, meaning, fields);
-    }
     using Visitor::choice;
     template <class Enum, std::size_t n>
     void choice(const Key& key, Enum& value, const sim::Named<Enum> (&among)[n], const char* meaning) {

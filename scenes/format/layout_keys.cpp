@@ -48,7 +48,7 @@ void read_panel(ObjectReader& r, const Node& node, const std::string& key, Panel
 ValueFormat panel_format(PanelSpec& panel) {
     return {"panel or channel", R"({"anyOf": [{"const": "strip"}, {"$ref": "#/$defs/panelName"}]})",
             [&panel](ObjectReader& r, const Node& node, const std::string& key) { read_panel(r, node, key, panel); },
-            [&panel] { return type_of(panel.kind).name; }};
+            [&panel] { return Node(type_of(panel.kind).name); }};
 }
 
 void check_strip_units(ObjectReader& r, const std::string& key, const std::vector<sim::Channel>& channels) {
@@ -76,20 +76,17 @@ ValueFormat strip_channels_format(PanelSpec& panel) {
 
 ValueFormat window_format(PanelSpec& panel) {
     const auto read = [&panel](ObjectReader& r, const Node& node, const std::string& key) {
-        double window = 0;
         if (!type_of(panel.kind).takes_window) return r.reject(key, " belongs to the panels \"strip\" and \"energy\"");
         panel.by_collision = node.kind == Node::Kind::string && node.text == "collision";
         if (panel.by_collision && !type_of(panel.kind).takes_collisions)
             return r.reject(key, " of the panel \"energy\" must be a time, not \"collision\"");
-        if (!panel.by_collision &&
-            r.ranged_value(node, key, sim::dimension::kTime,
-                           {0, sim::Range::kInfinity, true, false, "must be positive, or \"collision\""}, window))
+        if (panel.by_collision) return;
+        if (const auto window =
+                r.ranged_value(node, key, sim::dimension::kTime,
+                               {0, sim::Range::kInfinity, true, false, "must be positive, or \"collision\""}))
             panel.window = window;
     };
-    const auto write = [&panel]() -> std::optional<Node> {
-        if (panel.by_collision) return "collision";
-        return panel.window ? std::optional<Node>(*panel.window) : std::nullopt;
-    };
+    const auto write = [&panel] { return panel.by_collision ? Node("collision") : Node(panel.window); };
     return {
         "time or \"collision\"",
         R"({"anyOf": [{"const": "collision"}, {"type": "number", "exclusiveMinimum": 0}, {"$ref": "#/$defs/withUnit"}]})",
@@ -146,7 +143,7 @@ ValueFormat named_panel_format(std::vector<LayoutNode>& children) {
         else
             read_panel(r, node, key, child.panel);
     };
-    return {"panel or channel", R"({"$ref": "#/$defs/panelName"})", read, [] { return std::nullopt; }};
+    return {"panel or channel", R"({"$ref": "#/$defs/panelName"})", read, [] { return Node(); }};
 }
 
 void visit_children(SceneVisitor& v, LayoutNode& node, const char* key, const char* meaning) {
@@ -190,11 +187,8 @@ ValueFormat layout_format(std::optional<LayoutNode>& layout) {
         named_panel_format(one).read(r, node, key);
         layout = one.front();
     };
-    const auto write = [&layout]() -> std::optional<Node> {
-        return layout ? std::nullopt : std::optional<Node>("auto");
-    };
     return {"\"auto\", panel or object", R"({"anyOf": [{"const": "auto"}, {"$ref": "#/$defs/panelName"}]})", read,
-            write};
+            [&layout] { return layout ? Node() : Node("auto"); }};
 }
 
 // ---- rules between panels and motions ----------------------------------------------------------

@@ -38,9 +38,8 @@ ValueFormat column_units_format(std::vector<std::pair<std::string, std::string>>
                 r.fail(member.value, key + "." + member.key,
                        r.path(key + "." + member.key) + " must be a unit in quotes, such as \"deg\"");
     };
-    const auto write = [&units]() -> std::optional<Node> {
-        if (units.empty()) return std::nullopt;
-        Node out = object_node();
+    const auto write = [&units] {
+        Node out = units.empty() ? Node() : object_node();
         for (const auto& [column, unit] : units) add(out, column, unit);
         return out;
     };

@@ -60,12 +60,11 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
                                const char* word) {
     const Node* node = take(key);
     if (!node) return;
-    double read = 0;
     if (word && node->kind == Node::Kind::string && node->text == word)
         value.reset();
     else if (unit.plain && node->kind != Node::Kind::number)
         expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
-    else if (ranged_value(*node, key.name, unit, range, read))
+    else if (const auto read = ranged_value(*node, key.name, unit, range))
         value = read;
 }
 
@@ -87,25 +86,24 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
                            const sim::Length& length, const char*) {
     const Node* node = take(key);
     if (!node) return;
-    double one = 0;
     if (length.or_one_number && node->kind != Node::Kind::array) {
-        if (ranged_value(*node, key.name, unit, range, one)) values = {one};
+        if (const auto one = ranged_value(*node, key.name, unit, range)) values = {*one};
         return;
     }
-    std::vector<double> read;
-    if (!numbers_value(*node, key.name, unit.resolved(), read)) return;
+    const auto read = numbers_value(*node, key.name, unit.resolved());
+    if (!read) return;
     const bool fixed = length.min == length.max;
-    if (fixed && read.size() != length.min)
-        return reject(key.name, " must have {} numbers, not {}", length.min, read.size());
-    if (check_ranges_ && read.size() < length.min) return reject(key.name, " is empty; write at least one number");
-    for (std::size_t i = 0; i < read.size(); ++i)
-        ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range, read[i]);
-    values = std::move(read);
+    if (fixed && read->size() != length.min)
+        return reject(key.name, " must have {} numbers, not {}", length.min, read->size());
+    if (check_ranges_ && read->size() < length.min) return reject(key.name, " is empty; write at least one number");
+    for (std::size_t i = 0; i < read->size(); ++i)  // reports those outside the range
+        ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range);
+    values = *read;
 }
 
 void ObjectReader::integer(const Key& key, std::optional<int>& value, int min, int max, const char*) {
-    int read = 0;
-    if (const Node* node = take(key); node && integer_value(*node, key.name, min, max, read)) value = read;
+    if (const Node* node = take(key))
+        if (const auto read = integer_value(*node, key.name, min, max)) value = read;
 }
 
 void ObjectReader::boolean(const Key& key, bool& value, const char*) {
@@ -127,7 +125,7 @@ void ObjectReader::text(const Key& key, std::string& value, const char*) {
 }
 
 void ObjectReader::keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen, const char*) {
-    if (const Node* node = take(key)) keyword_value(*node, key.name, words, chosen);
+    if (const Node* node = take(key)) chosen = keyword_value(*node, key.name, words).value_or(chosen);
 }
 
 void ObjectReader::object(const Key& key, const Fields& fields, const char*, bool* present) {
@@ -163,14 +161,14 @@ void ObjectReader::alternatives(const std::vector<Alternative>& all) {
         const auto [tag, first] = left.front()->tags[depth];
         const std::string example = fmt::format("\"{}\"", first);
         const Node* node = take(sim::required(tag, example.c_str()));
-        std::size_t chosen = 0;
-        if (!node || !keyword_value(*node, tag, words, chosen)) {
+        const auto chosen = node ? keyword_value(*node, tag, words) : std::nullopt;
+        if (!chosen) {
             if (depth == 0 && all.size() > 1) unknown_shape_ = true;
             for (const Alternative* each : left)
                 for (std::string& key : keys_of(*each)) visited_.push_back(std::move(key));
             return;
         }
-        std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != words[chosen]; });
+        std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != words[*chosen]; });
     }
     // Shapes with the same tags differ by their keys; the first shape is the default.
     const auto named = std::find_if(left.rbegin(), left.rend(), [&](const Alternative* each) {

@@ -99,15 +99,16 @@ class ObjectReader final : public SceneVisitor {
         diagnostics_.warning(place(key).place, path(key) + fmt::format(why, std::forward<Values>(values)...));
     }
 
-    // Values by kind. `key` is the path of `node` inside this object, for messages. True: `out` was set.
-    bool number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out);
-    bool ranged_value(const Node& node, std::string_view key, const sim::Unit& unit, const sim::Range& range,
-                      double& out);
-    bool integer_value(const Node& node, std::string_view key, int min, int max, int& out);
-    bool keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
-                       std::size_t& chosen);
-    bool numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
-                       std::vector<double>& out);
+    // Values by kind; nullopt: an error was reported. `key` is the path of `node` inside this object, for messages.
+    std::optional<double> number_value(const Node& node, std::string_view key, const sim::Dimension& dimension);
+    std::optional<double> ranged_value(const Node& node, std::string_view key, const sim::Unit& unit,
+                                       const sim::Range& range);
+    std::optional<int> integer_value(const Node& node, std::string_view key, int min, int max);
+    // The index of the word.
+    std::optional<std::size_t> keyword_value(const Node& node, std::string_view key,
+                                             const std::vector<std::string>& words);
+    std::optional<std::vector<double>> numbers_value(const Node& node, std::string_view key,
+                                                     const sim::Dimension& dimension);
 
     // ---- visited keys ----
     using SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;

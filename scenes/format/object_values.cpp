@@ -29,86 +29,70 @@ std::string as_written(const Node& node) {
     return "?";
 }
 
-bool ObjectReader::number_value(const Node& node, std::string_view key, const sim::Dimension& dimension, double& out) {
-    if (node.kind == Node::Kind::number) {
-        out = node.number;
-        return true;
-    }
+std::optional<double> ObjectReader::number_value(const Node& node, std::string_view key,
+                                                 const sim::Dimension& dimension) {
+    if (node.kind == Node::Kind::number) return node.number;
     const std::string unit = si_unit(dimension);
     if (node.kind != Node::Kind::string) {
         expect(node, key, "a number{}", unit == "1" ? "" : fmt::format(" [{}] or a text with a unit", unit));
-        return false;
+        return std::nullopt;
     }
     const QuantityText read = parse_quantity(node.text, &dimension);
-    if (!read.quantity) {
+    if (!read.quantity)
         reject_value(node, key, ": {}{}", read.problem,
                      unit == "1" ? "; write a number" : fmt::format("; write for example \"1.5 {}\"", unit));
-        return false;
-    }
-    if (!same(read.quantity->dimension, dimension)) {
+    else if (same(read.quantity->dimension, dimension))
+        return read.quantity->value;
+    else
         fail(node, key, wrong_dimension(node, key, unit, read.quantity->dimension));
-        return false;
-    }
-    out = read.quantity->value;
-    return true;
+    return std::nullopt;
 }
 
-bool ObjectReader::ranged_value(const Node& node, std::string_view key, const sim::Unit& unit, const sim::Range& range,
-                                double& out) {
-    double value = 0;
-    if (!number_value(node, key, unit.resolved(), value)) return false;
-    if (check_ranges_ && !range.contains(value)) {
-        reject_value(node, key, " {}",
-                     range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max));
-        return false;
-    }
-    out = value;
-    return true;
+std::optional<double> ObjectReader::ranged_value(const Node& node, std::string_view key, const sim::Unit& unit,
+                                                 const sim::Range& range) {
+    const auto value = number_value(node, key, unit.resolved());
+    if (!value || !check_ranges_ || range.contains(*value)) return value;
+    reject_value(node, key, " {}",
+                 range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max));
+    return std::nullopt;
 }
 
-bool ObjectReader::integer_value(const Node& node, std::string_view key, int min, int max, int& out) {
-    if (node.kind != Node::Kind::number || node.number != std::round(node.number)) {
+std::optional<int> ObjectReader::integer_value(const Node& node, std::string_view key, int min, int max) {
+    if (node.kind != Node::Kind::number || node.number != std::round(node.number))
         expect(node, key, "a whole number");
-        return false;
-    }
-    if (node.number < min || node.number > max) {
+    else if (node.number < min || node.number > max)
         reject_value(node, key, " is outside {} … {}", min, max);
-        return false;
-    }
-    out = static_cast<int>(node.number);
-    return true;
+    else
+        return static_cast<int>(node.number);
+    return std::nullopt;
 }
 
-bool ObjectReader::keyword_value(const Node& node, std::string_view key, const std::vector<std::string>& words,
-                                 std::size_t& chosen) {
+std::optional<std::size_t> ObjectReader::keyword_value(const Node& node, std::string_view key,
+                                                       const std::vector<std::string>& words) {
     if (node.kind != Node::Kind::string) {
         expect(node, key, "one of {}", fmt::join(words, ", "));
-        return false;
+        return std::nullopt;
     }
     const auto found = std::ranges::find(words, node.text);
-    if (found == words.end()) {
-        const bool is_film = path(key).ends_with(".type") && (node.text == "gif" || node.text == "apng");
-        reject_value(node, key, " {}",
-                     is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
-                             : "is unknown" + suggestion_or_list(node.text, words));
-        return false;
-    }
-    chosen = static_cast<std::size_t>(found - words.begin());
-    return true;
+    if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
+    const bool is_film = path(key).ends_with(".type") && (node.text == "gif" || node.text == "apng");
+    reject_value(node, key, " {}",
+                 is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
+                         : "is unknown" + suggestion_or_list(node.text, words));
+    return std::nullopt;
 }
 
-bool ObjectReader::numbers_value(const Node& node, std::string_view key, const sim::Dimension& dimension,
-                                 std::vector<double>& out) {
+std::optional<std::vector<double>> ObjectReader::numbers_value(const Node& node, std::string_view key,
+                                                               const sim::Dimension& dimension) {
     if (node.kind != Node::Kind::array) {
         expect(node, key, "an array [ … ]");
-        return false;
+        return std::nullopt;
     }
-    std::vector<double> values(node.items.size());
-    bool fine = true;
-    for (std::size_t i = 0; i < values.size(); ++i)
-        fine = number_value(node.items[i], fmt::format("{}.{}", key, i), dimension, values[i]) && fine;
-    if (fine) out = std::move(values);
-    return fine;
+    std::vector<double> values;
+    for (std::size_t i = 0; i < node.items.size(); ++i)
+        if (const auto value = number_value(node.items[i], fmt::format("{}.{}", key, i), dimension))
+            values.push_back(*value);
+    return values.size() == node.items.size() ? std::optional(values) : std::nullopt;
 }
 
 // For a quantity of the dimension `given` in place of `unit`.

@@ -21,10 +21,9 @@ constexpr sim::Named<render::Anchor::Kind> kAnchors[] = {{render::Anchor::Kind::
 
 std::optional<render::Anchor> read_anchor(ObjectReader& r, const Node& node, const std::string& key) {
     if (node.kind == Node::Kind::array && node.items.size() == 2) {
-        sim::Vec2 at;
-        const bool fine = r.number_value(node.items[0], key + ".0", sim::dimension::kLength, at.x) &&
-                          r.number_value(node.items[1], key + ".1", sim::dimension::kLength, at.y);
-        return fine ? std::optional(render::Anchor{render::Anchor::Kind::place, at}) : std::nullopt;
+        const auto at = r.numbers_value(node, key, sim::dimension::kLength);
+        if (!at) return std::nullopt;
+        return render::Anchor{render::Anchor::Kind::place, {at->front(), at->back()}};
     }
     std::vector<std::string> names;
     for (const auto& [kind, name] : kAnchors) {
@@ -38,7 +37,7 @@ std::optional<render::Anchor> read_anchor(ObjectReader& r, const Node& node, con
 
 template <class Value>
 ValueFormat format_of_anchor(Value& anchor) {
-    const auto write = [](const render::Anchor& one) -> std::optional<Node> {
+    const auto write = [](const render::Anchor& one) -> Node {
         for (const auto& [kind, name] : kAnchors)
             if (one.kind == kind) return name;
         return array_node({one.place.x, one.place.y});
@@ -74,8 +73,7 @@ ValueFormat color_format(std::optional<std::uint32_t>& color) {
         if (!given) r.reject_value(node, key, " is not a colour; write for example \"#0072b2\"");
         return given;
     };
-    return format_of(color, "\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read,
-                     [](std::uint32_t one) { return std::optional(color_node(one)); });
+    return format_of(color, "\"#rrggbb\"", R"({"type": "string", "pattern": "^#[0-9a-fA-F]{6}$"})", read, color_node);
 }
 
 ValueFormat background_format(render::View& view) {
@@ -112,10 +110,10 @@ ValueFormat show_format(render::Shown& show) {
             if (word_in(node) == name) return void(show = sized(preset, show.size));
         r.reject_value(node, key, " is not a preset{}", suggestion_or_list(node.text, kNames));
     };
-    const auto write = [&show, sized]() -> std::optional<Node> {
+    const auto write = [&show, sized]() -> Node {
         for (const auto& [name, preset] : kPresets)
             if (show == sized(preset, show.size)) return name;
-        return std::nullopt;
+        return {};
     };
     return {"preset or object", one_line(object_node({{"enum", kNames}})), read, write};
 }

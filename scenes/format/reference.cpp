@@ -61,7 +61,9 @@ std::string range_text(const DescribedKey& key) {
     return text;
 }
 
-std::string default_text(const DescribedKey& key) { return key.value && !key.required() ? one_line(*key.value) : ""; }
+std::string default_text(const DescribedKey& key) {
+    return key.value.is_null() || key.required() ? "" : one_line(key.value);
+}
 
 // ---- FORMAT.md ---------------------------------------------------------------------------------
 

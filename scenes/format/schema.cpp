@@ -78,9 +78,6 @@ class SchemaWriter {
         for (Member& member : more.members) out.members.add(std::move(member));
     }
     static Node reference(const std::string& name) { return object_node({{"$ref", "#/$defs/" + name}}); }
-    static Node one_of(const char* choice, std::vector<Node> all) {
-        return all.size() == 1 ? std::move(all.front()) : object_node({{choice, array_node(std::move(all))}});
-    }
 
     Node object(const DescribedObject& shape) {
         ++depth_;
@@ -131,7 +128,7 @@ class SchemaWriter {
         if (key.list) {
             Node out = key.schema;
             std::vector<Node> items;
-            if (key.item_schema) items.push_back(*key.item_schema);
+            if (!key.item_schema.is_null()) items.push_back(key.item_schema);
             items.push_back(std::move(inside));
             add(out, "items", one_of("anyOf", std::move(items)));
             return out;
@@ -148,7 +145,7 @@ class SchemaWriter {
         remove(schema, "description");
         Node out = object_node({{"description", meaning}});
         append(out, std::move(schema));
-        if (key.value && !key.required()) add(out, "default", *key.value);
+        if (!key.value.is_null() && !key.required()) add(out, "default", key.value);
         return out;
     }
 

@@ -37,24 +37,20 @@ static sim::Dimension dimension_of(const std::string& key, const ObjectReader& r
 template <class Number>  // double, or optional<double>
 static ValueFormat value_format(Number& value, const std::string& of) {
     const auto read = [&value, &of](ObjectReader& r, const Node& node, const std::string& key) {
-        double given = 0;
-        if (r.number_value(node, key, dimension_of(of, r), given)) value = given;
+        if (const auto given = r.number_value(node, key, dimension_of(of, r))) value = *given;
     };
     return {"number, or text with the unit of the key", R"({"anyOf": [{"type": "number"}, {"type": "string"}]})", read,
-            [&value] {
-                const std::optional<double> given = value;
-                return given ? std::optional<Node>(*given) : std::nullopt;
-            }};
+            [&value] { return Node(value); }};
 }
 
 static ValueFormat values_format(std::vector<double>& values, const std::string& of) {
     const auto read = [&values, &of](ObjectReader& r, const Node& node, const std::string& key) {
         if (node.kind != Node::Kind::array || node.items.empty()) return r.expect(node, key, "a list of numbers");
-        r.numbers_value(node, key, dimension_of(of, r), values);
+        if (const auto given = r.numbers_value(node, key, dimension_of(of, r))) values = *given;
     };
     return {"list of numbers, or texts with the unit of the key",
             R"({"type": "array", "minItems": 1, "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}})", read,
-            [&values] { return values.empty() ? std::nullopt : std::optional<Node>(values); }};
+            [&values] { return values.empty() ? Node() : Node(values); }};
 }
 
 static void visit(SceneVisitor& v, RandomKey& key) {
@@ -102,9 +98,9 @@ ValueFormat sample_format(sim::Sampling& sampling) {
         if (const std::string problem = parse_sample(node.text, r.context().scene.problem, sampling); !problem.empty())
             r.reject_value(node, key, ": {}", problem);
     };
-    const auto write = [&sampling]() -> std::optional<Node> {
+    const auto write = [&sampling] {
         const bool is_word = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::apexes;
-        return is_word ? std::optional<Node>(text_of_sample(sampling)) : std::nullopt;
+        return is_word ? Node(text_of_sample(sampling)) : Node();
     };
     return {"\"impacts\", \"apexes\", \"section:CHANNEL=VALUE\" or object",
             R"({"anyOf": [{"enum": ["impacts", "apexes", "apex"]}, {"type": "string", "pattern": "^section:.+=.+$"}]})",
@@ -134,8 +130,8 @@ ValueFormat seed_format(SweepSeeds& seeds) {
                                         : "write \"same\", \"carry-up\", \"carry-down\" or \"random:N\"";
         if (!problem.empty()) r.reject_value(node, key, ": {}", problem);
     };
-    const auto write = [&seeds]() -> std::optional<Node> {
-        if (seeds.random > 0) return std::nullopt;
+    const auto write = [&seeds]() -> Node {
+        if (seeds.random > 0) return {};
         if (seeds.kinds.size() == 1) return name(seeds.kinds.front());
         return array_node(seeds.kinds, [](SeedKind kind) { return name(kind); });
     };
@@ -170,17 +166,15 @@ void visit(SceneVisitor& v, Sweep& sweep) {
     over.min_size = 1, over.max_size = 2, over.of = "keys";
     over.example = "[{\"key\": \"cam.speed\", \"from\": 40, \"to\": 52, \"count\": 601}]";
     v.list(sim::required("over", over.example), over, "The keys that vary: one, or two as a grid.");
-    v.value_or_object(
-        "sample", sample_format(sweep.sampling),
-        [&](sim::Visitor& inside) { visit_section(static_cast<SceneVisitor&>(inside), sweep.sampling); },
-        "The samples of each motion: its state at impacts, at apexes, or where a channel passes a value.");
+    v.value("sample", sample_format(sweep.sampling),
+            "The samples of each motion: its state at impacts, at apexes, or where a channel passes a value.",
+            [&](sim::Visitor& inside) { visit_section(static_cast<SceneVisitor&>(inside), sweep.sampling); });
     v.object("transient", sweep.sampling.transient, "Time before the first sample.");
     v.object("keep", sweep.sampling.keep, "Time during which samples are taken.");
-    v.value_or_object(
-        "seed", seed_format(sweep.seeds),
-        [&](sim::Visitor& inside) { visit_random(static_cast<SceneVisitor&>(inside), sweep.seeds); },
-        "Start of each motion: the scene's initial state, the end of the motion at the previous value (upwards or "
-        "downwards), or a random state.");
+    v.value("seed", seed_format(sweep.seeds),
+            "Start of each motion: the scene's initial state, the end of the motion at the previous value (upwards or "
+            "downwards), or a random state.",
+            [&](sim::Visitor& inside) { visit_random(static_cast<SceneVisitor&>(inside), sweep.seeds); });
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
             if (!r.diagnostics().failed(r.path(problem.key)))  // else it has an error already
@@ -223,14 +217,11 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
         read.kinds = {SeedKind::random};
         read.random = *count;
     }
-    for (std::size_t from = 0; read.random == 0 && from <= text.size();) {
-        const std::size_t to = std::min(text.find(',', from), text.size());
-        const auto found =
-            std::ranges::find_if(kSeedKinds, [&](const auto& k) { return text.substr(from, to - from) == k.name; });
+    for (const std::string& word : read.random > 0 ? std::vector<std::string>() : split(text, ',')) {
+        const auto found = std::ranges::find(kSeedKinds, word, &sim::Named<SeedKind>::name);
         if (found == std::end(kSeedKinds) || found->value == SeedKind::random)
             return "write same, carry-up, carry-down, carry-up,carry-down, or random:N";
         read.kinds.push_back(found->value);
-        from = to + 1;
     }
     seeds = std::move(read);
     return "";

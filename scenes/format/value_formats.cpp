@@ -31,15 +31,14 @@ std::optional<Size> parse_size(std::string_view text) {
 
 std::optional<Size> read_size(ObjectReader& r, const Node& node, const std::string& key) {
     if (const auto parsed = parse_size(word_in(node))) return parsed;
-    Size given;
     if (node.kind != Node::Kind::array || node.items.size() != 2) {
         r.expect(node, key, "[width, height] or \"WIDTHxHEIGHT\" in pixels, {} to {} each", kSmallestSide,
                  kLargestSide);
         return std::nullopt;
     }
-    const bool fine = r.integer_value(node.items[0], key + ".0", kSmallestSide, kLargestSide, given.width) &
-                      r.integer_value(node.items[1], key + ".1", kSmallestSide, kLargestSide, given.height);
-    return fine ? std::optional(given) : std::nullopt;
+    const auto width = r.integer_value(node.items[0], key + ".0", kSmallestSide, kLargestSide),
+               height = r.integer_value(node.items[1], key + ".1", kSmallestSide, kLargestSide);
+    return width && height ? std::optional(Size{*width, *height}) : std::nullopt;
 }
 
 std::optional<FrameRate> parse_frame_rate(std::string_view text) {
@@ -73,7 +72,7 @@ std::optional<FrameRate> read_frame_rate(ObjectReader& r, const Node& node, cons
 }  // namespace
 
 ValueFormat size_format(Size& size) {
-    const auto write = [](const Size& one) { return std::optional(array_node({one.width, one.height})); };
+    const auto write = [](const Size& one) { return array_node({one.width, one.height}); };
     return format_of(
         size, "[width, height] or \"1280x720\"",
         fmt::format(
@@ -85,8 +84,7 @@ ValueFormat size_format(Size& size) {
 
 ValueFormat frame_rate_format(FrameRate& rate) {
     const auto write = [](const FrameRate& one) {
-        return std::optional(one.denominator == 1 ? Node(one.numerator)
-                                                  : Node(fmt::format("{}/{}", one.numerator, one.denominator)));
+        return one.denominator == 1 ? Node(one.numerator) : Node(fmt::format("{}/{}", one.numerator, one.denominator));
     };
     return format_of(
         rate, "number or \"30000/1001\"",
@@ -122,12 +120,11 @@ std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std
             r.reject_value(node, key, ": events are counted from 1: impact:1, collision:2, apex:1, release:3, touch");
         return event;
     }
-    double t = 0;
-    const bool fine = r.ranged_value(node, key, sim::dimension::kTime, kFromStart, t);
-    return fine ? std::optional(Instant{.t = t}) : std::nullopt;
+    const auto t = r.ranged_value(node, key, sim::dimension::kTime, kFromStart);
+    return t ? std::optional(Instant{.t = *t}) : std::nullopt;
 }
 
-std::optional<Node> written(const Instant& at) {
+Node written(const Instant& at) {
     if (at.kind == Instant::Kind::time) return at.t;
     for (const EventWord& event : kEventWords)
         if (event.kind == at.kind) return fmt::format("{}:{}", event.word, at.number);
@@ -153,10 +150,7 @@ ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
         else if constexpr (requires { time.reset(); })
             time.reset();
     };
-    out.write = [&]() -> std::optional<Node> {
-        const std::optional<double> t = time;
-        return event ? written(*event) : t ? std::optional<Node>(*t) : std::nullopt;
-    };
+    out.write = [&] { return event ? written(*event) : Node(time); };
     return out;
 }
 
@@ -173,12 +167,10 @@ ValueFormat speed_format(Speed& speed) {
     const auto read = [&speed](ObjectReader& r, const Node& node, const std::string& key) {
         if (word_in(node) == "impacts")
             speed.around = SlowMotion{}, speed.intervals.clear();
-        else
-            r.ranged_value(node, key, sim::dimension::kNone, kSpeedRange, speed.factor);
+        else if (const auto factor = r.ranged_value(node, key, sim::dimension::kNone, kSpeedRange))
+            speed.factor = *factor;
     };
-    const auto write = [&speed]() -> std::optional<Node> {
-        return speed.around || !speed.intervals.empty() ? std::nullopt : std::optional<Node>(speed.factor);
-    };
+    const auto write = [&speed] { return speed.around || !speed.intervals.empty() ? Node() : Node(speed.factor); };
     return {
         "factor, \"impacts\" or object",
         R"({"anyOf": [{"const": "impacts"}, {"type": "number", "minimum": 1e-06, "maximum": 1000}, {"$ref": "#/$defs/percentage"}]})",

@@ -10,12 +10,13 @@
 
 namespace beamcam::scenes {
 
-// The format of `value`, which is a T or a std::optional<T>. `read` returns the T, or reports why there is none.
+// The format of `value`, which is a T or a std::optional<T>. `read` returns an optional T, or reports why there is
+// none.
 template <class Value, class Read, class Write>
 ValueFormat format_of(Value& value, const char* type, std::string schema, Read read, Write write) {
-    const auto write_present = [&value, write]() -> std::optional<Node> {
+    const auto write_present = [&value, write]() -> Node {
         if constexpr (requires { value.has_value(); })
-            return value ? write(*value) : std::nullopt;
+            return value ? Node(write(*value)) : Node();
         else
             return write(value);
     };

@@ -47,8 +47,8 @@ class Writer final : public SceneVisitor {
     }
     void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields) override {
         if (!key.written) return;
-        if (auto node = format.write())
-            put(key, std::move(*node));
+        if (Node node = format.write(); !node.is_null())
+            put(key, std::move(node));
         else if (fields)
             object(key, fields, meaning, nullptr);
     }

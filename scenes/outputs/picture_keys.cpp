@@ -107,10 +107,12 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
     v.value(
         "background", background_format(picture.view),
         "paper: background of the theme; \"#rrggbb\": this colour; transparent: none, if the file format allows it.");
-    v.value_or_object("show", show_format(picture.view.show), SceneVisitor::keys_of(picture.view.show),
-                      "The parts around the panels: all, a preset (talk: no parameters and accuracy; paper: only "
-                      "labels, legend and clock; clean: none), or an object that removes parts. Without the legend the "
-                      "picture does not state the factor of the deflection.");
+    v.value(
+        "show", show_format(picture.view.show),
+        "The parts around the panels: all, a preset (talk: no parameters and accuracy; paper: only labels, legend and "
+        "clock; clean: none), or an object that removes parts. Without the legend the picture does not state the "
+        "factor of the deflection.",
+        SceneVisitor::keys_of(picture.view.show));
     v.object(written_if(picture.view.colors != render::OwnColors{}, "palette"),
              SceneVisitor::keys_of(picture.view.colors), "Colours that replace those of the theme.", nullptr);
     v.text(written_if(!picture.logo.empty(), "logo"), picture.logo,
@@ -126,14 +128,13 @@ void visit_picture(SceneVisitor& v, Picture& picture) {
              between(0.5, 4, "is outside 0.5 … 4"),
              "Size of text, lines and marks; at 1 the numbers of axes have 2 % of the height of a 16:9 picture.");
     v.value("size", size_format(picture.size), "Width and height in pixels; H.264, VP9 and AV1 need even numbers.");
-    v.value_or_object(
-        "layout", layout_format(picture.layout),
-        [&picture](sim::Visitor& inside) {
-            if (!picture.layout) picture.layout.emplace();
-            visit(static_cast<SceneVisitor&>(inside), *picture.layout);
-        },
-        "auto, a panel, or a grid: {\"columns\": [{\"panel\": \"mechanism\", \"share\": 2}, {\"rows\": [\"theta\", "
-        "\"contact_force\", \"close-up\"]}]}.");
+    v.value("layout", layout_format(picture.layout),
+            "auto, a panel, or a grid: {\"columns\": [{\"panel\": \"mechanism\", \"share\": 2}, {\"rows\": [\"theta\", "
+            "\"contact_force\", \"close-up\"]}]}.",
+            [&picture](sim::Visitor& inside) {
+                if (!picture.layout) picture.layout.emplace();
+                visit(static_cast<SceneVisitor&>(inside), *picture.layout);
+            });
     v.choice(written_if(!picture.compare.empty(), "comparison"), picture.comparison,
              {{Comparison::panels, "panels"}, {Comparison::ghosts, "ghosts"}},
              "panels: a separate mechanism for each motion; ghosts: one mechanism, with the motions after the first as "
@@ -209,9 +210,11 @@ void visit_span(SceneVisitor& v, FrameSpan& span) {
         "Frames per second, 0.1 to 1000, or a fraction such as \"30000/1001\", which is also the meaning of 29.97.");
     v.value("from", bound_format(span.from, span.from_event), "First instant.");
     v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
-    v.value_or_object(written_if(!span.duration, "speed"), speed_format(span.speed), SceneVisitor::keys_of(span.speed),
-                      "Playback speed: a factor, where 1 is real time; \"impacts\": slow motion around impacts; or an "
-                      "object with the details.");
+    v.value(
+        written_if(!span.duration, "speed"), speed_format(span.speed),
+        "Playback speed: a factor, where 1 is real time; \"impacts\": slow motion around impacts; or an object with "
+        "the details.",
+        SceneVisitor::keys_of(span.speed));
     v.number("duration", span.duration, dim::kTime, kPositive,
              "Duration of the film with its freezes, in place of \"speed\".");
     v.exclusive("speed", "duration");
