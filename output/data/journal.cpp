@@ -54,7 +54,7 @@ std::vector<fs::path> journals_in(const fs::path& directory) {
     for (fs::directory_iterator at(directory, failed), end; !failed && at != end; at.increment(failed))
         if (std::error_code gone; is_journal(at->path().filename().string()) && at->is_regular_file(gone))
             all.push_back(at->path());
-    std::sort(all.begin(), all.end());
+    std::ranges::sort(all);
     return all;
 }
 

@@ -28,8 +28,7 @@ bool is_same_instant(double x, double y) {
 std::vector<std::size_t> in_order_of(const std::vector<double>& t) {
     std::vector<std::size_t> order(t.size());
     for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
-    std::stable_sort(order.begin(), order.end(),
-                     [&](std::size_t i, std::size_t k) { return comes_before(t[i], t[k]); });
+    std::ranges::stable_sort(order, [&](std::size_t i, std::size_t k) { return comes_before(t[i], t[k]); });
     return order;
 }
 
@@ -88,12 +87,11 @@ ColumnDifference compare(const std::string& name, const std::vector<double>& a, 
 }  // namespace
 
 bool TableDifference::identical() const {
-    return same_shape() &&
-           std::all_of(columns.begin(), columns.end(), [](const ColumnDifference& c) { return c.identical; });
+    return same_shape() && std::ranges::all_of(columns, &ColumnDifference::identical);
 }
 
 bool TableDifference::within(double share) const {
-    return same_shape() && std::all_of(columns.begin(), columns.end(), [share](const ColumnDifference& c) {
+    return same_shape() && std::ranges::all_of(columns, [share](const ColumnDifference& c) {
                return c.undefined == 0 && c.share <= share;
            });
 }

@@ -273,7 +273,7 @@ class NpzParser {
 }  // namespace
 
 const std::vector<double>* NamedTable::find(std::string_view name) const {
-    const auto found = std::find(names.begin(), names.end(), name);
+    const auto found = std::ranges::find(names, name);
     return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
 }
 

@@ -17,8 +17,8 @@ namespace fs = std::filesystem;
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::vector<fs::path> sorted(std::vector<fs::path> files) {
-    std::sort(files.begin(), files.end(),
-              [](const fs::path& a, const fs::path& b) { return natural_order(a.string(), b.string()); });
+    std::ranges::sort(files,
+                      [](const fs::path& a, const fs::path& b) { return natural_order(a.string(), b.string()); });
     return files;
 }
 

@@ -41,7 +41,7 @@ VideoCapabilities video_capabilities() {
         {"APNG", {"apng"}}};
     for (const auto& [name, any] : encoders)
         found.encoders[name] =
-            std::any_of(any.begin(), any.end(), [&](const char* encoder) { return library.has_encoder(encoder); });
+            std::ranges::any_of(any, [&](const char* encoder) { return library.has_encoder(encoder); });
     return found;
 }
 

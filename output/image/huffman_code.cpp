@@ -24,8 +24,8 @@ std::vector<std::size_t> by_weight(std::span<const std::uint32_t> weights) {
         if (weights[s] > 0) symbols.push_back(s);
     for (std::size_t s = 0; symbols.size() < 2; ++s)
         if (weights[s] == 0) symbols.push_back(s);
-    std::sort(symbols.begin(), symbols.end(),
-              [&](std::size_t a, std::size_t b) { return std::pair(weights[a], a) < std::pair(weights[b], b); });
+    std::ranges::sort(
+        symbols, [&](std::size_t a, std::size_t b) { return std::pair(weights[a], a) < std::pair(weights[b], b); });
     return symbols;
 }
 
@@ -81,7 +81,7 @@ std::vector<std::uint16_t> canonical_words(const std::vector<std::uint8_t>& leng
 }  // namespace
 
 HuffmanCode huffman_code(std::span<const std::uint32_t> weights, int longest) {
-    const auto used = std::count_if(weights.begin(), weights.end(), [](std::uint32_t w) { return w > 0; });
+    const auto used = std::ranges::count_if(weights, [](std::uint32_t w) { return w > 0; });
     if (weights.size() < 2 || longest < 1 || longest > kLongest || used > std::ptrdiff_t{1} << longest)
         throw std::logic_error("huffman_code: no such code");
     HuffmanCode code{limited_lengths(weights, longest), {}};

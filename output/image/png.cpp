@@ -64,7 +64,7 @@ std::string pixels_per_metre(double dpi) {
 }
 
 std::string international_text(const std::string& keyword, const std::string& text) {
-    const bool printable = std::all_of(keyword.begin(), keyword.end(), [](char c) { return c >= ' ' && c <= '~'; });
+    const bool printable = std::ranges::all_of(keyword, [](char c) { return c >= ' ' && c <= '~'; });
     if (keyword.empty() || keyword.size() > 79 || !printable || keyword.front() == ' ' || keyword.back() == ' ')
         throw UnsupportedOption("\"" + keyword + "\" cannot be a PNG metadata keyword; use 1 to 79 ASCII characters");
     if (text.find('\0') != std::string::npos)

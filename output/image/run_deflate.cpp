@@ -158,7 +158,7 @@ RunDeflate::RunDeflate(std::size_t pixel) : pixel_(pixel), tokens_(kBlock) {
 void RunDeflate::bytes(std::span<const std::uint8_t> data) {
     if (data.empty()) return;
     adler_ = libdeflate_adler32(adler_, data.data(), data.size());
-    const auto first = std::find_if(data.begin(), data.end(), [](std::uint8_t b) { return b != 0; });
+    const auto first = std::ranges::find_if(data, [](std::uint8_t b) { return b != 0; });
     zeros_ += static_cast<std::size_t>(first - data.begin());
     if (first == data.end()) return;
     put_zeros();

@@ -12,8 +12,7 @@ namespace {
 bool is_continuation(char c) { return (static_cast<unsigned char>(c) & 0xC0) == 0x80; }
 
 std::size_t characters(std::string_view bytes) {
-    return static_cast<std::size_t>(
-        std::count_if(bytes.begin(), bytes.end(), [](char c) { return !is_continuation(c); }));
+    return static_cast<std::size_t>(std::ranges::count_if(bytes, [](char c) { return !is_continuation(c); }));
 }
 
 // The first `count` characters.
@@ -78,8 +77,7 @@ std::string describe(const std::vector<Source>& sources, const Message& message)
 }
 
 std::string describe(const std::vector<Source>& sources, std::vector<Message> messages) {
-    std::stable_sort(messages.begin(), messages.end(),
-                     [](const Message& a, const Message& b) { return a.place < b.place; });
+    std::ranges::stable_sort(messages, [](const Message& a, const Message& b) { return a.place < b.place; });
     std::string out;
     for (std::size_t i = 0; i < std::min(messages.size(), kMostDescribed); ++i) out += describe(sources, messages[i]);
     if (messages.size() > kMostDescribed) out += fmt::format("and {} more\n", messages.size() - kMostDescribed);

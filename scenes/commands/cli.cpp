@@ -37,7 +37,7 @@ void reject_unknown_command(int argc, const char* const* argv, const Grammar& gr
     const std::string word = argv[1];
     std::vector<std::string> known;
     for (const Command& command : grammar.commands) known.push_back(command.name);
-    if (std::find(known.begin(), known.end(), word) != known.end()) return;
+    if (std::ranges::find(known, word) != known.end()) return;
     if (word.ends_with(".json"))
         throw UsageError(fmt::format("there is no command before the scene; write beamcam run {}", word));
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));

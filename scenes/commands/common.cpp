@@ -158,7 +158,7 @@ double seconds_argument(const char* option, const std::string& text) {
 std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
 
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
-    if (file == "-" || std::find(endings.begin(), endings.end(), ending_of(file)) != endings.end()) return;
+    if (file == "-" || std::ranges::find(endings, ending_of(file)) != endings.end()) return;
     throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
 }
 

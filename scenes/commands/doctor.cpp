@@ -165,7 +165,7 @@ int act(const Common& common) {
         print_json(to_text(checks_node(checks)));
     else
         print_text(checks_text(checks));
-    return std::all_of(checks.begin(), checks.end(), [](const Check& c) { return c.ok; }) ? kDone : kMissingPart;
+    return std::ranges::all_of(checks, &Check::ok) ? kDone : kMissingPart;
 }
 
 }  // namespace

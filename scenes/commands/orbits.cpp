@@ -17,8 +17,8 @@
 #include "scenes/motions/identity.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/scene/version.hpp"
-#include "scenes/sweep/problem_family.hpp"
 #include "scenes/sweep/swept_rows.hpp"
+#include "sim/base/ode.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -71,12 +71,12 @@ const sim::PeriodicOrbit* first_of(const std::vector<sim::PeriodicOrbit>& orbits
 }
 
 // Searches at other values of the range if there is no orbit to continue at the start.
-void search_elsewhere(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
+void search_elsewhere(output::BranchTable& table, const sim::Family& family, const KeyRange& range,
                       sim::OrbitRequest request, const sim::Progress& progress) {
     request.transient = 0;
     for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
         const double value = range.from + share * (range.to - range.from);
-        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family.at(value), request, progress);
+        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family(value), request, progress);
         if (!first_of(found, false)) continue;
         table.start = value;
         table.orbits = std::move(found);
@@ -85,13 +85,19 @@ void search_elsewhere(output::BranchTable& table, const ProblemFamily& family, c
 }
 
 // Follows the first orbit without a phase of rest on the cam, and the first with one.
-void follow_branches(output::BranchTable& table, const ProblemFamily& family, const KeyRange& range,
+void follow_branches(output::BranchTable& table, const sim::Family& family, const KeyRange& range,
                      const sim::OrbitRequest& request, const OrbitsArguments& args, const sim::Progress& progress) {
     const sim::ContinuationRequest how{range.from, range.to, args.step, args.most_points, args.doublings};
+    const auto problem_at = [&](double value) {
+        try {
+            return family(value);
+        } catch (const SceneError& impossible) {  // ends the branch
+            throw sim::StepFailure(impossible.what());
+        }
+    };
     const auto follow = [&](double value, const sim::PeriodicOrbit* orbit) {
         if (!orbit) return;
-        for (sim::Branch& branch :
-             sim::continue_orbit([&](double v) { return family(v); }, {value, *orbit}, how, progress))
+        for (sim::Branch& branch : sim::continue_orbit(problem_at, {value, *orbit}, how, progress))
             table.branches.push_back(std::move(branch));
     };
     const double start = table.start;
@@ -173,14 +179,14 @@ sim::OrbitRequest request_of(const OrbitsArguments& args, const sim::Problem& pr
 
 // The orbits of the scene; with a range, the orbits at its start value and their branches.
 output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range) {
-    std::optional<ProblemFamily> family;
+    sim::Family family;
     output::BranchTable table;
     if (range) {
-        family.emplace(problem, range->key.path);
-        for (const double end : {range->from, range->to}) family->at(end);  // throws if the end is impossible
+        family = [problem, key = range->key.path](double value) { return problem_with(problem, key, value); };
+        for (const double end : {range->from, range->to}) family(end);  // throws if the end is impossible
         table = {range->key.path, si_unit(range->key.dimension), start_value(args, *range), {}, {}};
         need_narrow(*range, table.start);
-        problem = family->at(table.start);
+        problem = family(table.start);
     }
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
     const sim::OrbitRequest request = request_of(args, problem);
@@ -194,7 +200,7 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         progress.begin("branches", std::nullopt, "points");
         double last = table.start;
         long points = 0;
-        follow_branches(table, *family, *range, request, args, [&](double value) {
+        follow_branches(table, family, *range, request, args, [&](double value) {
             if (value != last) progress.reach(static_cast<double>(++points));
             last = value;
             return !output::interrupted();

@@ -66,7 +66,7 @@ std::vector<Job> jobs_of(const PaperArguments& args) {
             jobs.push_back({alone, how, {}});
         }
     }
-    std::sort(jobs.begin(), jobs.end(), [](const Job& a, const Job& b) { return a.how.file < b.how.file; });
+    std::ranges::sort(jobs, [](const Job& a, const Job& b) { return a.how.file < b.how.file; });
     return jobs;
 }
 

@@ -117,7 +117,7 @@ std::string stress_text(const sim::Campaign& campaign, const std::vector<sim::St
         "** most steps for a simulated second of those that ended\n\n";
     std::vector<std::pair<long, std::string>> ordered;
     for (const auto& [words, count] : causes) ordered.emplace_back(-count, words);
-    std::sort(ordered.begin(), ordered.end());
+    std::ranges::sort(ordered);
     for (const auto& [count, words] : ordered) text += fmt::format("{:>6}  {}\n", -count, words);
     return text + failures;
 }
@@ -196,8 +196,8 @@ void act(const StressArguments& args) {
     print_text(stress_text(campaign, results));
     for (const std::string& file : args.files) write(manifest.target(file), campaign, results);
     manifest.save();
-    const bool failed = std::any_of(results.begin(), results.end(),
-                                    [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
+    const bool failed =
+        std::ranges::any_of(results, [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
     if (failed)
         throw std::logic_error("the stress campaign found cases that neither finish nor are rejected with a message");
 }

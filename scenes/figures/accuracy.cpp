@@ -49,7 +49,7 @@ Panel work_precision(const sim::Accuracy& a, Lang lang) {
                 .name = "work-precision"};
     std::vector<sim::Method> methods;
     for (const sim::WorkRow& row : a.work)
-        if (std::find(methods.begin(), methods.end(), row.method) == methods.end()) methods.push_back(row.method);
+        if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
     for (std::size_t k = 0; k < methods.size(); ++k) add_method(panel, a, methods[k], static_cast<int>(k));
     return panel;
 }

@@ -90,7 +90,7 @@ std::string list_of_figures_with(std::string_view key) {
 }
 
 const FigureType* figure_type(std::string_view name) {
-    const auto it = std::find_if(table().begin(), table().end(), [&](const FigureType& r) { return name == r.name; });
+    const auto it = std::ranges::find(table(), name, &FigureType::name);
     return it == table().end() ? nullptr : &*it;
 }
 

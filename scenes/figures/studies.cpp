@@ -23,7 +23,7 @@ std::string Studies::key(const sim::Problem& problem) {
 
 std::size_t Studies::of(const sim::Problem& problem, double end_time) {
     const std::string physics = key(problem);
-    const auto found = std::find(keys_.begin(), keys_.end(), physics);
+    const auto found = std::ranges::find(keys_, physics);
     const auto index = static_cast<std::size_t>(found - keys_.begin());
     if (found == keys_.end()) {
         keys_.push_back(physics);
@@ -55,7 +55,7 @@ std::size_t Studies::table(std::size_t study, const Instants& at, const std::vec
     }
     std::vector<sim::Channel>& all = tables[grid->second].channels;
     for (const sim::ChannelKind kind : channels)
-        if (std::find(all.begin(), all.end(), sim::Channel{kind, 0}) == all.end()) all.push_back({kind, 0});
+        if (std::ranges::find(all, sim::Channel{kind, 0}) == all.end()) all.push_back({kind, 0});
     return grid->second;
 }
 

@@ -61,8 +61,7 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
     const Place place = value.place;
     const auto error = [&](std::string text) { messages.push_back({place, std::move(text), true}); };
     const std::vector<std::string> keys = split(path);
-    if (std::find(keys.begin(), keys.end(), "") != keys.end())
-        return error("the path contains an empty key; write key.path=value");
+    if (std::ranges::find(keys, "") != keys.end()) return error("the path contains an empty key; write key.path=value");
 
     Node* node = &root;
     std::string walked;

@@ -248,7 +248,7 @@ class UnitParser {
         double value = 0;
         int count = 0;
         for (; count < 3; ++count) {
-            const auto digit = std::find_if(kDigits.begin(), kDigits.end(), [&](auto each) { return take(each); });
+            const auto digit = std::ranges::find_if(kDigits, [&](auto each) { return take(each); });
             if (digit == kDigits.end()) break;
             value = 10 * value + static_cast<double>(digit - kDigits.begin());
         }

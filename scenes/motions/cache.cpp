@@ -240,7 +240,7 @@ std::vector<Cache::Kept> Cache::list() const {
         }
         all.push_back(std::move(kept));
     }
-    std::sort(all.begin(), all.end(), [](const Kept& a, const Kept& b) { return a.used > b.used; });
+    std::ranges::sort(all, [](const Kept& a, const Kept& b) { return a.used > b.used; });
     return all;
 }
 

@@ -76,8 +76,7 @@ std::vector<MotionStore::Group> MotionStore::groups() {
     std::vector<Group> all;
     for (; computed_ < requests_.size(); ++computed_) {
         MotionRequest& wish = requests_[computed_];
-        const auto same =
-            std::find_if(all.begin(), all.end(), [&](const Group& group) { return group.front()->key == wish.key; });
+        const auto same = std::ranges::find_if(all, [&](const Group& group) { return group.front()->key == wish.key; });
         if (same == all.end())
             all.push_back({&wish});
         else
@@ -198,7 +197,7 @@ std::vector<sim::Result> MotionStore::run(const Job& job, const sim::Progress& p
 
 void MotionStore::note(const Job& job, bool read_back, double seconds, long steps) {
     if (!history_) return;
-    const bool horizon = std::ranges::any_of(job.requests, [](const sim::Request& r) { return r.horizon; });
+    const bool horizon = std::ranges::any_of(job.requests, &sim::Request::horizon);
     const std::lock_guard lock(mutex_);
     history_->note(motion_work(job.key, job.problem, read_back, horizon), job.until, seconds,
                    static_cast<double>(steps));

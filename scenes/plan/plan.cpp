@@ -22,13 +22,11 @@ void Simulation::simulate_until(double t, const std::string& file) {
 }
 
 bool Plan::needs_gl() const {
-    return std::any_of(pictures.begin(), pictures.end(),
-                       [](const Pictures& p) { return p.view.style != render::Style::flat; });
+    return std::ranges::any_of(pictures, [](const Pictures& p) { return p.view.style != render::Style::flat; });
 }
 
 bool Plan::needs_encoder() const {
-    return std::any_of(pictures.begin(), pictures.end(),
-                       [](const Pictures& p) { return p.kind == Pictures::Kind::video; });
+    return std::ranges::any_of(pictures, [](const Pictures& p) { return p.kind == Pictures::Kind::video; });
 }
 
 std::optional<Cost> Plan::cost() const {

@@ -230,16 +230,14 @@ void Planner::add_unread_channels() {
     const std::vector<sim::Channel> every = all_channels(scene_.problem);
     auto read = [&](const sim::Channel& channel) {
         const sim::Request& request = plan_.simulation->request;
-        auto holds = [&](const std::vector<sim::Channel>& some) {
-            return std::find(some.begin(), some.end(), channel) != some.end();
-        };
+        auto holds = [&](const std::vector<sim::Channel>& some) { return std::ranges::count(some, channel) > 0; };
         const auto in_tables = [&](const sim::Request& some) {
             return std::ranges::any_of(some.tables, [&](const sim::TableRequest& t) { return holds(t.channels); });
         };
         return holds(request.extrema) || in_tables(request) || std::ranges::any_of(study_requests_, in_tables);
     };
-    const auto unread = std::count_if(every.begin(), every.end(),
-                                      [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });
+    const auto unread =
+        std::ranges::count_if(every, [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });
     if (unread > 0) skip(fmt::format("{} of {} channels", unread, every.size() - 1), "no output needs them");
 }
 

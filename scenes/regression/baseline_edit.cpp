@@ -18,13 +18,6 @@ struct Edit {
     std::string text;
 };
 
-// As JSON.
-std::string json_text(const std::string& text) {
-    std::string out = to_text(Node(text));
-    out.pop_back();  // the line break
-    return out;
-}
-
 // Replaces the value of a key, or adds the key after the last one.
 void set_member(const Node& object, const std::string& key, const std::string& value, const std::string& indent,
                 std::vector<Edit>& edits) {
@@ -33,7 +26,7 @@ void set_member(const Node& object, const std::string& key, const std::string& v
     } else {
         const bool first = object.members.empty();
         const std::size_t at = first ? object.place.offset + 1 : object.members.back().value.end;
-        edits.push_back({at, at, fmt::format("{}{}{}: {}", first ? "" : ",", indent, json_text(key), value)});
+        edits.push_back({at, at, fmt::format("{}{}{}: {}", first ? "" : ",", indent, one_line(key), value)});
     }
 }
 
@@ -41,13 +34,13 @@ std::string accepted_text(const std::vector<Accepted>& accepted) {
     std::string text = "[";
     for (const Accepted& one : accepted) {
         text += text.size() > 1 ? "," : "";
-        text += fmt::format("\n        {{\"renderer\": {}, \"sha256\": [", json_text(one.renderer));
+        text += fmt::format("\n        {{\"renderer\": {}, \"sha256\": [", one_line(one.renderer));
         if (one.sha256.size() == 1) {
-            text += json_text(one.sha256.front()) + "]}";
+            text += one_line(one.sha256.front()) + "]}";
             continue;
         }
         for (std::size_t i = 0; i < one.sha256.size(); ++i)
-            text += fmt::format("{}\n          {}", i > 0 ? "," : "", json_text(one.sha256[i]));
+            text += fmt::format("{}\n          {}", i > 0 ? "," : "", one_line(one.sha256[i]));
         text += "\n        ]}";
     }
     return text + (accepted.empty() ? "]" : "\n      ]");
@@ -56,10 +49,10 @@ std::string accepted_text(const std::vector<Accepted>& accepted) {
 std::string renderers_text(const std::map<std::string, RendererParts>& renderers) {
     std::string text = "{";
     for (const auto& [id, parts] : renderers) {
-        text += fmt::format("{}\n    {}: {{", text.size() > 1 ? "," : "", json_text(id));
+        text += fmt::format("{}\n    {}: {{", text.size() > 1 ? "," : "", one_line(id));
         bool first = true;
         for (const auto& [part, version] : parts) {
-            text += fmt::format("{}\n      {}: {}", first ? "" : ",", json_text(part), json_text(version));
+            text += fmt::format("{}\n      {}: {}", first ? "" : ",", one_line(part), one_line(version));
             first = false;
         }
         text += "\n    }";
@@ -86,8 +79,7 @@ std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& 
     std::vector<Edit> edits;
     std::set<std::string> used;
     for (const Baseline& entry : baselines.entries) {
-        const auto change =
-            std::find_if(changes.begin(), changes.end(), [&](const BaselineEdit& c) { return c.name == entry.name; });
+        const auto change = std::ranges::find(changes, entry.name, &BaselineEdit::name);
         for (const Accepted& one : change == changes.end() ? entry.accepted : change->accepted)
             used.insert(one.renderer);
         if (change == changes.end()) continue;
@@ -109,7 +101,7 @@ std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& 
     if (!listed.empty() || !baselines.renderers.empty())
         set_member(parsed.root, "renderers", renderers_text(listed), "\n  ", edits);
 
-    std::stable_sort(edits.begin(), edits.end(), [](const Edit& a, const Edit& b) { return a.begin > b.begin; });
+    std::ranges::stable_sort(edits, std::greater(), &Edit::begin);
     std::string result = text;
     for (const Edit& edit : edits) result.replace(edit.begin, edit.end - edit.begin, edit.text);
     return result;

@@ -21,7 +21,7 @@ namespace fs = std::filesystem;
 constexpr int kMostPictures = 10'000;  // of one entry: each has a digest in the file and a reference picture
 
 bool is_plain_name(std::string_view name) {
-    const bool plain = std::all_of(name.begin(), name.end(), [](char c) {
+    const bool plain = std::ranges::all_of(name, [](char c) {
         return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
                c == '.';
     });
@@ -138,9 +138,8 @@ class Reader {
     }
 
     void read_overrides(const Node& node, const std::string& path, std::vector<std::string>& overrides) {
-        const bool fine =
-            node.kind == Node::Kind::array && std::all_of(node.items.begin(), node.items.end(),
-                                                          [](const Node& n) { return n.kind == Node::Kind::string; });
+        const bool fine = node.kind == Node::Kind::array &&
+                          std::ranges::all_of(node.items, [](const Node& n) { return n.kind == Node::Kind::string; });
         if (!fine)
             return diagnostics_.error(
                 node.place, path,
@@ -159,8 +158,7 @@ class Reader {
             const Node* digests = f.take(sim::required("sha256", "[\"0123…\"]"));
             f.finish();
             if (!digests) continue;
-            if (digests->kind != Node::Kind::array ||
-                !std::all_of(digests->items.begin(), digests->items.end(), is_digest)) {
+            if (digests->kind != Node::Kind::array || !std::ranges::all_of(digests->items, is_digest)) {
                 f.fail(*digests, "sha256",
                        fmt::format("{} must be an array of digests, 64 digits 0…9 a…f each; --update writes them",
                                    f.path("sha256")));

@@ -79,8 +79,7 @@ class Comparer {
         compare_impacts();
         MotionVerdict result;
         if (identical_) return result;
-        std::stable_sort(diagnostics_.begin(), diagnostics_.end(),
-                         [](const Finding& a, const Finding& b) { return a.excess > b.excess; });
+        std::ranges::stable_sort(diagnostics_, [](const Finding& a, const Finding& b) { return a.excess > b.excess; });
         const bool differs = !diagnostics_.empty() && diagnostics_.front().excess > 1;
         result.verdict = differs ? Verdict::different : Verdict::equivalent;
         for (const Finding& finding : diagnostics_)
@@ -129,7 +128,7 @@ class Comparer {
     }
 
     std::size_t reproducible(const std::vector<ImpactFields>& impacts) const {
-        return static_cast<std::size_t>(std::count_if(impacts.begin(), impacts.end(), [&](const ImpactFields& impact) {
+        return static_cast<std::size_t>(std::ranges::count_if(impacts, [&](const ImpactFields& impact) {
             return field(impact, "t_start").value_or(INFINITY) <= horizon_;
         }));
     }

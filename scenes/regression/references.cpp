@@ -31,7 +31,7 @@ std::vector<std::string> files_in(const fs::path& folder) {
     std::vector<std::string> names;
     for (const fs::directory_entry& file : fs::directory_iterator(folder))
         names.push_back(file.path().filename().string());
-    std::sort(names.begin(), names.end());
+    std::ranges::sort(names);
     return names;
 }
 
@@ -43,7 +43,7 @@ void remove_staging(const fs::path& staging, std::error_code& error) {
     const std::vector<fs::path> journals = output::journals_in(staging);
     std::vector<fs::path> others;
     for (fs::directory_iterator at(staging, error), end; !error && at != end; at.increment(error))
-        if (std::find(journals.begin(), journals.end(), at->path()) == journals.end()) others.push_back(at->path());
+        if (std::ranges::find(journals, at->path()) == journals.end()) others.push_back(at->path());
     for (auto other = others.begin(); !error && other != others.end(); ++other) fs::remove_all(*other, error);
     if (!error) fs::remove_all(staging, error);
 }
@@ -75,7 +75,7 @@ std::string ReferenceUpdate::recover(const fs::path& references) {
         throw output::WouldOverwrite(
             fmt::format("{} was not made by beamcam; move it, updates need this name", staging.string()));
     const std::vector<fs::path> journals = output::journals_in(staging);
-    if (!std::all_of(journals.begin(), journals.end(), output::is_abandoned)) return {};  // in progress
+    if (!std::ranges::all_of(journals, output::is_abandoned)) return {};  // in progress
     const bool listed = output::path_exists(staging / kUpdateTasks);
     if (listed) {
         output::Journal own(staging);

@@ -1,7 +1,9 @@
 // The results of a regression test: of each picture, of each entry, and of all; and the rule by which they pass.
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -38,9 +40,17 @@ struct EntryResult {
     double seconds = 0;    // drawing and comparison
     int exit_code = 0;     // of the program if the entry could not be compared; 0: it was compared
 
-    Verdict verdict() const;
+    Verdict verdict() const {
+        return std::max(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
+    }
     // The frames that are not identical; those that changed most come first.
-    ChangedFrames changed_frames() const;
+    ChangedFrames changed_frames() const {
+        ChangedFrames changed;
+        for (const auto& [number, frame] : frames)
+            if (frame.verdict != Verdict::identical) changed.emplace_back(number, &frame);
+        std::ranges::stable_sort(changed, std::greater(), [](const auto& each) { return each.second->weight(); });
+        return changed;
+    }
 };
 
 // Pictures of a new renderer fail, pass with a warning, or pass and are accepted.
@@ -50,8 +60,13 @@ enum class NewRenderer { fail, warn, accept };
 struct PassRule {
     bool strict = false;  // only identical pictures and motions pass
     NewRenderer new_renderer = NewRenderer::fail;
-    bool passes(Verdict verdict) const;
-    bool passes(const EntryResult& entry) const;  // its picture and its motion pass
+    bool passes(Verdict verdict) const {
+        return verdict == Verdict::identical || (verdict == Verdict::equivalent && !strict) ||
+               (verdict == Verdict::new_renderer && new_renderer != NewRenderer::fail);
+    }
+    bool passes(const EntryResult& entry) const {  // its picture and its motion pass
+        return passes(entry.picture.value_or(Verdict::identical)) && passes(entry.motion.value_or(Verdict::identical));
+    }
 };
 
 struct RegressionResult {

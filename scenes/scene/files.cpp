@@ -27,7 +27,7 @@ bool matches(const Pattern& pattern, std::string_view file) {
         return false;
     const std::string_view digits =
         file.substr(pattern.before.size(), file.size() - pattern.before.size() - pattern.after.size());
-    return std::all_of(digits.begin(), digits.end(), is_digit);
+    return std::ranges::all_of(digits, is_digit);
 }
 
 // Every pattern whose numbered files could include this one: any run of digits in its last part may be the number.
@@ -102,7 +102,7 @@ class ClaimIndex {
 
 std::string problem_with_file(std::string_view file) {
     if (file.empty()) return "the name is empty; write one, or remove the key";
-    if (std::any_of(file.begin(), file.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }))
+    if (std::ranges::any_of(file, [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }))
         return "the name contains a control character; remove it";
     const std::filesystem::path path(file);
     if (path.is_absolute()) return "the path is absolute; write it relative to the output directory, which -o selects";

@@ -9,7 +9,6 @@
 #include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
 #include "scenes/scene/exit_code.hpp"
-#include "scenes/sweep/problem_family.hpp"
 #include "sim/problem/number_keys.hpp"
 #include "sim/sweep/attractor.hpp"
 
@@ -30,6 +29,15 @@ output::NamedTable sweep_table(const std::string& file) {
 }
 
 }  // namespace
+
+sim::Problem problem_with(sim::Problem problem, const std::string& key, double value) {
+    if (!sim::set_number(problem, key, value))
+        throw SceneError(fmt::format("{} = {:.10g} is outside its range or not a whole number", key, value));
+    for (const sim::Issue& finding : sim::validate(problem))
+        if (finding.fatal)
+            throw SceneError(fmt::format("at {} = {:.10g}: {}: {}", key, value, finding.path, finding.message));
+    return problem;
+}
 
 SweptImpacts swept_impacts(const std::string& file, const std::string& key, double from, double to) {
     const output::NamedTable table = sweep_table(file);
@@ -64,7 +72,7 @@ sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int r
     };
     for (const sim::NumberKey& key : sim::number_keys(problem))
         if (const std::vector<double>* column = table.find(key.path))
-            problem = ProblemFamily(problem, key.path).at((*column)[index]);
+            problem = problem_with(problem, key.path, (*column)[index]);
     if (!problem.cam) throw UsageError("--row: the scene has no cam");
     constexpr double kAbove = 1e-9;  // [rad]; a row of impacts must start outside the cam
     problem.cam->phase = value("cam_angle");

@@ -1,4 +1,5 @@
-// The input that the search of periodic orbits takes from the table of a sweep: impacts to plot, and an initial state.
+// What the search of periodic orbits takes from keys of a scene and from the table of a sweep: the problem at a value,
+// impacts to plot, and an initial state.
 #pragma once
 
 #include <string>
@@ -7,6 +8,9 @@
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::scenes {
+
+// The problem with another value of a key. Throws SceneError for an impossible one.
+sim::Problem problem_with(sim::Problem problem, const std::string& key, double value);
 
 // The impacts in a .csv, .npz or .nc table of `sweep --sample impacts` with the key between two values. Throws
 // UsageError for a missing column.

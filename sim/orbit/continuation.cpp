@@ -246,8 +246,8 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
             ArcPoint back = at;
             back.tangent *= -1;
             Continuation(arc, request, progress).follow(back, branch, branch.first_end);
-            std::reverse(branch.points.begin(), branch.points.end());
-            std::reverse(branch.special.begin(), branch.special.end());
+            std::ranges::reverse(branch.points);
+            std::ranges::reverse(branch.special);
         }
         Continuation(arc, request, progress).follow(std::move(at), branch, branch.last_end);
     };

@@ -81,7 +81,7 @@ class Stretching {
         const double duration = e.duration, blocks = static_cast<double>(block_.cols());
         std::vector<Eigen::Index> order(static_cast<std::size_t>(sum_.size()));
         std::iota(order.begin(), order.end(), 0);
-        std::stable_sort(order.begin(), order.end(), [&](auto a, auto b) { return sum_[a] > sum_[b]; });
+        std::ranges::stable_sort(order, [&](auto a, auto b) { return sum_[a] > sum_[b]; });
         e.time = time_;
         e.settled = halves_agree(order.front());
         for (const Eigen::Index i : order) {

@@ -148,12 +148,12 @@ std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t 
             auto orbit = place ? orbit_through(problem, *place, one, progress) : std::nullopt;
             if (!orbit || orbit->impacts.empty() || orbit->chatters()) continue;
             if (request.impacts && static_cast<int>(orbit->impacts.size()) != *request.impacts) continue;
-            if (std::none_of(found.begin(), found.end(), [&](const auto& o) { return same_orbit(o, *orbit); }))
+            if (std::ranges::none_of(found, [&](const auto& o) { return same_orbit(o, *orbit); }))
                 found.push_back(std::move(*orbit));
         } catch (const SolverError&) {  // this throw cannot be integrated
         }
     }
-    std::stable_sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.stable() > b.stable(); });
+    std::ranges::stable_sort(found, [](const auto& a, const auto& b) { return a.stable() > b.stable(); });
     return found;
 }
 

@@ -80,8 +80,7 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
         derivative = flow_map(problem_, orbit.start, period_, true, progress_, StartOnCam::kept).derivative;
     const Eigen::VectorXcd multipliers = eigenvalues(derivative);
     orbit.multipliers.assign(multipliers.begin(), multipliers.end());
-    std::stable_sort(orbit.multipliers.begin(), orbit.multipliers.end(),
-                     [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+    std::ranges::stable_sort(orbit.multipliers, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
     return orbit;
 }
 

@@ -24,7 +24,7 @@ class RangeCheck final : public NumberVisitor {
     }
     void numbers(const Key& key, std::vector<double>& values, const Unit& unit, const Range& range, const Length&,
                  const char*) override {
-        (void)std::all_of(values.begin(), values.end(), [&](double x) { return in_range(key, x, unit, range); });
+        (void)std::ranges::all_of(values, [&](double x) { return in_range(key, x, unit, range); });
     }
     void integer(const Key& key, std::optional<int>& value, int min, int max, const char*) override {
         if (value && (*value < min || *value > max))

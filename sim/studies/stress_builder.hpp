@@ -56,7 +56,7 @@ class CampaignBuilder {
 
   private:
     static std::size_t index(std::vector<std::string>& names, const std::string& name) {
-        const auto at = std::find(names.begin(), names.end(), name);
+        const auto at = std::ranges::find(names, name);
         if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
         names.push_back(name);
         return names.size() - 1;

@@ -85,7 +85,7 @@ std::optional<Timing> Trials::time(const Problem& variant, double end, double li
         seconds.push_back(run->seconds);
         if (seconds_since(started_) > enough) break;
     }
-    std::sort(seconds.begin(), seconds.end());
+    std::ranges::sort(seconds);
     return Timing{seconds[seconds.size() / 2], seconds.front(), seconds.back(), static_cast<int>(seconds.size())};
 }
 
