@@ -54,7 +54,9 @@ std::vector<bool> uncertain_points(const SweepRun& sweep, const Tolerance& toler
     for (int repetition = 1; repetition <= kRepetitions; ++repetition) {
         SweepRun other(perturbed(sweep.grid().scene(), repetition));
         other.make(threads, progress);
-        for (const std::size_t k : points_that_differ(own, table_of(other.data()), tolerance)) uncertain[k] = true;
+        const auto& problem = sweep.grid().scene().problem;
+        for (const std::size_t k : points_that_differ(own, table_of(other.data()), tolerance, problem))
+            uncertain[k] = true;
     }
     return uncertain;
 }
@@ -112,7 +114,9 @@ void EntryMotion::judge_sweep(int threads, Progress& progress) {
     test_.references.read([&] {
         const fs::path record = test_.references.folder / kSweepRecord;
         if (!output::path_exists(record)) return add_missing("");
-        add(compare_sweeps(output::read_table(record), table_of(sweep.data()), test_.tolerance), "", {kSweepRecord});
+        add(compare_sweeps(output::read_table(record), table_of(sweep.data()), test_.tolerance,
+                           test_.entry.scene.problem),
+            "", {kSweepRecord});
     });
     if (!test_.references.is_replaced() && !is_reported()) return;
     const std::vector<bool> uncertain = uncertain_points(sweep, test_.tolerance, threads, progress);

@@ -10,6 +10,7 @@
 
 #include "scenes/regression/sweep_table.hpp"
 #include "sim/base/counted.hpp"
+#include "sim/sweep/sampling.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -22,6 +23,7 @@ constexpr double kSureErrors = 10;
 constexpr double kSureErrorsOfAll = 8;     // the same of sums over all points
 constexpr std::size_t kMostOfOrbit = 500;  // compared samples of a periodic motion: its whole orbit
 constexpr std::size_t kMostDifferences = 4;
+constexpr double kLeastRange = 0.01;  // of a column, as a share of its natural size: least reference of differences
 
 bool has_period(AttractorClass kind) {
     return kind == AttractorClass::rest || kind == AttractorClass::following || kind == AttractorClass::periodic;
@@ -75,11 +77,26 @@ class SampleBlocks {
     std::vector<std::size_t> block_;
 };
 
+// The natural size of a column of samples in its unit, of motions that turn with the cam or fall like a pendulum: 1 rad
+// or turn, the length of the beam, and the faster of both rates. 0 for other columns.
+double natural_size(const std::string& column, const sim::Problem& problem) {
+    const auto& columns = sim::sample_columns();
+    const auto info = std::ranges::find_if(columns, [&](const auto& each) { return column == each.name; });
+    if (info == columns.end()) return 0;
+    const double length = problem.beam.length, speed = problem.cam ? std::fabs(problem.cam->speed) : 0,
+                 rate = std::max(speed, std::sqrt(std::fabs(problem.gravity) / length));
+    const std::map<std::string, double> sizes{
+        {"1", 1}, {"rad", 1}, {"rad/s", rate}, {"m", length}, {"m/s", rate * length}, {"s", rate > 0 ? 1 / rate : 0}};
+    return sizes.at(info->unit);
+}
+
 class SweepComparer {
   public:
-    SweepComparer(const output::NamedTable& expected, const output::NamedTable& actual, const Tolerance& tolerance)
+    SweepComparer(const output::NamedTable& expected, const output::NamedTable& actual, const Tolerance& tolerance,
+                  const sim::Problem& problem)
         : a_(expected), b_(actual), tolerance_(*tolerance.motion) {
-        for (std::size_t c = 0; c < a_.values().size(); ++c) ranges_.push_back(range_of(a_.all(c)));
+        for (std::size_t c = 0; c < a_.values().size(); ++c)
+            ranges_.push_back(std::max(range_of(a_.all(c)), kLeastRange * natural_size(a_.values()[c], problem)));
     }
 
     MotionVerdict compare() {
@@ -257,13 +274,13 @@ class SweepComparer {
 }  // namespace
 
 MotionVerdict compare_sweeps(const output::NamedTable& expected, const output::NamedTable& actual,
-                             const Tolerance& tolerance) {
-    return SweepComparer(expected, actual, tolerance).compare();
+                             const Tolerance& tolerance, const sim::Problem& problem) {
+    return SweepComparer(expected, actual, tolerance, problem).compare();
 }
 
 std::vector<std::size_t> points_that_differ(const output::NamedTable& expected, const output::NamedTable& actual,
-                                            const Tolerance& tolerance) {
-    return SweepComparer(expected, actual, tolerance).differing();
+                                            const Tolerance& tolerance, const sim::Problem& problem) {
+    return SweepComparer(expected, actual, tolerance, problem).differing();
 }
 
 }  // namespace beamcam::scenes
