@@ -33,6 +33,8 @@ inline constexpr double kMostDampingInLanes = 0.5;  // the largest ζ of oscilla
 inline constexpr double kSeriesRadians = 2;         // [rad], or decays, up to which responses come from their series
 // The nodes do not resolve vibration that turns by more radians, or decays by more, in a step.
 inline constexpr double kResolvedRadians = 3;
+// Vibration that turns by more radians in a step of flight is left out of the forcing, unless its ζ is larger. (S52b)
+inline constexpr double kFastRadians = 14, kMostDampingOfFast = 0.1;
 // Bounds within a step.
 inline constexpr double kNodeOvershoot = 1.5;  // largest value of a polynomial over that at the nodes
 // Of the Legendre polynomial P₈ on a step: its largest integral from the start, and the integral of that over half of

@@ -97,8 +97,8 @@ void ContactStep::begin() {
 
 double ContactStep::solve(const StepTable& table) {
     ExponentialSegment& s = step_.segment;
-    const double h = s.h = table.h;
-    s.changed();
+    const double h = table.h;
+    s.begin(h, {});
     step_.place_hub(h);
     linearize(table);
     // The feet of the last attempt are the first guess, unless they left the expansion.

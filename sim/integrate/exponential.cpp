@@ -34,14 +34,13 @@ std::unique_ptr<Integrator> make_fallback(Method method, System& system, double 
 
 // Solves for the nodal forcing. Returns the error in units of the tolerance, kNoSolution if the iteration fails.
 double solve_flight(NodalStep& step, const StepTable& table) {
-    step.segment.h = table.h;
-    step.segment.changed();
+    step.segment.begin(table.h, FastVibrations(*step.form, table.h));
     step.place_hub(table.h);
     step.propagate_unforced(table);
     FixedPoint iteration(kFlightRounding, kStalled, 0);
     auto status = FixedPoint::Status::going;
     for (int sweep = 0; sweep < kMostSweeps && status == FixedPoint::Status::going; ++sweep) {
-        step.propagate(table);
+        step.propagate_without_fast(table);
         if (!step.form->by_arrays()) step.propagate_rates(table);
         step.place_coordinates(false);
         status = iteration.add(step.update_forcing(table, nullptr));

@@ -117,15 +117,25 @@ double ExponentialSegment::work_on_vibration(std::size_t i, const double* g, dou
 }
 
 // Loss of one mode up to s: the fall of its energy and the work of the forcing, ∫2γmv² = m{E(0) − E(t) + ∫f v},
-// E = ½(v² + ω²q²).                                                                                       (S54)
+// E = ½(v² + ω²q²). The forcing κw of a fast vibration does the work ½κw².                           (S54), (S52b)
 double ExponentialSegment::structural_loss(std::size_t i, double s, const double* y) const {
     const Oscillator& o = form_->oscillators[i];
+    if (o.gamma == 0) return 0;
     const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
     const double fell = 0.5 * (v0[i] * v0[i] - dx1 * dx1 + w2 * (q0[i] * q0[i] - x1 * x1));
     if (resolved(i)) return form_->mass * fell;
     double force[kNodes];
     for (std::size_t j = 0; j < kNodes; ++j) force[j] = sum(Collocation::get().monomial[j] * f[i]);
-    return form_->mass * (fell + work_on(i, force, s, y));
+    double work = work_on(i, force, s, y);
+    if (left_out.contains(i)) {
+        double last = x1, start = q0[i], power = 1 / w2, sign = 1 / w2;
+        for (int j = 0; j < kNodes; ++j, power *= 2 * s - 1, sign = -sign) {
+            last -= force[j] * power;
+            start -= force[j] * sign;
+        }
+        work += 0.5 * left_out.stiffness(i) * (last * last - start * start);
+    }
+    return form_->mass * (fell + work);
 }
 
 // Work of the torque on the part of the vibration α̇ that the nodes do not resolve.

@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "sim/integrate/fast_vibrations.hpp"
 #include "sim/integrate/integrator.hpp"
 #include "sim/integrate/modal_form.hpp"
 
@@ -23,6 +24,12 @@ class ExponentialSegment final : public StoredSegment {
     const MotionBounds* bounds() const override;
     const ModalBounds* modal_bounds() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
+    // A step of this length; its numbers will change.
+    void begin(double length, const FastVibrations& fast) {
+        h = length;
+        left_out = fast;
+        changed();
+    }
     // To be called whenever the numbers change.
     void changed() {
         expanded_ = -1;
@@ -36,7 +43,8 @@ class ExponentialSegment final : public StoredSegment {
     double h = 0;                // of the collocation; t1 may lie before t0 + h
     double theta0 = 0, p0 = 0;   // Θ and ∂T/∂Θ̇ at t0
     std::vector<double> q0, v0;  // q, q̇ at t0
-    std::vector<Lanes> q, v, f;  // at the nodes: q, q̇, forcing per mass
+    std::vector<Lanes> q, v, f;  // at the nodes: q, q̇, forcing per mass without that of `left_out`
+    FastVibrations left_out;
     Lanes theta_dot{}, p_dot{};  // Θ̇ and ṗ at the nodes
     double ledger0[kLedgerSize] = {};
     Lanes rate[kLedgerSize] = {};  // of the ledger at the nodes, without the parts that `ledger_at` adds
@@ -63,14 +71,20 @@ class ExponentialSegment final : public StoredSegment {
     void each_number(Visit&& visit);
     void transpose() const;
     int last_point(double t, double s) const;
+    bool has_fast(std::size_t group) const { return (group + 1) * kNodes > left_out.first(); }
     void expand(int point) const;
+    void follow_forcing(std::size_t group, Lanes& value, Lanes& slope) const;
     void evaluate(double t, bool ledger, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     double work_on(std::size_t mode, const double* g, double s, const double* y) const;
     double work_on_vibration(std::size_t mode, const double* g, double s, const double* y) const;
     double work_on_decay(std::size_t mode, bool fast, const double* g, double s, const double* y) const;
+    struct Largest {  // within the step, of a mode
+        double force, amplitude, rate;
+    };
     void find_largest(std::size_t group) const;
+    void let_lag(std::size_t mode, Largest& of) const;
     double largest_rate(std::size_t mode, double amplitude, double force) const;
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
@@ -82,9 +96,10 @@ class ExponentialSegment final : public StoredSegment {
     Distances distances_of(std::size_t group, const ForcingBounds& forcing) const;
     void set_distance_of_decays(std::size_t mode, const ForcingBounds& forcing, Distances& out) const;
     Lanes free_vibrations(std::size_t group) const;
-    void set_vibration(const Oscillator& oscillator, double amplitude, ModalBounds::Mode& bounds) const;
+    void set_vibration(const Oscillator& oscillator, double lag, double amplitude, ModalBounds::Mode& bounds) const;
     void set_decays(std::size_t mode, ModalBounds::Mode& bounds) const;
     void bound_modes(std::size_t group, const ForcingBounds& forcing, ModalBounds::Mode* modes) const;
+    double work_left_out() const;
     double missed_work(std::size_t group, const Lanes* legendre) const;
     double torque_on_vibration(double s, const double* y) const;
 
@@ -93,17 +108,15 @@ class ExponentialSegment final : public StoredSegment {
     std::size_t n_, controlled_;
     mutable bool bounds_known_ = false;
     mutable MotionBounds bounds_;
-    struct Largest {  // within the step, of a mode
-        double force, amplitude, rate;
-    };
     mutable std::vector<Largest> largest_;  // valid with `bounds_`
     mutable bool modal_bounds_known_ = false;
     mutable ModalBounds modal_bounds_;
     mutable int expanded_ = -1;
     // In lanes over eight modes, by group: q, q̇ and f at the nodes (`transposed_`) and q, q̇ at the start; derivatives
-    // of f at the point `expanded_`.
+    // of f at the point `expanded_`. Where there are fast vibrations: their lag (0 of others)
+    // and the motion without vibration at that point.
     mutable bool transposed_ = false;
-    mutable std::vector<Lanes> lanes_q_, lanes_v_, lanes_f_, taylor_;
+    mutable std::vector<Lanes> lanes_q_, lanes_v_, lanes_f_, taylor_, lag_, steady_, steady_rate_;
 };
 
 }  // namespace beamcam::sim

@@ -33,6 +33,14 @@ struct ModalForm {
     void to_coordinates(double* state) const { transform(natural, state); }
     void to_modes(double* state) const { transform(to_natural, state); }
 
+    // κ_ij of f_i = κ_ij q_j [1/s²], for Θ̇² and Y (numbers or lanes).
+    template <class T>
+    T coupling(std::size_t i, std::size_t j, const T& spin, const T& y) const {
+        const std::size_t at = i * static_cast<std::size_t>(n) + j;
+        const T kappa = spin * spinning[at];
+        return second.empty() ? kappa : kappa + y * second[at];
+    }
+
     bool prescribed = false, paper = false, shortening = false, damped = false;
     double J = 0, S = 0, mass = 1, gravity = 0, radius = 0, length = 1;
     std::vector<Oscillator> oscillators;

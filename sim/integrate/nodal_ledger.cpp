@@ -15,7 +15,8 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
     }
     for (Lanes& rate : s.rate) rate = Lanes{};
     if (form->damped)
-        for (std::size_t i = 0; i < n; ++i) s.rate[kLossStructural] += form->mass * s.f[i] * s.resolved_rate(i);
+        for (std::size_t i = 0; i < n; ++i)
+            if (form->oscillators[i].gamma > 0) s.rate[kLossStructural] += form->mass * s.f[i] * s.resolved_rate(i);
     s.boundary0 = s.drive_boundary(s.t0, start_.data());
     drive_power(load);
     if (load) {
@@ -41,17 +42,20 @@ void NodalStep::drive_power(const ContactLoad* load) {
         s.rate[kWorkDrive] = torque * hub_rate;
     }
     if (!form->prescribed) return;
-    Lanes quadratic{}, fall{}, weighted{}, follow{};
+    Lanes quadratic = form->mass * fast_inertia_, fall{}, weighted{}, follow{};
+    if (!form->paper) fall = fast_fall_;
+    const auto deflection = [&](std::size_t i) { return s.left_out.contains(i) ? fast_steady_[i] : s.q[i]; };
     for (std::size_t i = 0; i < n; ++i) {
         Lanes a{}, b{};
         for (std::size_t j = 0; j < n; ++j) {
-            a += form->inertia[i * n + j] * s.q[j];
-            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * s.q[j];
+            a += form->inertia[i * n + j] * deflection(j);
+            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * deflection(j);
         }
-        quadratic += a * s.q[i];
-        fall += b * s.q[i];
-        weighted += form->weight[i] * s.q[i];
-        follow += form->U[i] * s.q[i];
+        const Lanes q = deflection(i);
+        quadratic += a * q;
+        fall += b * q;
+        weighted += form->weight[i] * q;
+        follow += form->U[i] * q;
     }
     const Lanes gravity = form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall));
     Lanes jerk{};  // of the hub

@@ -31,6 +31,8 @@ NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, do
       evaluations(count),
       rtol_(relative),
       atol_(absolute),
+      fast_amplitude_(n),
+      fast_steady_(n),
       base_q_(n),
       base_v_(n),
       bq_(n),
@@ -70,6 +72,7 @@ void NodalStep::propagate_unforced(const StepTable& table) {
         base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
         smooth_force(i, s.f[i]);
     }
+    weigh_fast(table);
 }
 
 void NodalStep::arrive(const StepTable& table) {
@@ -81,6 +84,7 @@ void NodalStep::arrive(const StepTable& table) {
         next[1 + i] = row.end_qq * s.q0[i] + row.end_qv * s.v0[i] + sum(row.end_q * s.f[i]);
         next[2 + n + i] = row.end_vq * s.q0[i] + row.end_vv * s.v0[i] + sum(row.end_v * s.f[i]);
     }
+    turn_fast_back(table);
     if (form->prescribed) {
         const HubMotion hub = system.drive().motion(s.t0 + h);
         next[0] = hub.angle;
@@ -156,14 +160,10 @@ double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* lo
     ExponentialSegment& s = segment;
     const double h = table.h;
     evaluations += kNodes;
-    Lanes x = s.theta_dot * s.theta_dot, second = form->gravity * sin;
-    if (form->paper) {
-        const Lanes l = form->length * cos;
-        second = -x * (form->radius * l + 0.5 * l * l);
-    }
+    const Lanes x = s.theta_dot * s.theta_dot, second = second_factor();
     kernels_.multiply(n, n, form->spinning.data(), s.q.data(), bq_.data());
     if (!form->second.empty()) kernels_.multiply(n, n, form->second.data(), s.q.data(), gq_.data());
-    Lanes quadratic{}, fall{}, weighted{};
+    Lanes quadratic = fast_inertia_, fall = fast_fall_, weighted{};
     double change2 = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Lanes &a = bq_[i], &b = gq_[i];
@@ -193,76 +193,6 @@ double NodalStep::turn_hub(double h, const Lanes& inertia) {
     const double rate_change = largest(theta_dot - s.theta_dot) / scale_theta_dot;
     s.theta_dot = theta_dot;
     return std::max(rate_change, set_angle(h) / scale_theta);
-}
-
-void NodalStep::place_coordinates(bool in_contact) {
-    if (!inertia_) return;
-    const ExponentialSegment& s = segment;
-    const std::size_t rows = in_contact || !inertia_->in_modes() ? n + 1 : 1;
-    kernels_.multiply(rows, n, form->mode_columns.data(), s.q.data(), position_.data());
-    kernels_.multiply(rows, n, form->mode_columns.data(), s.v.data(), rate_.data());
-    position_[0] += theta;
-    rate_[0] += s.theta_dot;
-    advance_angle(position_[0]);
-}
-
-// The residual of the equations of motion at the nodal accelerations, added to these, is the forcing.
-double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* load) {
-    ExponentialSegment& s = segment;
-    const double h = table.h, per_mass = 1 / form->mass;
-    evaluations += kNodes;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Oscillator& o = form->oscillators[i];
-        mode_acceleration_[i] = s.f[i] - 2 * o.gamma * s.v[i] - o.omega * o.omega * s.q[i];
-    }
-    const Lanes turn_acceleration = (1 / form->J) * s.p_dot;
-    const Lanes* resistance = forces_.data() + 1;  // of the modes
-    if (inertia_->in_modes()) {
-        inertia_->evaluate(
-            {s.theta_dot, turn_acceleration, s.q.data(), s.v.data(), mode_acceleration_.data(), sin, cos},
-            forces_.data());
-    } else {
-        Lanes* acceleration = coordinate_acceleration_.data();
-        kernels_.multiply(n + 1, n, form->mode_columns.data(), mode_acceleration_.data(), acceleration);
-        acceleration[0] += turn_acceleration;
-        inertia_->evaluate(
-            {rate_[0], acceleration[0], position_.data() + 1, rate_.data() + 1, acceleration + 1, sin, cos},
-            forces_.data());
-        kernels_.multiply(n, n + 1, form->mode_rows.data(), forces_.data(), bq_.data());
-        resistance = bq_.data();
-    }
-    // The moment on the rigid turn that is out of balance, and the forcing that would balance the modes; the change of
-    // the frame's acceleration by both.
-    Lanes hub = torque - forces_[0];
-    if (load) hub += load->torque();
-    const double* row = form->mode_columns.data();
-    Lanes turn = hub * (1 / form->J);
-    for (std::size_t i = 0; i < n; ++i) {
-        Lanes force = form->h[i] * torque - resistance[i];
-        if (load) force += load->modal(i);
-        bq_[i] = mode_acceleration_[i] + per_mass * force;
-        turn += row[i] * (bq_[i] - s.f[i]);
-    }
-    const Lanes moment = moment_of_bent_inertia(turn);
-    s.p_dot += hub - moment;
-    double change2 = 0;
-    for (std::size_t i = 0; i < n; ++i) {
-        const Lanes f = bq_[i] - (per_mass * row[i]) * moment;
-        const double d = largest(f - s.f[i]) * std::min(h, 1 / form->oscillators[i].omega);
-        change2 += d * d;
-        s.f[i] = f;
-    }
-    return std::max(std::sqrt(change2) / scale_modes, turn_hub(h, Lanes{} + form->J));
-}
-
-// The moment that the inertia g by which bending adds to that of the straight beam, D, takes from a change of the
-// frame's acceleration: the inverse of D + g rrᵀ, r the hub's row, is D⁻¹ − D⁻¹r g/(1 + g rᵀD⁻¹r) rᵀD⁻¹.
-Lanes NodalStep::moment_of_bent_inertia(const Lanes& turn) const {
-    const double* row = form->mode_columns.data();
-    double mobility = 1 / form->J;
-    for (std::size_t i = 0; i < n; ++i) mobility += (1 / form->mass) * row[i] * row[i];
-    const Lanes gain = inertia_->hub_inertia_gain();
-    return turn * gain / (1 + mobility * gain);
 }
 
 void NodalStep::hub_from_load(double h) {
@@ -297,7 +227,8 @@ double NodalStep::forcing_error(double h, const ContactLoad* load) {
     double errors = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Lanes f = load ? s.f[i] - load->modal(i) * (1 / form->mass) : s.f[i];
-        const double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
+        double e = interpolation_error(f) * std::min(h, 1 / form->oscillators[i].omega);
+        if (s.left_out.contains(i)) e += fast_error(i, h);
         errors += e * e;
     }
     const double modal = std::sqrt(errors) / scale_modes;

@@ -38,6 +38,8 @@ struct NodalStep {
     // The free motion of q and q̇, and the part of the forcing that does not depend on them.
     void propagate_unforced(const StepTable& table);
     void propagate(const StepTable& table);
+    // The same with the quasi-static deflection of the fast modes.                                            (S52b)
+    void propagate_without_fast(const StepTable& table);
     void propagate_rates(const StepTable& table);
     // Forcing and hub from the nodal q, and q̇ where the modes are not the coordinates. Returns the largest change in
     // units of the tolerance. `load`: null in flight.
@@ -71,6 +73,14 @@ struct NodalStep {
     Lanes sin{}, cos{};               // of the frame
 
   private:
+    struct Vibration {
+        double w, dw;
+    };
+    Vibration vibration_at_start(std::size_t i, const StepTable::Row& row) const;
+    void weigh_fast(const StepTable& table);
+    void turn_fast_back(const StepTable& table);
+    double fast_error(std::size_t i, double h) const;
+    Lanes second_factor() const;
     void evaluate_angle();
     void advance_angle(const Lanes& to);
     double set_angle(double h);
@@ -84,6 +94,11 @@ struct NodalStep {
 
     double rtol_, atol_;
     Lanes acceleration_{};
+    // Of the fast modes: amplitudes of vibration at the start of the step [m], the deflection without it at the nodes,
+    // and what vibration adds there on average to qᵀBq/m and qᵀGq/m.
+    std::vector<double> fast_amplitude_;
+    std::vector<Lanes> fast_steady_;
+    Lanes fast_inertia_{}, fast_fall_{};
     const LaneKernels& kernels_ = lane_kernels();
     std::vector<Lanes> base_q_, base_v_, bq_, gq_;
     std::vector<double> start_;  // of the step, in modes

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
@@ -160,6 +161,15 @@ void StepTable::build_row(std::size_t i, const Oscillator& o, const double* inve
     const Collocation& gauss = Collocation::get();
     Row& row = rows[i];
     const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
+    if (o.omega * h > kFastRadians) {
+        row.steady = row.steady_rate = Lanes{};
+        double c = 1 / w2, before = 0;  // q = Σ c_j f⁽ʲ⁾
+        for (std::size_t j = 0; j < kNodes; ++j) {
+            row.steady += (c * inverse[j]) * gauss.derive[0][j];
+            if (j + 1 < kNodes) row.steady_rate += (c * inverse[j + 1]) * gauss.derive[0][j + 1];
+            before = std::exchange(c, -(damping * c + before) / w2);
+        }
+    }
     // From point to point, each by the expansion at its start.
     double qq = 1, qv = 0, vq = 0, vv = 1;
     Lanes q{}, v{};

@@ -46,6 +46,9 @@ struct StepTable {
         std::array<Lanes, kNodes> q, v;
         Lanes end_q, end_v;  // over l
         double end_qq, end_qv, end_vq, end_vv;
+        // Of oscillators that turn by more than kFastRadians: q and v at the start, over l, of the polynomial motion
+        // that follows the forcing without vibration.                                                        (S52b)
+        Lanes steady, steady_rate;
     };
     double h = 0;
     std::vector<Row> rows;

@@ -105,6 +105,25 @@ TEST(Oscillators, StepsAreExactForAPolynomialForcing) {
     }
 }
 
+// f = 1 − 2u, u from 0 to 1 in the step: without vibration q = (f − 2γḟ/ω²)/ω², and it stays so.
+TEST(Oscillators, WithoutVibrationFollowAPolynomialForcing) {
+    const double h = 0.02;
+    const Collocation& gauss = Collocation::get();
+    const Lanes f = 1 - 2 * gauss.c;
+    for (const double ratio : {0.0, 0.05, 0.1}) {
+        const Oscillator o{1000, 1000 * ratio};
+        StepTable table;
+        table.build({o}, pack_oscillators({o}), h);
+        const StepTable::Row& row = table.rows[0];
+        const double w2 = o.omega * o.omega, slope = -2 / h;
+        const auto steady = [&](double force) { return (force - 2 * o.gamma * slope / w2) / w2; };
+        const double q = sum(row.steady * f), v = sum(row.steady_rate * f);
+        EXPECT_NEAR(q, steady(1), 1e-12 / w2);
+        EXPECT_NEAR(v, slope / w2, 1e-12 * o.omega / w2);
+        EXPECT_NEAR(row.end_qq * q + row.end_qv * v + sum(row.end_q * f), steady(-1), 1e-12 / w2);
+    }
+}
+
 TEST(Oscillators, SideBySideTheyAnswerAsAlone) {
     Dice dice(11);
     for (int round = 0; round < 200; ++round) {
@@ -410,6 +429,41 @@ TEST(ExponentialFlight, SpansManyPeriodsOfVibration) {
     EXPECT_LT(static_cast<double>(r.counters.steps), 1e-2 * 0.36 * system.highest_frequency());
 }
 
+// Rotation and weight change the frequency of vibration by κ/(2ω), 0.05 rad in half a second: steps that span many
+// periods keep its phase, however much it is damped, whatever drives the hub.
+TEST(ExponentialFlight, KeepsThePhaseOfFastVibration) {
+    for (const double ratio : {0.0, 0.002})
+        for (const int drive : {0, 1, 2}) {
+            Problem p = falling_beam(ModelKind::first_order, Basis::automatic, 3);
+            p.initial.angular_velocity = 8;
+            p.initial.q_dot = {0.1, 0.1, 0.1};
+            p.beam.damping_ratio = {ratio};
+            if (drive == 1) p.hub.drive = HarmonicTorque{1, 4, 0.3};
+            if (drive == 2) p.hub.drive = ConstantSpeed{8};
+            std::vector<double> times;
+            for (int k = 0; k <= 200; ++k) times.push_back(0.5 + 1e-4 * k);
+            Request request;
+            request.tables.push_back({times, {channel("q1"), channel("q2"), channel("q3"), channel("theta")}});
+            const auto solve = [&](Method method, double rtol) {
+                p.solver.method = method;
+                set_tolerance(p, rtol);
+                return simulate(p, request);
+            };
+            const Result fast = solve(Method::exponential, 1e-3), slow = solve(Method::rk8, 1e-11);
+            System system(p);
+            EXPECT_LT(static_cast<double>(fast.counters.steps), 0.52 * system.highest_frequency() / 14);
+            for (std::size_t c = 0; c < 4; ++c) {
+                const std::vector<double>&a = fast.tables[0].values[c], &b = slow.tables[0].values[c];
+                double error = 0, size = 0;
+                for (std::size_t k = 0; k < times.size(); ++k) {
+                    error = std::max(error, std::fabs(a[k] - b[k]));
+                    size = std::max(size, std::fabs(b[k]));
+                }
+                EXPECT_LT(error, 2e-3 * size) << "ζ = " << ratio << ", drive " << drive << ", column " << c;
+            }
+        }
+}
+
 TEST(ExponentialFlight, LeavesPrescribedHubsOfOtherModelsToRungeKutta) {
     Problem p = falling_beam(ModelKind::second_order);
     System second(p);
@@ -477,6 +531,10 @@ FlightSample flight_sample(System& system, const Segment& segment, double t) {
     return s;
 }
 
+bool leaves_vibration_out(const Segment& segment) {
+    return dynamic_cast<const ExponentialSegment&>(segment).left_out.any();
+}
+
 // Turning and vibrating; faster vibration is smaller.
 std::vector<double> vibrating_state(const System& system, Dice& dice) {
     std::vector<double> y(static_cast<std::size_t>(system.size));
@@ -494,7 +552,7 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
     constexpr int kSamples = 60;
     constexpr double kSlack = 1 + 1e-9;
     Dice dice(5);
-    int steps = 0, finite = 0;
+    int steps = 0, finite = 0, fast = 0;
     for (int repeat = 0; repeat < 24; ++repeat) {
         Problem p = falling_beam(repeat % 4 ? ModelKind::first_order : ModelKind::zeroth_order, Basis::hub_beam,
                                  1 + dice.one_of(4));
@@ -515,6 +573,7 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
             ASSERT_NE(b, nullptr);
             ++steps;
             if (std::isfinite(b->theta_ddot)) ++finite;
+            if (leaves_vibration_out(segment)) ++fast;
             FlightSample before = flight_sample(system, segment, segment.t0);
             for (int k = 1; k <= kSamples; ++k) {
                 const double h = segment.t1 - segment.t0;
@@ -539,6 +598,7 @@ TEST(ExponentialFlight, KeepsTheBoundsThatItPromises) {
         }
     }
     EXPECT_GT(finite, steps / 2);
+    EXPECT_GT(fast, 50);
 }
 
 // A soft beam that turns, vibrates and may be damped beyond the critical ratio.
@@ -567,6 +627,7 @@ TEST(ExponentialFlight, KeepsTheBoundsOfEveryMode) {
     constexpr int kSamples = 100;
     constexpr double kSlack = 1 + 1e-9, kRounding = 1e-13;
     Dice dice(11);
+    int fast = 0;
     for (int repeat = 0; repeat < 30; ++repeat) {
         VibratingFlight flight(dice);
         std::vector<double>& y = flight.y;
@@ -574,6 +635,7 @@ TEST(ExponentialFlight, KeepsTheBoundsOfEveryMode) {
         for (int step = 0; step < 15; ++step) {
             const Segment& segment = flight.integrator->step();
             const std::vector<ModalBounds::Mode>& modes = segment.modal_bounds()->modes;
+            if (leaves_vibration_out(segment)) ++fast;
             const double dt = (segment.t1 - segment.t0) / kSamples;
             std::vector<double> rates;
             for (int k = 0; k <= kSamples; ++k) {
@@ -595,6 +657,39 @@ TEST(ExponentialFlight, KeepsTheBoundsOfEveryMode) {
             }
         }
     }
+    EXPECT_GT(fast, 50);
+}
+
+// Without weight a turning beam vibrates about the straight line, faster than at rest: no slack hides the lag.
+TEST(ExponentialFlight, BoundsOfFastVibrationIncludeItsLag) {
+    constexpr int kSamples = 4000;
+    Problem p = falling_beam(ModelKind::first_order, Basis::hub_beam, 1);
+    p.gravity = 0;
+    System system(p);
+    const auto integrator = make_exponential(system, 1e-2, 1e-5);
+    std::vector<double> y(static_cast<std::size_t>(system.size));
+    y[2] = 4;
+    y[3] = 0.5;
+    integrator->start(0, y.data());
+    int fast = 0;
+    for (int step = 0; step < 12; ++step) {
+        const Segment& segment = integrator->step();
+        if (!leaves_vibration_out(segment)) continue;
+        ++fast;
+        const ModalBounds::Mode& mode = segment.modal_bounds()->modes[0];
+        const double dt = (segment.t1 - segment.t0) / kSamples;
+        double q = y[1], rate = y[3], fastest = 0, strongest = 0;
+        for (int k = 0; k <= kSamples; ++k) {
+            segment.value(segment.t0 + k * dt, y.data());
+            if (k > 0) fastest = std::max(fastest, std::fabs(y[1] - q) / dt);
+            if (k > 0) strongest = std::max(strongest, std::fabs(y[3] - rate) / dt);
+            q = y[1];
+            rate = y[3];
+        }
+        EXPECT_LE(fastest, mode.rate);
+        EXPECT_LE(strongest, mode.acceleration);
+    }
+    EXPECT_GT(fast, 3);
 }
 
 TEST(ExponentialFlight, HasTheSameStateWithoutTheLedger) {
