@@ -108,21 +108,8 @@ std::string one_line(const Node& root) { return json_text(root, 0, kOneLine); }
 std::string folded_text(const Node& root, std::size_t width) { return json_text(root, 0, width) + "\n"; }
 
 const char* name(Node::Kind kind) {
-    switch (kind) {
-        case Node::Kind::null:
-            return "null";
-        case Node::Kind::boolean:
-            return "true or false";
-        case Node::Kind::number:
-            return "a number";
-        case Node::Kind::string:
-            return "a text";
-        case Node::Kind::array:
-            return "an array";
-        case Node::Kind::object:
-            return "an object";
-    }
-    return "?";
+    static constexpr const char* kNames[] = {"null", "true or false", "a number", "a text", "an array", "an object"};
+    return kNames[static_cast<std::size_t>(kind)];
 }
 
 std::vector<std::string> split(std::string_view text, char separator) {

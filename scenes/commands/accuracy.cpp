@@ -6,7 +6,6 @@
 #include <optional>
 
 #include "output/data/records.hpp"
-#include "output/files/interrupt.hpp"
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/progress.hpp"
@@ -94,10 +93,8 @@ void act(const AccuracyArguments& args) {
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
     progress.begin("accuracy", 100, "%");
-    const sim::Accuracy found = sim::assess(scene.problem, request, [&](double share) {
-        progress.reach(100 * share);
-        return !output::interrupted();
-    });
+    const sim::Accuracy found =
+        sim::assess(scene.problem, request, [&](double share) { return progress.reach(100 * share); });
     progress.end();
     write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
                   [&] { return accuracy_figure(found, scene.problem, args.files.lang); }},

@@ -9,7 +9,7 @@
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/outputs/run_context.hpp"
+#include "scenes/motions/progress.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "scenes/scene/files.hpp"
 

@@ -5,7 +5,7 @@
 #include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/motions/fan_out.hpp"
-#include "scenes/outputs/run_context.hpp"
+#include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -23,13 +23,12 @@ void hash_files(const std::vector<std::filesystem::path>& files, int threads) {
     Gate gate;
     auto make_worker = [&]() -> Worker {
         return [&](long k) {
-            stop_if_interrupted();
             const std::filesystem::path& file = files[static_cast<std::size_t>(k)];
             const std::string digest = output::digest(output::read_png(file));
             gate.pass(k, [&] { print_line(digest, file.string()); });
         };
     };
-    fan_out(static_cast<long>(files.size()), threads, make_worker, gate);
+    fan_out(static_cast<long>(files.size()), {threads, threads}, make_worker, gate);
 }
 
 void hash_in_order(output::PictureSource& source, const std::string& file, bool whole) {

@@ -5,7 +5,6 @@
 #include <optional>
 
 #include "output/data/orbit_records.hpp"
-#include "output/files/interrupt.hpp"
 #include "scenes/commands/result_files.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/progress.hpp"
@@ -62,10 +61,7 @@ void act(const LyapunovArguments& args) {
     output::Manifest manifest(args.common.force);
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);
-    const auto reached = [&](double t) {
-        progress.reach(t);
-        return !output::interrupted();
-    };
+    const auto reached = [&](double t) { return progress.reach(t); };
     progress.begin("exponents", request.transient + request.duration, "s");
     sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, reached);
     progress.end();

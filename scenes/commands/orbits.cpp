@@ -8,7 +8,6 @@
 
 #include "output/data/orbit_records.hpp"
 #include "output/files/atomic_file.hpp"
-#include "output/files/interrupt.hpp"
 #include "scenes/commands/key_range.hpp"
 #include "scenes/commands/orbit_text.hpp"
 #include "scenes/commands/result_files.hpp"
@@ -192,18 +191,16 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
     const sim::OrbitRequest request = request_of(args, problem);
     Progress progress(run_options(args.common, "").progress);
     progress.begin("transient", request.transient, "s");
-    table.orbits = sim::find_orbits(problem, request, [&](double t) {
-        progress.reach(std::min(t, request.transient));
-        return !output::interrupted();
-    });
+    table.orbits =
+        sim::find_orbits(problem, request, [&](double t) { return progress.reach(std::min(t, request.transient)); });
     if (range) {
         progress.begin("branches", std::nullopt, "points");
         double last = table.start;
         long points = 0;
         follow_branches(table, family, *range, request, args, [&](double value) {
-            if (value != last) progress.reach(static_cast<double>(++points));
+            if (value != last) ++points;
             last = value;
-            return !output::interrupted();
+            return progress.reach(static_cast<double>(points));
         });
     }
     progress.end();

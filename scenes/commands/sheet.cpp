@@ -10,7 +10,7 @@
 #include "output/image/png.hpp"
 #include "render/draw/canvas.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/outputs/run_context.hpp"
+#include "scenes/motions/progress.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -95,10 +95,7 @@ void act(const SheetArguments& args) {
     output::Manifest manifest(args.common.force);
     if (args.file != "-") manifest.require_replaceable(args.file);
     const std::string bytes = output::encode_png(sheet_of(args));
-    if (args.file == "-") {
-        print_data(bytes);
-        return;
-    }
+    if (args.file == "-") return print_data(bytes);
     output::write_file(manifest.target(args.file), bytes);
     manifest.save();
     inform(args.common, fmt::format("wrote {}", args.file));

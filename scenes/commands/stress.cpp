@@ -12,7 +12,6 @@
 
 #include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
-#include "output/files/interrupt.hpp"
 #include "output/image/png.hpp"
 #include "output/json/tree.hpp"
 #include "scenes/commands/commands.hpp"
@@ -31,23 +30,15 @@ struct StressArguments {
 };
 
 std::vector<sim::StressResult> run_cases(const sim::Campaign& campaign, const Common& common) {
-    const auto count = static_cast<long>(campaign.cases.size());
-    std::vector<sim::StressResult> results(campaign.cases.size());
+    const std::size_t count = campaign.cases.size();
+    std::vector<sim::StressResult> results(count);
     std::atomic<long> done = 0;
     Progress progress(run_options(common, "").progress);
     progress.begin("stress", static_cast<double>(count), "cases");
-    Gate gate;
-    fan_out(
-        count, thread_count(common.threads),
-        [&]() -> Worker {
-            return [&](long i) {
-                if (output::interrupted()) throw sim::Interrupted();
-                const auto k = static_cast<std::size_t>(i);
-                results[k] = sim::run_case(campaign.cases[k]);
-                progress.reach(static_cast<double>(++done));
-            };
-        },
-        gate);
+    fan_out(count, common.threads, [&](std::size_t k) {
+        results[k] = sim::run_case(campaign.cases[k]);
+        progress.reach(static_cast<double>(++done));
+    });
     return results;
 }
 

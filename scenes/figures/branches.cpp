@@ -31,23 +31,8 @@ void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
 }
 
 const char* letters(sim::OrbitChange change) {
-    switch (change) {
-        case sim::OrbitChange::fold:
-            return "SN";
-        case sim::OrbitChange::period_doubling:
-            return "PD";
-        case sim::OrbitChange::neimark_sacker:
-            return "NS";
-        case sim::OrbitChange::branching:
-            return "BP";
-        case sim::OrbitChange::grazing:
-            return "G";
-        case sim::OrbitChange::corner:
-            return "C";
-        case sim::OrbitChange::release:
-            return "R";
-    }
-    return "";
+    static constexpr const char* kLetters[] = {"SN", "PD", "NS", "BP", "G", "C", "R"};
+    return kLetters[static_cast<std::size_t>(change)];
 }
 
 // Labels nearer to the last one than this share of the range are omitted.

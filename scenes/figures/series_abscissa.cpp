@@ -18,26 +18,6 @@ namespace {
 constexpr double kShort = 0.05;  // an interval whose axis is in milliseconds [s]
 constexpr double kAir = 0.03;    // beside the curves, of their extent
 
-// Angles along x become phases, 0…1.
-void fold_turns(Series& curve) {
-    const Series whole = std::exchange(curve, {});
-    curve = whole;
-    curve.x.clear(), curve.y.clear();
-    const auto add = [&](double x, double y) { curve.x.push_back(x), curve.y.push_back(y); };
-    const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
-    for (std::size_t i = 0; i < whole.x.size(); ++i) {
-        const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
-        if (whole.line && std::floor(now) != std::floor(before)) {
-            const double edge =
-                std::max(std::floor(now), std::floor(before));  // between them: rows are closer than turns
-            const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
-            const bool forward = now > before;
-            add(forward, y), add(std::nan(""), std::nan("")), add(!forward, y);
-        }
-        add(now - std::floor(now), whole.y[i]);
-    }
-}
-
 }  // namespace
 
 SeriesAbscissa::SeriesAbscissa(const SeriesKeys& keys, Lang lang)
@@ -66,7 +46,21 @@ double SeriesAbscissa::per_second(const sim::Problem& problem) const {
 }
 
 void SeriesAbscissa::fold(Series& curve) const {
-    if (is_phase()) fold_turns(curve);
+    if (!is_phase()) return;
+    const Series whole = curve;
+    curve.x.clear(), curve.y.clear();
+    const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
+    for (std::size_t i = 0; i < whole.x.size(); ++i) {
+        const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
+        if (whole.line && std::floor(now) != std::floor(before)) {
+            const double edge =
+                std::max(std::floor(now), std::floor(before));  // between them: rows are closer than turns
+            const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
+            const bool forward = now > before;
+            curve.add(forward, y), curve.add(std::nan(""), std::nan("")), curve.add(!forward, y);
+        }
+        curve.add(now - std::floor(now), whole.y[i]);
+    }
 }
 
 void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {

@@ -5,6 +5,8 @@
 #include <thread>
 #include <vector>
 
+#include "scenes/motions/progress.hpp"
+
 namespace beamcam::scenes {
 
 void Gate::pass(long number, const std::function<void()>& action) {
@@ -50,6 +52,7 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
         try {
             const Worker worker = make_worker();
             for (long k = next++; k < count; k = next++) {
+                stop_if_interrupted();
                 worker(k);
                 if (crew.more && working < most && next < count && crew.more()) start_another();
             }
@@ -77,6 +80,14 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
     }
     if (failure) std::rethrow_exception(failure);
     return working;
+}
+
+void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
+    Gate unused;
+    const int all = thread_count(threads);
+    const Worker worker = [&](long k) { work(static_cast<std::size_t>(k)); };
+    fan_out(
+        static_cast<long>(count), {all, all}, [&] { return worker; }, unused);
 }
 
 }  // namespace beamcam::scenes

@@ -40,11 +40,10 @@ struct Crew {
     std::function<bool()> more = {};
 };
 
-// Executes the tasks 0 … count−1; the calling thread is the first of the crew. The first exception closes the gate,
-// ends the work and is rethrown here. Returns the number of threads.
+// Executes the tasks 0 … count−1; the calling thread is the first of the crew. The first exception, also that of an
+// interruption, closes the gate, ends the work and is rethrown here. Returns the number of threads.
 int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate);
-inline void fan_out(long count, int threads, const std::function<Worker()>& make_worker, Gate& gate) {
-    fan_out(count, Crew{threads, threads}, make_worker, gate);
-}
+// With one worker for all threads; 0 means one thread for each core.
+void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work);
 
 }  // namespace beamcam::scenes

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
@@ -47,8 +46,7 @@ class ProgressSum {
             const std::lock_guard lock(mutex_);
             sum_ += t - reached_[run];
             reached_[run] = t;
-            progress_.reach(sum_);
-            return !output::interrupted();
+            return progress_.reach(sum_);
         };
     }
 
@@ -96,12 +94,8 @@ void MotionStore::compute() {
     }
     ProgressSum sum(all.size(), progress_);
     progress_.begin("simulate", total, "s");
-    Gate gate;
-    const auto worker = [&]() -> Worker {
-        return [&](long k) { compute(all[static_cast<std::size_t>(k)], sum.of(static_cast<std::size_t>(k))); };
-    };
     try {
-        fan_out(static_cast<long>(all.size()), options_.threads, worker, gate);
+        fan_out(all.size(), options_.threads, [&](std::size_t k) { compute(all[k], sum.of(k)); });
     } catch (...) {
         progress_.end();
         throw;

@@ -49,15 +49,17 @@ void Progress::begin(std::string stage, std::optional<double> total, std::string
     started_ = shown_ = Clock::now();
 }
 
-void Progress::reach(double done) {
+bool Progress::reach(double done) {
     const std::lock_guard lock(mutex_);
-    if (!open_ || style_ == ProgressStyle::none) return;
+    const bool goes_on = !output::interrupted();
+    if (!open_ || style_ == ProgressStyle::none) return goes_on;
     done_ = std::max(done_, done);
     const double since = std::chrono::duration<double>(Clock::now() - shown_).count();
     const double interval = style_ == ProgressStyle::bar    ? kBarInterval
                             : style_ == ProgressStyle::json ? kJsonInterval
                                                             : kPlainInterval;
     if (since >= interval) show(done_, false);
+    return goes_on;
 }
 
 void Progress::end() {

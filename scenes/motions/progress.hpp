@@ -1,5 +1,5 @@
-// The progress line on standard error: stage, rate and remaining time. One stage at a time; several threads may report
-// to it.
+// The progress line on standard error: stage, rate and remaining time; and whether the user lets the work go on. One
+// stage at a time; several threads may report to it.
 #pragma once
 
 #include <cstdio>
@@ -7,8 +7,10 @@
 #include <optional>
 #include <string>
 
+#include "output/files/interrupt.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/named.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
 
@@ -27,6 +29,12 @@ inline constexpr sim::Named<ProgressStyle> kProgressStyles[] = {{ProgressStyle::
 // Replaces `automatic`: a bar on a terminal that can rewrite lines, outside CI; else plain.
 ProgressStyle resolve(ProgressStyle style);
 
+inline void stop_if_interrupted() {
+    if (output::interrupted()) throw sim::Interrupted();
+}
+// Of a simulation that reports its progress nowhere.
+inline bool until_interrupted(double) { return !output::interrupted(); }
+
 class Progress {
   public:
     // `resolved` is never `automatic`.
@@ -38,7 +46,7 @@ class Progress {
     // Begins a stage of `total` units ("frames", "s"), or of a number that is not known before, and ends the previous
     // one.
     void begin(std::string stage, std::optional<double> total, std::string unit);
-    void reach(double done);  // sets the completed units
+    bool reach(double done);  // sets the completed units; false if the user has interrupted the work
     void end();               // ends the line on a terminal
 
   private:

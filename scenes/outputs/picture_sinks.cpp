@@ -91,7 +91,6 @@ void draw(const Pictures& p, const render::Film& film, PictureSink& sink, RunCon
     const auto make_worker = [&]() -> Worker {
         const auto own = std::make_shared<render::Film>(film.for_thread());
         return [&, own, input = sink.input(gate)](long k) {
-            stop_if_interrupted();
             double spent = 0;
             const bool repeated = sink.repeat(k, *own, gate);
             if (!repeated) {

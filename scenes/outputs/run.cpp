@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <memory>
 
-#include "output/files/interrupt.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
@@ -15,10 +14,6 @@
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
-
-void stop_if_interrupted() {
-    if (output::interrupted()) throw sim::Interrupted();
-}
 
 RunContext::RunContext(const RunOptions& run_options)
     : options(run_options),

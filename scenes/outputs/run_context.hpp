@@ -16,7 +16,6 @@
 
 namespace beamcam::scenes {
 
-void stop_if_interrupted();  // throws sim::Interrupted
 inline bool is_stdout(const std::string& file) { return file == "-"; }
 
 // Times of the stages [s], for -v; drawing is summed over threads.

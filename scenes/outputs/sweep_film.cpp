@@ -11,7 +11,6 @@
 #include <vector>
 
 #include "output/data/sweep_data.hpp"
-#include "output/files/interrupt.hpp"
 #include "output/film/video.hpp"
 #include "render/film/film.hpp"
 #include "render/plot/labels.hpp"
@@ -201,7 +200,7 @@ class SweepFilm {
         render::Film beam(setup_of(shot));
         const int hold = std::max(1, static_cast<int>(std::lround(how_.fps.value() / kGrowthRate)));
         for (int frame = shot.first; frame < shot.end; ++frame) {
-            if (output::interrupted()) throw sim::Interrupted();
+            stop_if_interrupted();
             if ((frame - shot.first) % hold == 0) {
                 render::figure::Figure grown = diagram_.until(shot.grown(frame, hold), data_.place(shot.point)[0]);
                 grown.height = halves_.diagram.h / *figure_.dpi * kMillimetresPerInch;

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "output/files/interrupt.hpp"
+#include "scenes/motions/progress.hpp"
 #include "sim/sweep/sweep_point.hpp"
 
 namespace beamcam::scenes {
@@ -75,11 +75,10 @@ void follow(const SweepFilmOutput& how, const output::StoredPoint& point, SweepS
     for (int frame = shot.first; frame < shot.end; ++frame)
         request.poses.back().times.push_back((frame * turns - before) * period);
     request.end_time = request.poses.back().times.back();
-    const auto goes_on = [](double) { return !output::interrupted(); };
     const std::optional<sim::InitialState> end = end_of(point);
     sim::Result result =
-        end ? sim::motion_from(shot.problem, *end, request, goes_on)
-            : sim::simulate(shot.problem, request, goes_on);  // without an end state: from its own start
+        end ? sim::motion_from(shot.problem, *end, request, until_interrupted)
+            : sim::simulate(shot.problem, request, until_interrupted);  // without an end state: from its own start
     shot.poses = std::move(result.poses.front());
     shot.impacts = std::move(result.impacts);
 }

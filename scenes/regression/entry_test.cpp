@@ -5,7 +5,6 @@
 
 #include <algorithm>
 
-#include "output/files/interrupt.hpp"
 #include "output/film/picture_source.hpp"
 #include "render/base/error.hpp"
 #include "scenes/outputs/run_context.hpp"
@@ -70,7 +69,7 @@ void EntryTest::prepare() {
     const Scene& scene = test_.entry.scene;
     plan_ = plan(scene);
     resolve_event_times(plan_, scene, [](const sim::Problem& problem, const sim::Request& events) {
-        return sim::simulate(problem, events, [](double) { return !output::interrupted(); });
+        return sim::simulate(problem, events, until_interrupted);
     });
     // A picture that compares other motions than the scene's own needs no simulation of the scene. A figure of statics
     // needs no motion at all.

@@ -7,7 +7,6 @@
 #include <memory>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
@@ -93,13 +92,10 @@ class Regression {
     // Groups run in parallel; each draws with an equal share of the threads.
     void run_groups() {
         const std::vector<Group> all = groups();
-        const auto count = static_cast<long>(all.size());
         const int threads = thread_count(options_.run.threads);
         RunOptions each = options_.run;
-        each.threads = std::max(1, threads / static_cast<int>(std::max(1L, count)));
-        Gate gate;
-        fan_out(
-            count, threads, [&] { return [&](long k) { run_group(all[static_cast<std::size_t>(k)], each); }; }, gate);
+        each.threads = std::max(1, threads / std::max(1, static_cast<int>(all.size())));
+        fan_out(all.size(), threads, [&](std::size_t k) { run_group(all[k], each); });
     }
 
     void run_group(Group group, const RunOptions& options) {
@@ -110,8 +106,7 @@ class Regression {
             requests.insert(requests.end(), test->requests().begin(), test->requests().end());
         std::vector<sim::Result> results;
         try {
-            results = sim::simulate(group.front()->entry().scene.problem, requests,
-                                    [](double) { return !output::interrupted(); });
+            results = sim::simulate(group.front()->entry().scene.problem, requests, until_interrupted);
         } catch (const sim::SolverError& error) {
             if (group.size() == 1) group.front()->attempt([&] { throw error; });
             for (EntryTest* test : group)  // the integration may succeed for an entry that ends earlier

@@ -6,7 +6,6 @@
 #include <mutex>
 #include <optional>
 
-#include "output/files/interrupt.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
@@ -58,7 +57,7 @@ class PointMaker {
     void make(const SweepGrid::Task& task) {
         std::optional<sim::InitialState> end;
         for (const std::uint64_t index : task.points) {
-            if (output::interrupted()) throw sim::Interrupted();
+            stop_if_interrupted();
             if (store_.has(index)) {
                 if (task.carries) end = end_of(store_.read(index));
                 continue;
@@ -74,10 +73,10 @@ class PointMaker {
   private:
     output::StoredPoint made(std::uint64_t index, const std::optional<sim::InitialState>& start) {
         try {
-            return stored(index,
-                          sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr,
-                                           [](double) { return !output::interrupted(); }),
-                          grid_.sampling());
+            return stored(
+                index,
+                sim::sweep_point(grid_.problem(index), grid_.sampling(), start ? &*start : nullptr, until_interrupted),
+                grid_.sampling());
         } catch (const std::invalid_argument& impossible) {  // a start inside the cam
             sim::SweepPoint none;
             none.motion.failure = impossible.what();
@@ -127,10 +126,7 @@ void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progres
     if (missing == 0) return;
     progress.begin("sweep", static_cast<double>(missing), "points");
     PointMaker maker(grid, store, progress);
-    Gate gate;
-    const auto work = [&](long k) { maker.make(grid.task(tasks[static_cast<std::size_t>(k)])); };
-    fan_out(
-        static_cast<long>(tasks.size()), thread_count(threads), [&] { return Worker(work); }, gate);
+    fan_out(tasks.size(), threads, [&](std::size_t k) { maker.make(grid.task(tasks[k])); });
     progress.end();
 }
 

@@ -2,6 +2,8 @@
 // into grids.
 #pragma once
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -35,26 +37,24 @@ class CampaignBuilder {
     void grid(std::string title, std::string rows, std::string columns) {
         campaign_.grids.push_back({std::move(title), std::move(rows), std::move(columns), {}, {}});
     }
-    // Adds a case to the last grid. Rows and columns are in the order of their first use.
-    void add(const std::string& row, const std::string& column, const std::string& variant, const Problem& problem,
-             double end = kUsualEnd) {
+    // Names the row and the column of the following cases, texts or numbers. They are in the order of their first use.
+    template <class Row, class Column>
+    void at(const Row& row, const Column& column) {
         CaseGrid& grid = campaign_.grids.back();
-        StressCase one;
-        one.grid = campaign_.grids.size() - 1;
-        one.row = index(grid.rows, row);
-        one.column = index(grid.columns, column);
-        one.variant = variant;
-        one.problem = problem;
-        one.end = end;
-        campaign_.cases.push_back(std::move(one));
+        row_ = index(grid.rows, text(row)), column_ = index(grid.columns, text(column));
     }
-    // A single hard case.
-    void add(const char* row, const Problem& problem, double end) {
-        add(row, name(problem.beam.model), "", problem, end);
+    void add(std::string variant, const Problem& problem, double end = kUsualEnd) {
+        campaign_.cases.push_back({campaign_.grids.size() - 1, row_, column_, std::move(variant), problem, end});
+    }
+    void add_single(const char* row, const Problem& problem, double end = kUsualEnd) {
+        at(row, name(problem.beam.model));
+        add("", problem, end);
     }
     Campaign take() { return std::move(campaign_); }
 
   private:
+    static std::string text(double number) { return fmt::format("{:g}", number); }
+    static std::string text(std::string words) { return words; }
     static std::size_t index(std::vector<std::string>& names, const std::string& name) {
         const auto at = std::ranges::find(names, name);
         if (at != names.end()) return static_cast<std::size_t>(at - names.begin());
@@ -62,6 +62,7 @@ class CampaignBuilder {
         return names.size() - 1;
     }
     Campaign campaign_;
+    std::size_t row_ = 0, column_ = 0;
 };
 
 void add_grids(CampaignBuilder& out);

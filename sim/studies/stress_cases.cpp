@@ -38,10 +38,10 @@ void long_runs(CampaignBuilder& out, bool full) {
         Problem p;  // the default scene for ten minutes
         p.beam.model = ModelKind::rigid;
         p.contact.restitution = 1;
-        out.add("ten minutes, elastic", p, full ? 600 : 60);
+        out.add_single("ten minutes, elastic", p, full ? 600 : 60);
         p.beam.model = ModelKind::first_order;
         p.contact.restitution = 0.7;
-        out.add("ten minutes", p, full ? 600 : 10);
+        out.add_single("ten minutes", p, full ? 600 : 10);
     }
     {
         Problem p;  // ten thousand impacts and more
@@ -50,11 +50,11 @@ void long_runs(CampaignBuilder& out, bool full) {
         p.contact.damping = DampingLaw::none;
         p.cam->speed = 0;
         p.initial.angle = touching_angle(p) + 0.005;
-        out.add("10⁴ elastic impacts", p, full ? 1000 : 20);
+        out.add_single("10⁴ elastic impacts", p, full ? 1000 : 20);
         p.contact.model = ContactModel::restitution;
-        out.add("10⁴ impulses", p, full ? 1000 : 20);
+        out.add_single("10⁴ impulses", p, full ? 1000 : 20);
         p.contact.restitution = 0.999;
-        out.add("chatter of many impulses", p, full ? 300 : 20);
+        out.add_single("chatter of many impulses", p, full ? 300 : 20);
     }
     {
         Problem p;  // 10⁵ periods of the first bending mode, undamped, in free flight
@@ -62,7 +62,7 @@ void long_runs(CampaignBuilder& out, bool full) {
         p.gravity = 0;
         p.initial.angular_velocity = 1;
         p.hub.drive = TorqueTable{{0, 0.005, 0.01, 0.011}, {0, 5, 0, 0}};
-        out.add("10⁵ periods of free vibration", p, full ? 1e5 * 2 * pi / kFirstBending : 10);
+        out.add_single("10⁵ periods of free vibration", p, full ? 1e5 * 2 * pi / kFirstBending : 10);
     }
 }
 
@@ -74,17 +74,18 @@ void chatter_and_resonance(CampaignBuilder& out) {
         p.contact.restitution = 0.5;
         p.beam.modes = 6;
         p.cam->speed = 3;
-        out.add("chatter to rest", name(law), "", p, 2);
+        out.at("chatter to rest", name(law));
+        out.add("", p, 2);
     }
     {
         Problem p = base();
         p.cam->speed = kFirstBending;
         p.cam->eccentricity = 1e-3;
         approach(p);
-        out.add("cam at the bending frequency", p, 0.3);
+        out.add_single("cam at the bending frequency", p, 0.3);
         p.hub.drive = HarmonicTorque{2, kFirstBending / (2 * pi), 0};
         p.cam.reset();
-        out.add("torque at the bending frequency", p, 2);
+        out.add_single("torque at the bending frequency", p, 2);
     }
 }
 
@@ -95,9 +96,9 @@ void slender_beams_and_needles(CampaignBuilder& out) {
         p.beam.area = 1e-6;
         p.beam.model = ModelKind::exact;
         p.beam.modes = 8;
-        out.add("hair over the cam", p, 0.3);
+        out.add_single("hair over the cam", p, 0.3);
         p.hub.drive = ConstantSpeed{-6};
-        out.add("hair pulled over the cam", p, 0.3);
+        out.add_single("hair pulled over the cam", p, 0.3);
     }
     {
         Problem p = base();  // a very small cam
@@ -105,13 +106,13 @@ void slender_beams_and_needles(CampaignBuilder& out) {
         p.cam->eccentricity = 0;
         p.cam->speed = 0;
         approach(p);
-        out.add("needle of a micrometre", p, kUsualEnd);
+        out.add_single("needle of a micrometre", p);
         p.contact.stiffness = 1e12;
-        out.add("hard needle of a micrometre", p, kUsualEnd);
+        out.add_single("hard needle of a micrometre", p);
         p.gravity = 0;
         p.initial.angular_velocity = -1e-9;
         p.initial.angle = touching_angle(p) + 1e-9;
-        out.add("touch at a nanometre a second", p, 3);
+        out.add_single("touch at a nanometre a second", p, 3);
     }
 }
 
@@ -119,25 +120,25 @@ void loads_and_models(CampaignBuilder& out) {
     {
         Problem p = base();
         p.beam.damping_ratio = {50};
-        out.add("overdamped fifty times", p, kUsualEnd);
+        out.add_single("overdamped fifty times", p);
         p.beam.damping_ratio.clear();
         p.beam.kelvin_voigt = 1;
-        out.add("Kelvin–Voigt of a second", p, kUsualEnd);
+        out.add_single("Kelvin–Voigt of a second", p);
         p.beam.kelvin_voigt.reset();
         p.gravity = 1e6;
-        out.add("gravity 1e6 m/s²", p, 0.01);
+        out.add_single("gravity 1e6 m/s²", p, 0.01);
         p.gravity = -9.81;
-        out.add("gravity upwards", p, kUsualEnd);
+        out.add_single("gravity upwards", p);
         p.gravity = 0;
         p.initial.angular_velocity = 0;
-        out.add("nothing moves", p, kUsualEnd);
+        out.add_single("nothing moves", p);
     }
     for (const auto& model : names(ModelKind{})) {
         Problem p = base();
         p.beam.model = model.value;
-        out.add("every model, one second", p, model.value == ModelKind::exact ? 0.2 : 1);
+        out.add_single("every model, one second", p, model.value == ModelKind::exact ? 0.2 : 1);
         p.beam.youngs_modulus = 1e8;
-        out.add("every model, soft beam", p, 0.2);
+        out.add_single("every model, soft beam", p, 0.2);
     }
 }
 
@@ -208,8 +209,8 @@ void mixtures(CampaignBuilder& out) {
     out.grid("random mixtures of everything", "seed, tens", "seed, ones");
     for (unsigned seed = 0; seed < 500; ++seed) {
         Dice dice(seed);
-        out.add(fmt::format("{}", 25 * (seed / 25)), fmt::format("{}", seed % 25), fmt::format("seed {}", seed),
-                mixture(dice));
+        out.at(25 * (seed / 25), seed % 25);
+        out.add(fmt::format("seed {}", seed), mixture(dice));
     }
 }
 

@@ -23,13 +23,14 @@ void stiffness_and_modes(CampaignBuilder& out) {
             Problem p = base();
             p.beam.modes = modes;
             p.contact.stiffness = std::pow(10, k);
-            out.add(fmt::to_string(modes), power(k), "first-order", p);
+            out.at(modes, power(k));
+            out.add("first-order", p);
             p.beam.basis = Basis::cantilever;
-            out.add(fmt::to_string(modes), power(k), "cantilever", p);
+            out.add("cantilever", p);
             if (modes > 12) continue;
             p.beam.basis = Basis::automatic;
             p.beam.model = modes % 2 ? ModelKind::second_order : ModelKind::exact;
-            out.add(fmt::to_string(modes), power(k), name(p.beam.model), p, 0.03);
+            out.add(name(p.beam.model), p, 0.03);
         }
 }
 
@@ -41,19 +42,17 @@ void cam_speed_and_eccentricity(CampaignBuilder& out) {
             p.cam->speed = speed;
             p.cam->eccentricity = share * p.cam->radius;
             approach(p);
-            const auto add = [&](const char* variant) {
-                out.add(fmt::format("{:g}", speed), fmt::format("{:g}", share), variant, p);
-            };
-            add("first-order");
+            out.at(speed, share);
+            out.add("first-order", p);
             p.contact.friction = CoulombFriction{0.3, 1e-3};
             p.contact.offset.reset();
             approach(p);
-            add("friction");
+            out.add("friction", p);
             p.contact.model = ContactModel::restitution;
-            add("restitution");
+            out.add("restitution", p);
             p.beam.model = ModelKind::rigid;
             p.initial.shape = InitialShape::resting;
-            add("resting");
+            out.add("resting", p);
         }
 }
 
@@ -66,25 +65,25 @@ void tolerance_and_method(CampaignBuilder& out) {
             p.solver.method = method;
             p.solver.rtol = std::pow(10, -k);
             p.solver.atol = 1e-3 * p.solver.rtol;
-            const auto add = [&](const char* variant) { out.add(name(method), power(-k), variant, p, 0.04); };
-            add("first-order");
+            constexpr double kEnd = 0.04;
+            out.at(name(method), power(-k));
+            out.add("first-order", p, kEnd);
             p.contact.model = ContactModel::restitution;
-            add("restitution");
+            out.add("restitution", p, kEnd);
             p.contact.model = ContactModel::compliant;
             p.contact.friction = StickSlipFriction{0.3, 0.5, {}, {}};
             p.contact.offset.reset();
             approach(p);
-            add("stick-slip");
+            out.add("stick-slip", p, kEnd);
             p.beam.model = ModelKind::exact;
             p.contact.friction = NoFriction{};
-            add("exact");
+            out.add("exact", p, kEnd);
         }
 }
 
 void restitution_and_law(CampaignBuilder& out) {
     out.grid("restitution and its law", "law", "pre-set restitution");
     for (double c : {0.0, 0.001, 0.01, 0.1, 0.3, 0.5, 0.7, 0.9, 0.99, 1.0}) {
-        const std::string column = fmt::format("{:g}", c);
         for (const auto& law : names(DampingLaw{}))
             for (double exponent : {1.0, 1.5, 2.0}) {
                 Problem p = base();
@@ -92,7 +91,8 @@ void restitution_and_law(CampaignBuilder& out) {
                 p.contact.damping = law.value;
                 p.contact.exponent = exponent;
                 p.cam->speed = exponent < 1.2 ? 0 : 1;
-                out.add(law.name, column, fmt::format("exponent {:g}", exponent), p);
+                out.at(law.name, c);
+                out.add(fmt::format("exponent {:g}", exponent), p);
             }
         for (const auto& law : names(ImpactLaw{}))
             for (int modes : {0, 2, 8}) {
@@ -105,7 +105,8 @@ void restitution_and_law(CampaignBuilder& out) {
                     p.beam.model = ModelKind::rigid;
                 else
                     p.beam.modes = modes;
-                out.add(law.name, column, modes ? fmt::format("{} modes", modes) : "rigid", p);
+                out.at(law.name, c);
+                out.add(modes ? fmt::format("{} modes", modes) : "rigid", p);
             }
     }
 }
@@ -152,21 +153,21 @@ void friction(CampaignBuilder& out) {
             p.contact.friction = kind.make(mu);
             p.contact.model = kind.model;
             p.contact.law = kind.law;
-            const auto add = [&](const char* variant) { out.add(kind.row, fmt::format("{:g}", mu), variant, p); };
             p.cam->speed = 0;
-            add("on the centre line, cam at rest");
+            out.at(kind.row, mu);
+            out.add("on the centre line, cam at rest", p);
             p.contact.offset.reset();
             p.cam->speed = 20;
             approach(p);
-            add("half depth, cam turning");
+            out.add("half depth, cam turning", p);
             p.cam->speed = -20;
             p.hub.radius = 0.1;
             p.contact.offset = 0.05;
             approach(p);
-            add("offset 5 cm, cam turning back");
+            out.add("offset 5 cm, cam turning back", p);
             p.beam.model = ModelKind::rigid;
             p.cam->speed = 0;
-            add("rigid, offset, cam at rest");
+            out.add("rigid, offset, cam at rest", p);
         }
 }
 
@@ -188,18 +189,16 @@ void size_and_softness(CampaignBuilder& out) {
             p.solver.atol = 1e-11 * length;
             approach(p, 0.03, -2 / std::sqrt(length));
             const double end = kUsualEnd * std::sqrt(length);
-            const auto add = [&](const char* variant) {
-                out.add(fmt::format("{:g}", length), power(k), variant, p, end);
-            };
-            add("first-order");
+            out.at(length, power(k));
+            out.add("first-order", p, end);
             p.beam.model = ModelKind::exact;
             p.beam.modes = 4;
-            add("exact");
+            out.add("exact", p, end);
             p.beam.model = ModelKind::second_order;
             p.contact.offset.reset();
             p.contact.friction = CoulombFriction{0.3, 1e-3};
             approach(p, 0.03, -2 / std::sqrt(length));
-            add("second-order, friction");
+            out.add("second-order, friction", p, end);
         }
 }
 
@@ -217,15 +216,13 @@ void hubs(CampaignBuilder& out) {
             p.cam->eccentricity = 0.1 * p.cam->radius;
             if (radius <= 0 && p.cam->radius + p.cam->eccentricity >= p.cam->centre.x) continue;
             approach(p);
-            const auto add = [&](const char* variant) {
-                out.add(fmt::format("{:g}", radius), fmt::format("{:g}", inertia), variant, p);
-            };
+            out.at(radius, inertia);
             p.beam.modes = 4;
-            add("hub-beam");
+            out.add("hub-beam", p);
             p.beam.basis = Basis::cantilever;
-            add("cantilever");
+            out.add("cantilever", p);
             p.beam.model = ModelKind::second_order;
-            add("second-order");
+            out.add("second-order", p);
         }
 }
 
@@ -282,11 +279,12 @@ void starts_and_drives(CampaignBuilder& out) {
                 p.beam.model = kind;
                 p.hub.drive = law.drive;
                 start.set(p);
-                out.add(start.row, law.column, name(kind), p);
+                out.at(start.row, law.column);
+                out.add(name(kind), p);
                 if (kind == ModelKind::exact) continue;
                 p.contact.model = ContactModel::restitution;
                 p.contact.friction = CoulombFriction{0.2, 1e-3};
-                out.add(start.row, law.column, "restitution", p);
+                out.add("restitution", p);
             }
 }
 
