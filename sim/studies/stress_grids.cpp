@@ -111,20 +111,17 @@ void restitution_and_law(CampaignBuilder& out) {
     }
 }
 
-using MakeFriction = std::function<Friction(double mu)>;
 struct FrictionKind {
     const char* row;
-    MakeFriction make;
+    std::function<Friction(double mu)> make;
     ContactModel model = ContactModel::compliant;
     ImpactLaw law = {};
 };
 
 std::vector<FrictionKind> friction_kinds() {
-    const auto coulomb = [](double slip_speed) -> MakeFriction {
-        return [=](double mu) { return CoulombFriction{mu, slip_speed}; };
-    };
+    const auto coulomb = [](double slip_speed) { return [=](double mu) { return CoulombFriction{mu, slip_speed}; }; };
     // `ratio`: static over kinetic coefficient.
-    const auto bristle = [](double ratio, double stiffness, std::optional<double> damping) -> MakeFriction {
+    const auto bristle = [](double ratio, double stiffness, std::optional<double> damping) {
         return [=](double mu) { return StickSlipFriction{mu, ratio * mu, stiffness, damping}; };
     };
     return {
@@ -248,10 +245,7 @@ std::vector<StartCase> start_cases() {
              p.initial = {0.06, -2, InitialShape::straight};
          }},
         {"upside down", [](Problem& p) { p.initial.angle = pi + 0.5; }},
-        {"upright",
-         [](Problem& p) {
-             p.initial = {pi / 2, 0, InitialShape::straight};
-         }},
+        {"upright", [](Problem& p) { p.initial.angle = pi / 2, p.initial.angular_velocity = 0; }},
         {"static", [](Problem& p) { p.initial.shape = InitialShape::static_equilibrium; }},
         {"resting", [](Problem& p) { p.initial.shape = InitialShape::resting; }},
         {"spinning at 300 rad/s", [](Problem& p) { p.initial.angular_velocity = -300; }},
