@@ -16,7 +16,6 @@ namespace {
 using sim::Pose;
 
 using std::numbers::pi;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 }  // namespace
 
@@ -51,90 +50,12 @@ MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot
     const LabelNeeds needs = add_frames(swept, in_contact, followed);
     cameras_.follow(followed);
     labels_ = place_labels(at_, cameras_, needs, swept, in_contact);
+    labels_.under_captions = moving_under_captions();
     legend_.place(std::move(swept.room));
 }
 
 std::unique_ptr<FilmPanel::State> MechanismPanel::make_state() const {
     return std::make_unique<ThreadState>(at_.context, at_.member, at_.look.camera.scale, at_.box);
-}
-
-// The largest radius of an arc about `centre` over these angles that stays inside the box.
-static double arc_room(Range angles, Vec2 centre, const Box& box) {
-    Bounds reach;  // of the unit arc [px]
-    constexpr int kSteps = 64;
-    for (int i = 0; i <= kSteps; ++i) reach.add(down(angles.low + (angles.high - angles.low) * i / kSteps));
-    const auto fits = [](double room, double need) {
-        return need > 1e-3 ? std::max(room, 0.0) / need : std::numeric_limits<double>::infinity();
-    };
-    return std::min({fits(centre.x - box.x, -reach.x0), fits(box.right() - centre.x, reach.x1),
-                     fits(centre.y - box.y, -reach.y0), fits(box.bottom() - centre.y, reach.y1)});
-}
-
-// The survey covers all motions, so that labels of several mechanisms have the same places.
-void MechanismPanel::add_survey(SweptRegion& swept) const {
-    for (const std::vector<Vec2>& strip : at_.context.extent.strips) {
-        std::vector<Vec2> face, back;
-        for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
-            face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
-        swept.add_beam(face, back);
-    }
-    for (const ViewExtent::ForceArrow& arrow : at_.context.extent.arrows)
-        swept.add_arrow({arrow.foot, arrow.normal, arrow.share * at_.context.arrow_scale});
-}
-
-static void add_measured(const MechanismView& at, const Pose& pose, const DrawnBeam& drawn, SweptRegion& swept) {
-    for (std::size_t k = 0; k < at.context.setup->data.size(); ++k) {
-        const auto beam = measured_beam(at, k, pose, drawn);
-        std::vector<Vec2> face, back;
-        for (std::size_t i = 0; beam && i < beam->line.size(); ++i)
-            face.push_back(at.px(beam->face(i))), back.push_back(at.px(beam->back(i)));
-        swept.add_beam(face, back);
-    }
-}
-
-LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {
-    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}, {}};
-    Bounds seen;
-    std::vector<Vec2> before;
-    for (int k = 0; k < at_.context.frames(); ++k) {
-        const Pose pose = at_.context.pose(at_.member, k);
-        const DrawnBeam drawn = at_.drawn(at_.member, pose);
-        const double angle = drawn_angle(pose);
-        needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
-        const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
-        const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
-        tip_path_.add_frame(tip, pose.theta, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
-        followed.push_back({at_.look.camera.to_world(tip),
-                            drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
-                            at_.problem().cam ? pose.cam_centre : Vec2{}});
-        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k, pose));
-        for (SweptRegion* each : {&swept, &in_contact}) {
-            if (each == &in_contact && !arrow) continue;
-            each->add_beam(shape.face, shape.back);
-            each->add_motion(before, shape.face);
-            if (arrow) each->add_arrow(*arrow);
-        }
-        if (at_.member == 0) add_measured(at_, pose, drawn, swept);
-        if (arrow) needs.arrows.push_back(*arrow), needs.frames.push_back(k);
-        before = shape.face;
-        if (at_.problem().cam) {
-            const sim::Cam& cam = *at_.problem().cam;
-            const double free = norm(pose.cam_centre) - cam.radius - cam.eccentricity;
-            needs.arc_room = std::min(needs.arc_room, 0.86 * free * at_.look.camera.scale);
-        }
-        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
-        seen.add(shape.hinge, shape.hub);
-        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
-    }
-    for (int k = 0; k + 1 < at_.context.frames(); ++k)
-        for (SweptRegion* each : {&swept, &in_contact})
-            each->add_curve(tip_path_.piece(at_, static_cast<std::size_t>(k)));  // the trail
-    const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
-    needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
-    if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
-    // Shadows fade out in the gap around the panel.
-    lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);
-    return needs;
 }
 
 // For the solid view this is an estimate: it is evaluated as if seen from the front.

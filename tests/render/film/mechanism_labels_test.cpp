@@ -119,6 +119,35 @@ TEST(MechanismLabels, AreClearOfBodiesBeforeANearCamera) {
             }
 }
 
+// Captions keep their places while the beam passes them.
+TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
+    for (const Style style : {Style::flat, Style::solid}) {
+        FilmSetup setup = film_of(style);
+        setup.layout = LayoutNode{};
+        Film plain(setup);
+        for (const Vec2 at : {Vec2{0.5, 0.3}, {0.7, 0.35}, {0.8, 0.1}})
+            setup.callouts.push_back({0, 50, "a place that the beam passes", Anchor{Anchor::Kind::place, at}});
+        for (const int first : {5, 10, 15})
+            setup.callouts.push_back({first, 50, "words about the contact that fill more than one line"});
+        const FilmContext context(std::make_shared<const FilmSetup>(setup));
+        const MechanismView home(context, *context.places.first(PanelKind::mechanism));
+        const MechanismCameras cameras(home);
+        Film film(setup);
+        int captions = 0;
+        for (int k = 0; k <= 50; k += 2) {
+            const FrameGeometry g = film.geometry(k);
+            const std::vector<Box> others = plain.geometry(k).texts;
+            const auto view = cameras.perspective(home, k);
+            for (const Box& text : g.texts) {
+                if (std::ranges::find(others, text) != others.end()) continue;
+                ++captions;
+                EXPECT_FALSE(meets_beam(text, home, g.beam, view ? &*view : nullptr)) << int(style) << ", " << k;
+            }
+        }
+        EXPECT_GT(captions, 100);
+    }
+}
+
 // The arrow of a peak that is held stays on the disc, which moves on.
 TEST(ImpactRings, ThePeakStaysOnTheDisc) {
     FilmSetup setup = film_of(Style::flat);

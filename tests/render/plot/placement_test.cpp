@@ -24,6 +24,15 @@ TEST(Placement, CoversTheCellsThatAShapeTouchesAndNoOthers) {
     EXPECT_GT(room.covered({90, 200, 20, 10}), 0.4);  // half of it lies beyond
 }
 
+TEST(Placement, CoveredBoxesAreTheRunsOfEachRow) {
+    OccupancyGrid room({10, 20, 50, 20}, 10);
+    room.cover(Box{11, 21, 15, 5}, 1);
+    room.cover(Box{45, 22, 2, 2}, 1);
+    room.cover(Box{12, 32, 2, 2}, 0.1);
+    const std::vector<Box> expected{{10, 20, 20, 10}, {40, 20, 10, 10}};
+    EXPECT_EQ(room.covered_boxes(), expected);
+}
+
 TEST(Placement, ATriangleCoversNoMoreThanItsCells) {
     OccupancyGrid room({0, 0, 100, 100}, 2);
     room.cover_convex(std::array{Vec2{0, 0}, Vec2{100, 0}, Vec2{0, 100}});

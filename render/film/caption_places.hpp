@@ -1,0 +1,63 @@
+// The places of captions in a picture of the mechanism. Each keeps its place while others appear and disappear: clear
+// of the captions that are shown with it, of labels, and of what moves while it is shown, as far as there is room.
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "render/film/mechanism_marks.hpp"
+
+namespace beamcam::render {
+
+inline constexpr double kCaptionLine = 29;  // distance between lines [design px]
+
+struct Caption {
+    std::vector<std::string> lines;
+    std::vector<double> heights;  // of the lines [px]
+    Box plate;
+    double opacity = 1;
+};
+
+class CaptionPlaces {
+  public:
+    explicit CaptionPlaces(const MechanismScene& scene);
+
+    Box plate_of(const Callout& callout) const;
+    Caption caption_of(const Callout& callout, Vec2 at) const;
+    bool is_visible(const Callout& callout) const;  // without space for all, a later caption replaces earlier ones
+    Vec2 foot_of(const Anchor& anchor) const;
+    Vec2 contact_foot() const;
+    const TextStyle& style() const { return style_; }
+    // Labels that captions must not hide; the cam's speed first [px].
+    const std::vector<Box>& labels() const { return labels_; }
+
+    static Anchor::Kind kind_of(const Callout& c) { return c.anchor ? c.anchor->kind : Anchor::Kind::contact; }
+    static bool is_at_contact(const Callout& c) { return kind_of(c) == Anchor::Kind::contact; }
+    // The order in which captions get their places: those of moving parts last, so that the others keep theirs.
+    static bool comes_before(const Callout& one, const Callout& other);
+
+  private:
+    void keep_inside(Box& plate) const;
+    const Box* hidden(const Box& plate) const;
+    void place(Box& plate) const;
+    void add_bodies(std::vector<Box>& taken) const;
+    std::vector<Box> moving_under(const Callout& callout) const;
+    bool crosses_cam(Vec2 from, Vec2 to) const;
+    Box first_plate(const Callout& callout) const;
+    Box plate_at_anchor(const Callout& callout) const;
+    Box plate_at_contact(const Callout& callout) const;
+    double space_for_later(const Callout& callout) const;
+    std::optional<Box> free_plate(const Box& first, std::optional<Vec2> foot, const std::vector<Box>& taken,
+                                  const std::vector<Box>& moving) const;
+
+    const MechanismScene& s;
+    const double u;
+    const Box& box;
+    TextStyle style_;
+    std::vector<Box> labels_;
+    mutable std::map<const Callout*, Box> plates_;  // cached
+};
+
+}  // namespace beamcam::render

@@ -1,0 +1,127 @@
+// What a mechanism's panel shows over the whole film, gathered once: the regions in which labels and captions have no
+// place, and the points that a camera may follow.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "render/film/mechanism_panel.hpp"
+
+namespace beamcam::render {
+
+using sim::Pose;
+
+namespace {
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kCaptionCell = 20;  // rows of the boxes that captions avoid [design px]
+
+}  // namespace
+
+// The largest radius of an arc about `centre` over these angles that stays inside the box.
+static double arc_room(Range angles, Vec2 centre, const Box& box) {
+    Bounds reach;  // of the unit arc [px]
+    constexpr int kSteps = 64;
+    for (int i = 0; i <= kSteps; ++i) reach.add(down(angles.low + (angles.high - angles.low) * i / kSteps));
+    const auto fits = [](double room, double need) {
+        return need > 1e-3 ? std::max(room, 0.0) / need : std::numeric_limits<double>::infinity();
+    };
+    return std::min({fits(centre.x - box.x, -reach.x0), fits(box.right() - centre.x, reach.x1),
+                     fits(centre.y - box.y, -reach.y0), fits(box.bottom() - centre.y, reach.y1)});
+}
+
+// The survey covers all motions, so that labels of several mechanisms have the same places.
+void MechanismPanel::add_survey(SweptRegion& swept) const {
+    for (const std::vector<Vec2>& strip : at_.context.extent.strips) {
+        std::vector<Vec2> face, back;
+        for (std::size_t i = 0; i + 1 < strip.size(); i += 2)
+            face.push_back(at_.px(strip[i])), back.push_back(at_.px(strip[i + 1]));
+        swept.add_beam(face, back);
+    }
+    for (const ViewExtent::ForceArrow& arrow : at_.context.extent.arrows)
+        swept.add_arrow({arrow.foot, arrow.normal, arrow.share * at_.context.arrow_scale});
+}
+
+static void add_measured(const MechanismView& at, const Pose& pose, const DrawnBeam& drawn, SweptRegion& swept) {
+    for (std::size_t k = 0; k < at.context.setup->data.size(); ++k) {
+        const auto beam = measured_beam(at, k, pose, drawn);
+        std::vector<Vec2> face, back;
+        for (std::size_t i = 0; beam && i < beam->line.size(); ++i)
+            face.push_back(at.px(beam->face(i))), back.push_back(at.px(beam->back(i)));
+        swept.add_beam(face, back);
+    }
+}
+
+LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {
+    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}, {}};
+    Bounds seen;
+    std::vector<Vec2> before;
+    for (int k = 0; k < at_.context.frames(); ++k) {
+        const Pose pose = at_.context.pose(at_.member, k);
+        const DrawnBeam drawn = at_.drawn(at_.member, pose);
+        const double angle = drawn_angle(pose);
+        needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
+        const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
+        const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
+        tip_path_.add_frame(tip, pose.theta, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
+        followed.push_back({at_.look.camera.to_world(tip),
+                            drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
+                            at_.problem().cam ? pose.cam_centre : Vec2{}});
+        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k, pose));
+        for (SweptRegion* each : {&swept, &in_contact}) {
+            if (each == &in_contact && !arrow) continue;
+            each->add_beam(shape.face, shape.back);
+            each->add_motion(before, shape.face);
+            if (arrow) each->add_arrow(*arrow);
+        }
+        if (at_.member == 0) add_measured(at_, pose, drawn, swept);
+        if (arrow) needs.arrows.push_back(*arrow), needs.frames.push_back(k);
+        before = shape.face;
+        if (at_.problem().cam) {
+            const sim::Cam& cam = *at_.problem().cam;
+            const double free = norm(pose.cam_centre) - cam.radius - cam.eccentricity;
+            needs.arc_room = std::min(needs.arc_room, 0.86 * free * at_.look.camera.scale);
+        }
+        for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
+        seen.add(shape.hinge, shape.hub);
+        if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
+    }
+    for (int k = 0; k + 1 < at_.context.frames(); ++k)
+        for (SweptRegion* each : {&swept, &in_contact})
+            each->add_curve(tip_path_.piece(at_, static_cast<std::size_t>(k)));  // the trail
+    const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
+    needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
+    if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
+    // Shadows fade out in the gap around the panel.
+    lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);
+    return needs;
+}
+
+// A caption keeps its place while it is shown, so that it has to avoid every pose of this time.
+std::vector<std::vector<Box>> MechanismPanel::moving_under_captions() const {
+    std::vector<std::vector<Box>> out;
+    if (at_.member != 0) return out;
+    for (const Callout& callout : at_.context.setup->callouts) {
+        SweptRegion swept(at_, OccupancyGrid(at_.box, kCaptionCell * at_.unit), cameras_.projections());
+        std::vector<Vec2> before;
+        for (int k = callout.first; k <= std::min(callout.last, at_.context.frames() - 1); ++k) {
+            for (int m = 0; m < (at_.ghosts ? at_.context.members() : 1); ++m)
+                for (std::size_t exposure = 0; exposure < at_.context.motion(m).exposures; ++exposure) {
+                    const Pose pose = at_.context.motion(m).pose(static_cast<std::size_t>(k), exposure);
+                    const DrawnBeam drawn = at_.drawn(m, pose);
+                    const MechanismShape shape =
+                        mechanism_shape(at_.context.motion(m).problem, pose, drawn, at_.look, at_.palette);
+                    swept.add_shape(shape);
+                    if (m > 0 || exposure > 0) continue;
+                    swept.add_motion(before, shape.face);
+                    before = shape.face;
+                    if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, pose))) swept.add_arrow(*arrow);
+                    add_measured(at_, pose, drawn, swept);
+                }
+        }
+        out.push_back(swept.room.covered_boxes());
+    }
+    return out;
+}
+
+}  // namespace beamcam::render
