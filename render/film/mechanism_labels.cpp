@@ -13,6 +13,7 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
+constexpr double kText = 4;                  // weight of labels, over which names are not readable; of bodies 1
 constexpr double kLabelFade = 0.2;           // duration of fading a label without a free place [s]
 constexpr double kFarthestLetter = 65;       // largest distance of θ from its arc [design px of the letter]
 constexpr double kLowestLetter = 1.2;        // largest angle of θ beyond the horizontal [rad]
@@ -261,7 +262,7 @@ MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& ca
     Image scratch(1, 1);
     Canvas canvas(scratch, *at.context.fonts);
     const auto take = [&](const LabelPlace& label) {
-        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.box(label), 1);
+        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.box(label), kText);
     };
     if (at.context.setup->view.style != Style::solid)
         for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.arc(out.arc_radius), 1);

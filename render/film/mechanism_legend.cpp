@@ -5,6 +5,7 @@
 #include "render/film/mechanism_marks.hpp"
 #include "render/film/mechanism_view.hpp"
 #include "render/plot/ticks.hpp"
+#include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
 namespace {
@@ -17,11 +18,11 @@ std::vector<MechanismLegend::Entry> MechanismLegend::entries() const {
     std::vector<Entry> out;
     for (int m = 0; m < at_.context.members() && at_.context.members() > 1; ++m)
         if (at_.ghosts || m == at_.member)
-            out.push_back({at_.context.member_color(m), at_.context.labels[static_cast<std::size_t>(m)], 6,
+            out.push_back({at_.context.member_color(m), at_.context.motion(m).label, 6,
                            FilmContext::dash_of(static_cast<std::size_t>(m))});
     for (std::size_t k = 0; k < at_.context.data_labels.size() && at_.member == 0; ++k)
         if (at_.context.setup->data[k].find({sim::ChannelKind::theta, 0}))
-            out.push_back({at_.context.data_color(k), at_.context.data_labels[k], 3, {9, 5}});
+            out.push_back({at_.context.data_color(k), at_.context.setup->data[k].label, 3, {9, 5}});
     return out;
 }
 
@@ -45,44 +46,82 @@ void MechanismLegend::place(OccupancyGrid room) {
 }
 
 // In the first form that fits into the panel clear of moving parts, else in the one that is covered least. A list that
-// would hide the mechanism is left out, names that are too long are cut.
+// would hide the mechanism is left out.
 void MechanismLegend::place_names(Canvas& canvas, OccupancyGrid& room) {
-    constexpr Form kForms[] = {{1, 1}, {1, 0.8}, {2, 1}, {2, 0.8}, {3, 0.8}, {4, 0.8}};
-    constexpr double kFree = 0.01, kMost = 0.3;  // covered shares
-    const Box area = at_.box.inset(gap());
-    const int count = static_cast<int>(entries().size());
-    double least = count > 1 ? kMost : 1;
+    static constexpr Form kForms[] = {{1, 1},   {1, 0.8}, {1, 0.8, false, 2}, {2, 1},         {2, 0.8},
+                                      {3, 0.8}, {4, 0.8}, {2, 0.8, true},     {3, 0.8, true}, {1, 0.8, false, 1, true}};
+    constexpr double kFree = 0.01, kApart = 0.1, kMost = 0.3;  // covered shares
+    double least = entries().size() > 1 ? kMost : 1;
     for (const Form& form : kForms) {
-        Vec2 size = size_of(canvas, form);
-        if (form.columns == 1 && form.size < 1) size.x = std::min(size.x, area.w);
-        if (form.columns > count || size.x > area.w || size.y > area.h) continue;
-        const Box place = room.choose(places_along(area, size, Corner::top_left));
-        const double covered = room.covered(place);
-        if (covered > least || (label_ && covered == least)) continue;
-        label_ = place, form_ = form, least = covered;
-        if (covered < kFree) break;
+        std::optional<Placed> here = placed(canvas, room, form);
+        if (!here || here->covered > least || (form.apart && here->covered > kApart)) continue;
+        if (!blocks_.empty() && here->covered == least) continue;
+        blocks_ = std::move(here->blocks), form_ = form, least = here->covered;
+        if (least < kFree) break;
     }
-    if (label_) room.cover(label_->inset(-gap()), 1);
+    for (const Block& block : blocks_) room.cover(block.box.inset(-gap()), 1);
 }
 
-// The widest name of all motions, so that the labels of several panels have the same place.
-double MechanismLegend::widest_name(Canvas& canvas, double size) const {
+std::optional<MechanismLegend::Placed> MechanismLegend::placed(Canvas& canvas, OccupancyGrid room,
+                                                               const Form& form) const {
+    const Box area = at_.box.inset(gap());
+    const std::size_t count = entries().size(), rows = (count + form.columns - 1) / form.columns;
+    if (form.columns > count || (form.lines > 1 && count > 1)) return std::nullopt;
+    std::size_t lines = 1;
+    double width = 16 * at_.unit + sample() + widest_name(canvas, form, lines);
+    if (form.columns > 1 && !form.apart) width += 20 * at_.unit;
+    if (form.cut) width = std::min(width, area.w / static_cast<double>(form.columns));
+    const double beyond = static_cast<double>(lines - 1) * line_height(form.size);  // the first line
+    const auto size_of = [&](std::size_t columns, std::size_t names) {
+        return Vec2{static_cast<double>(columns) * width,
+                    kNameLine * form.size * at_.unit * static_cast<double>(names) + beyond};
+    };
+    Placed out{{}, 0};
+    const auto add = [&](Vec2 size) {
+        const Box place = room.choose(places_along(area, size, Corner::top_left));
+        out.covered = std::max(out.covered, room.covered(place));
+        room.cover(place.inset(-gap()), 1);
+        return place;
+    };
+    const Vec2 whole = size_of(form.apart ? 1 : form.columns, rows);
+    if (whole.x > area.w || whole.y > area.h) return std::nullopt;
+    const Box all = form.apart ? Box{} : add(whole);
+    for (std::size_t first = 0; first < count; first += rows) {
+        const std::size_t names = std::min(rows, count - first);
+        const double before = width * static_cast<double>(first / rows);
+        out.blocks.push_back(
+            {form.apart ? add(size_of(1, names)) : Box{all.x + before, all.y, width, all.h}, first, names});
+    }
+    return out;
+}
+
+double MechanismLegend::line_height(double size) const { return 1.2 * label_style(size).size; }
+
+// Markup of the lines of a name, within this width [px].
+std::vector<std::string> MechanismLegend::lines_of(Canvas& canvas, const std::string& name, const Form& form,
+                                                   double width) const {
+    TextStyle style = label_style(form.size);
+    style.max_width = width;
+    return wrapped_lines(canvas, name, style, form.lines);
+}
+
+// Of all motions, so that the labels of several panels have the same place. `lines`: the most.
+double MechanismLegend::widest_name(Canvas& canvas, const Form& form, std::size_t& lines) const {
+    const double width = form.lines > 1 ? at_.box.inset(gap()).w - 16 * at_.unit - sample() : 0;
     double widest = 0;
-    for (const auto* labels : {&at_.context.labels, &at_.context.data_labels})
-        for (const std::string& each : *labels) widest = std::max(widest, canvas.measure(each, label_style(size)).w);
+    const auto add = [&](const std::string& name) {
+        const std::vector<std::string> all = lines_of(canvas, name, form, width);
+        lines = std::max(lines, all.size());
+        for (const std::string& line : all) widest = std::max(widest, canvas.measure(line, label_style(form.size)).w);
+    };
+    for (int m = 0; m < at_.context.members(); ++m) add(at_.context.motion(m).label);
+    for (const FilmData& data : at_.context.setup->data) add(data.label);
     return widest;
-}
-
-Vec2 MechanismLegend::size_of(Canvas& canvas, const Form& form) const {
-    const double between = form.columns > 1 ? 20 * at_.unit : 0;
-    const double column = 16 * at_.unit + sample() + widest_name(canvas, form.size) + between;
-    const int rows = (static_cast<int>(entries().size()) + form.columns - 1) / form.columns;
-    return {form.columns * column, kNameLine * form.size * at_.unit * rows};
 }
 
 std::vector<Box> MechanismLegend::boxes() const {
     std::vector<Box> out;
-    if (label_) out.push_back(*label_);
+    for (const Block& block : blocks_) out.push_back(block.box);
     if (bar_) out.push_back(*bar_);
     return out;
 }
@@ -122,19 +161,23 @@ TextStyle MechanismLegend::label_style(double size) const {
 }
 
 void MechanismLegend::names(Canvas& canvas) const {
-    if (!label_) return;
     const std::vector<Entry> all = entries();
-    const std::size_t columns = static_cast<std::size_t>(form_.columns), rows = (all.size() + columns - 1) / columns;
-    const double wide = label_->w / form_.columns, line = kNameLine * form_.size * at_.unit;
+    const double line = kNameLine * form_.size * at_.unit;
     TextStyle style = label_style(form_.size);
-    style.max_width = wide - sample() - 14 * at_.unit;
-    for (std::size_t i = 0; i < all.size(); ++i) {
-        const double x = label_->x + 2 * at_.unit + wide * static_cast<double>(i / rows),
-                     y = label_->y + 24 * form_.size * at_.unit + line * static_cast<double>(i % rows);
-        canvas.move_to({x, y - 8 * at_.unit});
-        canvas.line_to({x + sample(), y - 8 * at_.unit});
-        canvas.stroke({all[i].color, all[i].width * at_.unit, dashes(all[i].dash, at_.unit), Cap::butt});
-        canvas.text({x + sample() + 12 * at_.unit, y}, all[i].text, style);
+    for (const Block& block : blocks_) {
+        style.max_width = block.box.w - sample() - 14 * at_.unit;
+        for (std::size_t i = 0; i < block.count; ++i) {
+            const Entry& entry = all[block.first + i];
+            const double x = block.box.x + 2 * at_.unit;
+            double y = block.box.y + 24 * form_.size * at_.unit + line * static_cast<double>(i);
+            canvas.move_to({x, y - 8 * at_.unit});
+            canvas.line_to({x + sample(), y - 8 * at_.unit});
+            canvas.stroke({entry.color, entry.width * at_.unit, dashes(entry.dash, at_.unit), Cap::butt});
+            for (const std::string& text : lines_of(canvas, entry.name, form_, style.max_width)) {
+                canvas.text({x + sample() + 12 * at_.unit, y}, text, style);
+                y += line_height(form_.size);
+            }
+        }
     }
 }
 

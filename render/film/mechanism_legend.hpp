@@ -25,19 +25,33 @@ class MechanismLegend {
     // This panel's motion, or all motions if they are drawn as ghosts; and data that are drawn as a beam.
     struct Entry {
         Color color;
-        std::string text;
+        std::string name;  // plain text with formulas
         double width = 6;  // of its line [design px]
         std::vector<double> dash = {};
     };
-    // Columns of names, and the size of everything in the legend.
+    // How the names are arranged: the number of columns, side by side or each at its own place; the size of everything;
+    // the lines of a name; whether long names are cut.
     struct Form {
-        int columns = 1;
+        std::size_t columns = 1;
         double size = 1;
+        bool apart = false;
+        std::size_t lines = 1;
+        bool cut = false;
+    };
+    struct Block {  // a column of names
+        Box box;
+        std::size_t first = 0, count = 0;
+    };
+    struct Placed {
+        std::vector<Block> blocks;
+        double covered = 1;  // share of the block that is covered most
     };
     std::vector<Entry> entries() const;
     void place_names(Canvas& canvas, OccupancyGrid& room);
-    Vec2 size_of(Canvas& canvas, const Form& form) const;  // [px]
-    double widest_name(Canvas& canvas, double size) const;
+    std::optional<Placed> placed(Canvas& canvas, OccupancyGrid room, const Form& form) const;
+    std::vector<std::string> lines_of(Canvas& canvas, const std::string& name, const Form& form, double width) const;
+    double line_height(double size) const;
+    double widest_name(Canvas& canvas, const Form& form, std::size_t& lines) const;
     double sample() const;
     bool has_label() const;
     bool has_bar() const;
@@ -48,7 +62,8 @@ class MechanismLegend {
     double gap() const;  // around texts [px]
 
     const MechanismView& at_;
-    std::optional<Box> label_, bar_;
+    std::vector<Block> blocks_;
+    std::optional<Box> bar_;
     Form form_;
 };
 

@@ -24,8 +24,9 @@ MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
 void MechanismView::place_camera() {
     // A beam thinner than a line is drawn with the width of a line, which it gains on the side away from the cam.
     const auto as_deep_as = [&](const ViewExtent& extent) {
-        // Labels of several mechanisms are above them, in one line.
-        const double label = context.members() > 1 && !ghosts && box.h > 200 * unit ? 38 * unit : 0;
+        // Names of several mechanisms are above them, in one line.
+        const bool named = context.members() > 1 && !ghosts && has_names(box, unit);
+        const double label = !named ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
         look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label}, unit);
         look.depth = std::max(problem().beam.depth, 7 * unit / look.camera.scale);
     };

@@ -188,5 +188,36 @@ TEST(MechanismLegend, StaysWithinItsPanel) {
     }
 }
 
+// Names of many motions are divided into two lists where one has no free place, and none lies over a beam.
+TEST(MechanismLegend, IsClearOfManyBeamsInASmallPicture) {
+    for (const Comparison how : {Comparison::ghosts, Comparison::panels}) {
+        FilmSetup setup = test::flat_film({.duration = 0.8}, 320, 180);
+        setup.label = "ω = 0 rad/s";
+        for (int i = 1; i < 8; ++i)
+            setup.others.push_back(setup), setup.others.back().label = "ω = " + std::to_string(i) + " rad/s";
+        setup.comparison = how;
+        const FilmContext context(std::make_shared<const FilmSetup>(setup));
+        const MechanismView home(context, *context.places.first(PanelKind::mechanism));
+        Film film(setup);
+        for (int k = 0; k < film.frames(); k += 4) {
+            const FrameGeometry g = film.geometry(k);
+            EXPECT_EQ(g.legend.size(), how == Comparison::ghosts ? 2U : 1U);
+            for (const Box& list : g.legend) EXPECT_FALSE(meets_beam(list, home, g.beam, nullptr)) << int(how) << k;
+        }
+    }
+}
+
+// A name that is too long for its panel has two lines before it is cut.
+TEST(MechanismLegend, ALongNameHasTwoLines) {
+    FilmSetup setup = test::flat_film({.duration = 0.2}, 640, 360);
+    for (int i = 1; i < 8; ++i) setup.others.push_back(setup);
+    const auto highest = [&](const std::string& name) {
+        setup.label = name;
+        for (Motion& other : setup.others) other.label = name;
+        return Film(setup).geometry(0).legend.at(0).h;
+    };
+    EXPECT_GT(highest("a cam that is turning clockwise"), 1.4 * highest("a cam"));
+}
+
 }  // namespace
 }  // namespace beamcam::render
