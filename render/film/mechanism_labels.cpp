@@ -74,7 +74,9 @@ class LabelPlacer {
     // that is too small, to the other side of the horizontal, beside the arc. None if it has room in neither.
     std::optional<LabelPlace> angle(const OccupancyGrid& room, double radius) const {
         const double letter = angle_letter(at), side = -needs.angles.low > needs.angles.high ? -1 : 1;
-        if (arc(radius).empty() || std::max(-needs.angles.low, needs.angles.high) < kLeastArc) return std::nullopt;
+        const double widest = std::max(-needs.angles.low, needs.angles.high);
+        const double under_beam = 0.5 * at.look.depth * at.look.camera.scale + 3 * u;  // an arc that is never seen
+        if (arc(radius).empty() || widest < kLeastArc || widest * radius < under_beam) return std::nullopt;
         const Vec2 o = at.px({0, 0}), size{13 * letter, 17 * letter};
         const Vec2 inside = o + down(side * 0.5 * least_angle()) * (radius - 17 * letter),
                    beyond = o + Vec2{radius, side * 16 * letter};

@@ -108,8 +108,11 @@ void draw_cam_speed(const MechanismScene& s) {
         const double head = 17 * s.at.unit, back = (to < from ? 1 : -1) * 0.9 * head / radius;
         s.arc(axis, radius, from, to + back);
         s.canvas.stroke({s.at.palette.muted, 2.6 * s.at.unit, {}, Cap::butt});
-        s.canvas.arrow(s.on(axis + down(to + back) * radius), s.on(axis + down(to) * radius),
-                       {s.at.palette.muted, 2.6 * s.at.unit}, {head});
+        const Vec2 tip = s.on(axis + down(to) * radius);
+        Vec2 way = tip - s.on(axis + down(to + back) * radius);
+        // Seen from aside, the head keeps its length.
+        if (const double length = norm(way); s.view && length > 0) way = way * (std::max(0.9 * head, length) / length);
+        s.canvas.arrow(tip - way, tip, {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
     const LabelPlace& label = *s.at.labels->speed;
     draw_leader(s, label, s.at.palette.muted, s.on(axis + down(middle) * radius), label.base);
@@ -205,6 +208,10 @@ void draw_disc_marks(const MechanismScene& s, const Trace& trace) {
     }
     s.canvas.circle(d.centre, 4 * s.at.marks);
     s.canvas.fill(ink);
+    if (s.at.context.setup->view.transparent) {  // the bore shows the background, on which the cross may be invisible
+        s.canvas.circle(d.axis, d.bore);
+        s.canvas.fill(s.at.palette.paper);
+    }
     for (Vec2 arm : {Vec2{1, 0}, Vec2{0, 1}}) {
         s.canvas.move_to(d.axis - arm * (d.bore * 0.75));
         s.canvas.line_to(d.axis + arm * (d.bore * 0.75));

@@ -151,8 +151,9 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         draw_angle_arc(s);
         draw_base_line(s);
     }
-    draw_cam_speed(s);
+    if (!s.view) draw_cam_speed(s);
     bodies();
+    if (s.view) draw_cam_speed(s);  // in the plane of the front of the beam: the mount must not hide it
     if (!s.view && one) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);

@@ -116,6 +116,27 @@ TEST(SolidFilm, TheMountDoesNotSlideByItself) {
     EXPECT_TRUE(film.repeats(20));
 }
 
+// Films of a cam that turns the other way differ by the heads of the arrow, which no body hides.
+TEST(SolidFilm, TheArrowOfTheSpeedIsSeenFromBelow) {
+    SKIP_WITHOUT_GL();
+    for (const double yaw : {-1.1, 0.42, 1.0, 1.1})
+        for (const double pitch : {-0.8, -0.25}) {
+            FilmSetup setup = film_of(Style::solid);
+            setup.width = 1280, setup.height = 720;
+            setup.layout = LayoutNode{};
+            setup.view.show = {false, false, false, false, false, true};
+            setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
+            Film film(setup);
+            setup.problem.cam->speed *= -1;
+            Film other(setup);
+            const FrameGeometry g = film.geometry(0);
+            long heads = differing_pixels(drawn(film, 0), drawn(other, 0), g.layout.panels.front().box);
+            for (const Box& label : g.labels)
+                heads -= differing_pixels(drawn(film, 0), drawn(other, 0), label.inset(-12));
+            EXPECT_GT(heads, 100) << yaw << ", " << pitch;
+        }
+}
+
 // From any side all bodies are inside the panel.
 TEST(SolidFilm, ShowsEverythingFromAllSides) {
     SKIP_WITHOUT_GL();

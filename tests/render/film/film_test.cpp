@@ -271,6 +271,21 @@ TEST(LitFilm, LitBeamIsDrawnWhereItsGeometrySays) {
     }
 }
 
+// The mark of the axis C is in the bore of the disc; without paper it needs a ground of its own.
+TEST(LitFilm, TheBoreOfATransparentDiscIsFilled) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = test::synthetic_film({.duration = 0.1});
+    setup.width = 1280, setup.height = 720;
+    setup.view.transparent = true;
+    Film film(setup);
+    const Vec2 axis = film.geometry(0).camera.to_pixels(setup.pose(0).cam_centre);
+    const Image image = drawn(film, 0);
+    for (const Vec2 off : {Vec2{-4, -4}, {3, 3}}) {
+        const auto x = static_cast<std::size_t>(axis.x + off.x), y = static_cast<std::size_t>(axis.y + off.y);
+        EXPECT_EQ(image.pixels[y * 1280 + x] >> 24, 255U) << off.x;
+    }
+}
+
 TEST(LitFilm, ShapesKeepClearOfTheGround) {
     SKIP_WITHOUT_GL();
     const auto renderer = make_lit_renderer(101, 77);

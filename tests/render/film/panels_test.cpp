@@ -878,13 +878,15 @@ TEST(Labels, KeepClearOfMeasuredBeams) {
     for (const Box& label : with.labels) EXPECT_FALSE(label.contains({on_beam.x, on_beam.y, 0, 0}));
 }
 
-// The letter of an angle that has no arc is left out.
+// The letter of an angle is left out that has no arc, or one that the beam covers at all times.
 TEST(Labels, NoArcNoLetter) {
     FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
     setup.layout = LayoutNode{};
     const std::size_t usual = Film(setup).geometry(0).labels.size();
-    for (sim::Pose& pose : setup.poses) pose.theta = 0.001;
-    EXPECT_EQ(Film(setup).geometry(0).labels.size() + 1, usual);
+    for (const double theta : {0.001, 0.05}) {
+        for (sim::Pose& pose : setup.poses) pose.theta = theta;
+        EXPECT_EQ(Film(setup).geometry(0).labels.size() + 1, usual) << theta;
+    }
 }
 
 // A small picture makes the clock smaller rather than stating a number without its words.

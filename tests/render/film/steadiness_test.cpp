@@ -102,7 +102,8 @@ TEST(Steadiness, LabelsKeepTheirPlacesClearOfTheBeam) {
         return setup;
     };
     labels_keep_clear(turned(1.2, -40), 1, "fast beam");  // no place near its arc is free for the angle's letter
-    labels_keep_clear(turned(0.05, -0.1), 2, "small angle");
+    labels_keep_clear(turned(0.3, -0.1), 2, "small angle");
+    labels_keep_clear(turned(0.05, -0.1), 1, "an arc under the beam");
     labels_keep_clear(turned(-0.2, 4), 1, "through the horizontal");  // nor here, where the beam sweeps both sides
     FilmSetup tall = film_of(Style::flat, {.duration = 2});
     tall.width = 1080, tall.height = 1920;
