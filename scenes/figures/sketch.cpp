@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
+#include <vector>
 
 namespace beamcam::scenes {
 namespace {
@@ -16,23 +18,48 @@ struct DiscSymbols {
     double turning = 0;  // of the arrow ω, its middle
 };
 
-// The least distance between two of the labels R, ω, e, B and C, or between one and the arrow of another.
+constexpr double kTurn = 0.8;  // radius of the arrow ω
+
+// From C, on the side away from B or, where the rim is, on the other side; in letters.
+Vec2 beside_c(const sim::Cam& cam, double letter) {
+    const Vec2 along = sim::unit(cam.phase), across = sim::perp(along);
+    const bool at_rim = cam.eccentricity / cam.radius + 1.3 * letter > 1;
+    return (at_rim ? 0.85 : -0.85) * along + (at_rim ? -0.35 : 0.2) * across;
+}
+
+// First and last angle of the arrow ω.
+std::pair<double, double> turn_of(const sim::Cam& cam, const DiscSymbols& s) {
+    const double way = cam.speed > 0 ? -1 : 1;
+    return {s.turning - 0.9 * way + 0.2, s.turning + 0.5 * way + 0.2};
+}
+
+// The least distance between two of the labels R, ω, e, B and C, or between one of them and the lines of another, or
+// between lines. Lines may be nearer than labels.
 double room(const sim::Cam& cam, const DiscSymbols& s, double letter) {
     const Vec2 along = sim::unit(cam.phase), across = sim::perp(along);
     const Vec2 c = -cam.eccentricity / cam.radius * along;
     const Vec2 labels[] = {0.5 * s.radius + letter * s.radius_label,
                            (0.8 - 0.85 * letter) * sim::unit(s.turning + 0.05),
                            0.3 * across + 0.2 * along + letter * (0.6 * along + 0.1 * across),
-                           letter * (0.85 * along - 0.35 * across), c - letter * (0.85 * along - 0.2 * across)};
+                           letter * (0.85 * along - 0.35 * across), c + letter * beside_c(cam, letter)};
+    std::vector<Vec2> radius, turn, dimension{c};
+    for (int tenth = 2; tenth <= 10; ++tenth) radius.push_back(0.1 * tenth * s.radius);
+    const auto [from, to] = turn_of(cam, s);
+    for (int k = 0; k <= 12 && cam.speed != 0; ++k) turn.push_back(kTurn * sim::unit(from + (to - from) * k / 12));
+    for (const Vec2 foot : {c, Vec2{0, 0}})
+        for (int tenth = 1; tenth <= 3; ++tenth) dimension.push_back(foot + 0.1 * tenth * across);
+    dimension.push_back(c + 0.3 * across - 0.2 * along);
     double least = 1;
+    const auto keep = [&](Vec2 point, const std::vector<Vec2>& line, double nearer) {
+        for (const Vec2 p : line) least = std::min(least, norm(point - p) + nearer * letter);
+    };
     for (std::size_t a = 0; a < std::size(labels); ++a) {
         for (std::size_t b = 0; b < a; ++b) least = std::min(least, norm(labels[a] - labels[b]));
-        for (int tenth = 2; a > 0 && tenth <= 10; ++tenth)
-            least = std::min(least, norm(labels[a] - 0.1 * tenth * s.radius) + 0.3 * letter);
+        if (a != 0) keep(labels[a], radius, 0.3);
+        if (a != 1) keep(labels[a], turn, 0.3);
     }
-    for (const Vec2 foot : {c, Vec2{0, 0}})  // the lines of the dimension e
-        for (int tenth = 1; tenth <= 3; ++tenth)
-            least = std::min(least, norm(labels[0] - foot - 0.1 * tenth * across) + 0.3 * letter);
+    keep(labels[0], dimension, 0.3);
+    for (const Vec2 p : turn) keep(p, radius, 0.9), keep(p, dimension, 0.9);
     return least;
 }
 
@@ -75,19 +102,19 @@ void draw_disc_symbols(const sim::Cam& cam, Vec2 b, double zoom, double letter, 
     to.dot(c);
     to.dot(b, Sketch::kInk, 1.2);
     if (cam.eccentricity > 0)
-        to.label(c, "$C$", -0.85 * along + 0.2 * sim::perp(along));
+        to.label(c, "$C$", beside_c(cam, letter));
     else
         to.label(c, "$B$ = $C$", {-0.85, 0.9});
     if (cam.speed == 0) return;
-    const double way = cam.speed > 0 ? -1 : 1, r = 0.8 * radius;
+    const auto [from, end] = turn_of(cam, at);
     to.add({.kind = Sketch::Kind::turn,
             .centre = b,
-            .radius = r,
-            .from = at.turning - 0.9 * way + 0.2,
-            .to = at.turning + 0.5 * way + 0.2,
+            .radius = kTurn * radius,
+            .from = from,
+            .to = end,
             .color = Sketch::kInk,
             .width = 0.8});
-    to.label(b + r * sim::unit(at.turning + 0.1), "$ω$", -0.85 * sim::unit(at.turning));
+    to.label(b + kTurn * radius * sim::unit(at.turning + 0.1), "$ω$", -0.85 * sim::unit(at.turning));
 }
 
 }  // namespace beamcam::scenes
