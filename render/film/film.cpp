@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <stdexcept>
 #include <utility>
@@ -12,6 +11,7 @@
 #include "render/draw/markup.hpp"
 #include "render/film/caption_band.hpp"
 #include "render/film/clock_line.hpp"
+#include "render/film/color_bars.hpp"
 #include "render/film/mechanism_panel.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
@@ -58,7 +58,6 @@ struct Film::Prepared {
   private:
     void draw_background();
     void draw_header(Canvas& canvas);
-    void draw_color_bars(Canvas& canvas) const;
 };
 
 // What a thread keeps between frames. A frame is the accumulated layer (the background and what the panels added up to
@@ -116,7 +115,7 @@ void Film::Prepared::draw_background() {
     if (!setup.view.transparent) canvas.paint(context.palette->paper);
     if (shows(LayerOf::charts)) draw_header(canvas);
     for (const auto& panel : panels) panel->draw_background(canvas);
-    if (shows(LayerOf::charts)) draw_color_bars(canvas);
+    if (shows(LayerOf::charts)) draw_color_bars(canvas, context);
 }
 
 void Film::Prepared::draw_header(Canvas& canvas) {
@@ -143,54 +142,6 @@ void Film::Prepared::draw_header(Canvas& canvas) {
                      .align = HAlign::right,
                      .max_width = b->w});
 }
-
-void Film::Prepared::draw_color_bars(Canvas& canvas) const {
-    if (!context.places.scales || !context.places.first(PanelKind::mechanism)) return;
-    const double u = context.unit;
-    const Palette& palette = *context.palette;
-    const Box& b = *context.places.scales;
-    const TextStyle small{
-        .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
-    const std::string moment_title = context.translate("bending moment"),
-                      trace_title = context.translate(context.setup->view.trace == TraceColor::force
-                                                          ? "contact force, trace (√ scale)"
-                                                          : "age of the trace");
-    const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
-                                             context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));
-    const auto bar = [&](double right, const std::string& title, const auto& color, std::array<std::string, 3> marks) {
-        const Box strip{std::round(right - wide), std::round(b.y + 22 * u), wide, std::round(10 * u)};
-        for (int i = 0; i < static_cast<int>(strip.w); ++i) {
-            canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
-            canvas.fill(color((i + 0.5) / strip.w));
-        }
-        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, title, small);
-        for (std::size_t i = 0; i < 3; ++i) {
-            TextStyle style = small;
-            style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
-            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 19 * u + 0.3 * (context.tick - 17 * u)},
-                        marks[i], style);
-        }
-    };
-    double right = b.right();
-    if (context.force_scale > 0) {
-        const std::string top = quantity(context.force_scale, "N"),
-                          quarter = quantity(context.force_scale / 4, prefix_for(context.force_scale), "N");
-        if (context.setup->view.trace == TraceColor::force) {
-            bar(right, trace_title, [&](double s) { return force_color(palette, s); }, {"0", quarter, top});
-        } else {
-            const double half_life = trace_half_life(context.span), oldest = 4 * half_life;
-            bar(right, trace_title, [&](double s) { return age_color(palette, s * oldest, half_life); },
-                {"0", quantity(oldest / 2, prefix_for(oldest), "s", 2), quantity(oldest, "s", 2)});
-        }
-        right -= wide + 50 * u;
-    }
-    if (context.moment_scale > 0) {
-        const std::string top = quantity(context.moment_scale, "N\u2009m");
-        bar(right, moment_title, [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
-    }
-}
-
-// ---- moving parts ------------------------------------------------------------------------------
 
 // ---- the film --------------------------------------------------------------------------------
 

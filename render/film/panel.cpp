@@ -233,6 +233,7 @@ void FilmContext::choose_scales() {
         for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));
     }
     if (moment > 0) moment_scale = round_up_125(moment);
+    largest_force = force;
     if (force > 0) force_scale = round_up_125(force);
 }
 

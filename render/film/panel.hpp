@@ -36,6 +36,7 @@ struct FilmContext {
     }  // size of letters of headings and readings [px]
     TimeFormat time;
     double factor = 1;                              // exaggeration of deflection, the same for all motions
+    double largest_force = 0;                       // of the film [N]
     double force_scale = 0;                         // largest force of the film, rounded up; 0: no force [N]
     double arrow_scale = 0;                         // largest force of all frames [N]
     double moment_scale = 0;                        // end of the colour scale; 0: no colouring [N m]

@@ -1,0 +1,67 @@
+#include "render/film/color_bars.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+
+static constexpr double kOldest = 4;  // end of the scale of ages, in half-lives
+
+std::array<std::string, 3> trace_marks(const FilmContext& context) {
+    if (context.setup->view.trace == TraceColor::force) {
+        const Prefix prefix = prefix_for(context.largest_force);
+        return {"0", quantity(context.force_scale / 4, prefix, "N"), quantity(context.force_scale, prefix, "N")};
+    }
+    const double oldest = kOldest * trace_half_life(context.span);
+    const auto time = [&](double t) { return quantity(t, {"", context.time.unit}, context.time.symbol, 2); };
+    return {"0", time(oldest / 2), time(oldest)};
+}
+
+void draw_color_bars(Canvas& canvas, const FilmContext& context) {
+    if (!context.places.scales || !context.places.first(PanelKind::mechanism)) return;
+    const double u = context.unit;
+    const Palette& palette = *context.palette;
+    const Box& b = *context.places.scales;
+    const TextStyle small{
+        .size = 16 * u + 0.4 * (context.tick - 17 * u), .color = palette.muted, .align = HAlign::centre};
+    const std::string moment_title = context.translate("bending moment"),
+                      trace_title = context.translate(context.setup->view.trace == TraceColor::force
+                                                          ? "contact force, trace (√ scale)"
+                                                          : "age of the trace");
+    const double wide = std::round(std::max({250 * u, canvas.measure(moment_title, small).w,
+                                             context.force_scale > 0 ? canvas.measure(trace_title, small).w : 0}));
+    const auto bar = [&](double right, const std::string& title, const auto& color, std::array<std::string, 3> marks) {
+        const Box strip{std::round(right - wide), std::round(b.y + 22 * u), wide, std::round(10 * u)};
+        for (int i = 0; i < static_cast<int>(strip.w); ++i) {
+            canvas.rectangle({strip.x + i, strip.y, 1, strip.h});
+            canvas.fill(color((i + 0.5) / strip.w));
+        }
+        canvas.text({strip.x + strip.w / 2, strip.y - 8 * u}, title, small);
+        for (std::size_t i = 0; i < 3; ++i) {
+            TextStyle style = small;
+            style.align = i == 0 ? HAlign::left : i == 1 ? HAlign::centre : HAlign::right;
+            canvas.text({strip.x + 0.5 * double(i) * strip.w, strip.bottom() + 19 * u + 0.3 * (context.tick - 17 * u)},
+                        marks[i], style);
+        }
+    };
+    double right = b.right();
+    if (context.force_scale > 0) {
+        const double half_life = trace_half_life(context.span), oldest = kOldest * half_life;
+        const auto color = [&](double s) {
+            return context.setup->view.trace == TraceColor::force ? force_color(palette, s)
+                                                                  : age_color(palette, s * oldest, half_life);
+        };
+        bar(right, trace_title, color, trace_marks(context));
+        right -= wide + 50 * u;
+    }
+    if (context.moment_scale > 0) {
+        const std::string top = quantity(context.moment_scale, "N\u2009m");
+        bar(right, moment_title, [&](double s) { return moment_color(palette, 2 * s - 1); }, {"−" + top, "0", top});
+    }
+}
+
+}  // namespace beamcam::render
