@@ -59,7 +59,8 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
 
 Box MechanismView::label_area() const {
     const Box all = box.inset(4 * unit);
-    return {all.x, all.y, all.w, all.h - 34 * unit};
+    const double bar = context.setup->view.style == Style::solid ? 0 : 34 * unit;
+    return {all.x, all.y, all.w, all.h - bar};
 }
 
 Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base) const {

@@ -43,7 +43,7 @@ struct MechanismView {
     Vec2 seen(Vec2 flat, const Perspective* view) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, context.pose(whose, frame)); }
-    // Where a moving camera shows labels: above the scale bar.
+    // Where a moving camera shows labels: above the scale bar, which the solid view has not.
     Box label_area() const;
     // Box of a label in this view. It keeps its distance in pixels from its base or, with a moving camera, from `base`
     // [m]; a moving camera keeps it inside the view.

@@ -119,6 +119,19 @@ TEST(MechanismLabels, AreClearOfBodiesBeforeANearCamera) {
             }
 }
 
+// A camera that has not moved yet shows labels where a fixed one does, at the lower edge, too.
+TEST(MechanismLabels, HaveTheirPlacesBeforeTheCameraMoves) {
+    FilmSetup setup = film_of(Style::solid);
+    setup.width = 960, setup.height = 540;
+    const std::vector<Box> fixed = Film(setup).geometry(0).labels;
+    setup.moves = {{40, 20, Ease::smooth, setup.view.shot}};
+    setup.moves[0].shot.zoom = 4;
+    const std::vector<Box> before = Film(setup).geometry(0).labels;
+    ASSERT_FALSE(fixed.empty());
+    ASSERT_EQ(fixed.size(), before.size());
+    EXPECT_NEAR(norm(fixed[0].centre() - before[0].centre()), 0, 0.5);
+}
+
 // Captions keep their places while the beam passes them.
 TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
     for (const Style style : {Style::flat, Style::solid}) {
