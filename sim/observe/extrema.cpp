@@ -215,6 +215,7 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
 
 void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign,
                                  StepChannels::SampledStates& sampled, Extremum& e) {
+    step_.begin(s);  // as if nothing had been searched before
     const std::vector<SegmentInterval> parts = step_.parts(s);
     if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, sampled, e);
     // Vibrations of which too little reaches the channel need no parts.
