@@ -92,5 +92,13 @@ inline void sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
     sine = a + a * (a2 * s);
     cosine = (1 - 0.5 * a2) + a2 * (a2 * c);
 }
+// Of a rotation by small angles: exact to rounding up to kSmallRotation.
+inline constexpr double kSmallRotation = 0.01;  // [rad]
+inline void small_sine_and_cosine(const Lanes& a, Lanes& sine, Lanes& cosine) {
+    if (!(largest(a) < kSmallRotation)) return sine_and_cosine(a, sine, cosine);
+    const Lanes a2 = a * a;
+    cosine = 1 - a2 * (0.5 - a2 * (1.0 / 24));
+    sine = a * (1 - a2 * (1.0 / 6 - a2 * (1.0 / 120)));
+}
 
 }  // namespace beamcam::sim

@@ -57,8 +57,7 @@ inline constexpr double kDepthRounding = 4e-16;  // of the beam's length: two ro
 inline constexpr double kFastDecay = 5, kSteadyDecay = 2, kSteadyForce = 1e-2, kSlowestContraction = 0.03;
 inline constexpr double kStalled = 0.9, kContactGrowth = 2;
 inline constexpr int kContactPatience = 5;
-inline constexpr int kFootCorrections = 3;      // of the foot by Newton's method, from a foot nearby
-inline constexpr double kSmallRotation = 0.01;  // [rad] up to which a rotation by its series is exact to rounding
+inline constexpr int kFootCorrections = 3;  // of the foot by Newton's method, from a foot nearby
 
 // ---- the expansion of the contact ----
 // Of order p it errs by (β|x − centre|)^(p+1)/(p+1)! of what the mode contributes: this share of rtol at most.

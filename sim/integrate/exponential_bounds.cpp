@@ -134,6 +134,10 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
     const double axial = sum.stretch.value * sum.stretch.rate + a * sum.turn * sum.turn_rate;
     const double axial_acceleration = sum.stretch.rate * sum.stretch.rate + sum.stretch.value * sum.stretch.second +
                                       a * (sum.turn_rate * sum.turn_rate + sum.turn * sum.hub_second);
+    // The angle of natural modes is another one.
+    b.deflection = form_->by_arrays()
+                       ? sum.deflection.value + 0.5 * (sum.stretch.value * sum.stretch.value + a * sum.turn * sum.turn)
+                       : std::numeric_limits<double>::infinity();
     b.slope = sum.slope;
     b.curvature = sum.curvature * (1 + sum.slope);
     b.deflection_speed = std::max(sum.deflection_speed, sum.deflection.rate + axial + b.theta_dot * beyond);

@@ -100,6 +100,22 @@ double ExponentialSegment::theta_dot_at(double p, const double* x) const {
     return p / (form_->J + quadratic);
 }
 
+// ∫₀ˢ of the polynomial with these nodal values, in powers of z = 2s − 1.
+void ExponentialSegment::integrate(const Lanes& nodal, Integral& out) {
+    out[0] = 0;
+    for (std::size_t j = 0; j < kNodes; ++j) {
+        out[j + 1] = sum(Collocation::get().monomial[j] * nodal) / (2 * (static_cast<double>(j) + 1));
+        out[0] += j % 2 ? -out[j + 1] : out[j + 1];
+    }
+}
+
+double ExponentialSegment::integral(const Integral& of, double s) {
+    const double z = 2 * s - 1;
+    double value = of[kNodes];
+    for (std::size_t j = kNodes; j-- > 0;) value = value * z + of[j];
+    return value;
+}
+
 void ExponentialSegment::transpose() const {
     if (transposed_) return;
     transposed_ = true;
@@ -176,7 +192,7 @@ void ExponentialSegment::evolve(std::size_t g, double t, double s, Lanes& x, Lan
     const OscillatorLanes& group = form_->groups[g];
     if (has_fast(g)) {  // turned back first by the lag of the time that follows
         Lanes sine, cosine, w = from_q - steady_[g], dw = from_v - steady_rate_[g];
-        sine_and_cosine(tau * lag_[g], sine, cosine);
+        small_sine_and_cosine(tau * lag_[g], sine, cosine);
         turn_back(sine, cosine, group.damped_omega, group.gamma, w, dw);
         from_q = steady_[g] + w;
         from_v = steady_rate_[g] + dw;
@@ -186,11 +202,24 @@ void ExponentialSegment::evolve(std::size_t g, double t, double s, Lanes& x, Lan
 }
 
 double ExponentialSegment::coordinate(double t, std::size_t index, double* y) const {
-    if (!form_->by_arrays() || index == 0 || t == t1) return Segment::coordinate(t, index, y);
+    if (!form_->by_arrays() || t == t1) return Segment::coordinate(t, index, y);
+    if (index == 0) return frame_angle(t);
     const std::size_t mode = index - 1;
     Lanes x, dx;
     evolve(mode / kNodes, t, (t - t0) / h, x, dx);
     return x[static_cast<int>(mode % kNodes)];
+}
+
+void ExponentialSegment::coordinates(double t, double* y) const {
+    if (!form_->by_arrays() || t == t1) return value_without_ledger(t, y);
+    const double s = (t - t0) / h;
+    y[0] = frame_angle(t);
+    for (std::size_t g = 0; g < form_->groups.size(); ++g) {
+        Lanes x, dx;
+        evolve(g, t, s, x, dx);
+        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i)
+            y[1 + i] = x[static_cast<int>(i % kNodes)];
+    }
 }
 
 void ExponentialSegment::value(double t, double* y) const { evaluate(t, ledger_changes, y); }
@@ -203,8 +232,6 @@ void ExponentialSegment::evaluate(double t, bool ledger, double* y) const {
         return;
     }
     const double s = (t - t0) / h;
-    Lanes weights;
-    Collocation::get().weights_to(s, weights);
     double* rates = y + 1 + n_;
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes x, dx;
@@ -215,17 +242,34 @@ void ExponentialSegment::evaluate(double t, bool ledger, double* y) const {
         }
     }
     if (form_->prescribed) {
-        const HubMotion hub = drive_.motion(t);
-        y[0] = hub.angle;
-        rates[0] = hub.rate;
+        const HubMotion motion = drive_.motion(t);
+        y[0] = motion.angle;
+        rates[0] = motion.rate;
     } else {
-        y[0] = theta0 + h * sum(weights * theta_dot);
-        rates[0] = theta_dot_at(p0 + h * sum(weights * p_dot), y + 1);
+        y[0] = theta0 + h * integral(hub().turn, s);
+        rates[0] = theta_dot_at(p0 + h * integral(hub().momentum, s), y + 1);
     }
     for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);
-    if (ledger) ledger_at(t, s, weights, y);
+    if (ledger) {
+        Lanes weights;
+        Collocation::get().weights_to(s, weights);
+        ledger_at(t, s, weights, y);
+    }
     form_->to_coordinates(y);
+}
+
+double ExponentialSegment::frame_angle(double t) const {
+    return form_->prescribed ? drive_.motion(t).angle : theta0 + h * integral(hub().turn, (t - t0) / h);
+}
+
+const ExponentialSegment::Hub& ExponentialSegment::hub() const {
+    if (!hub_known_) {
+        hub_known_ = true;
+        integrate(theta_dot, hub_.turn);
+        integrate(p_dot, hub_.momentum);
+    }
+    return hub_;
 }
 
 }  // namespace beamcam::sim

@@ -3,6 +3,7 @@
 // MODEL.md §12.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <span>
 #include <vector>
@@ -21,6 +22,7 @@ class ExponentialSegment final : public StoredSegment {
     void value(double t, double* y) const override;
     void value_without_ledger(double t, double* y) const override;
     double coordinate(double t, std::size_t index, double* y) const override;
+    void coordinates(double t, double* y) const override;
     const MotionBounds* bounds() const override;
     const ModalBounds* modal_bounds() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
@@ -33,7 +35,7 @@ class ExponentialSegment final : public StoredSegment {
     // To be called whenever the numbers change.
     void changed() {
         expanded_ = -1;
-        transposed_ = false;
+        transposed_ = hub_known_ = false;
         bounds_known_ = modal_bounds_known_ = false;
     }
 
@@ -69,6 +71,14 @@ class ExponentialSegment final : public StoredSegment {
     // Calls visit(std::span<double>) on all numbers that determine `value`, `bounds` and `touch`, besides t0 and t1.
     template <class Visit>
     void each_number(Visit&& visit);
+    using Integral = std::array<double, kNodes + 1>;
+    static void integrate(const Lanes& nodal, Integral& out);
+    static double integral(const Integral& of, double s);
+    struct Hub {
+        Integral turn, momentum;  // of Θ̇ and ṗ
+    };
+    const Hub& hub() const;
+    double frame_angle(double t) const;  // t != t1
     void transpose() const;
     int last_point(double t, double s) const;
     bool has_fast(std::size_t group) const { return (group + 1) * kNodes > left_out.first(); }
@@ -111,6 +121,8 @@ class ExponentialSegment final : public StoredSegment {
     mutable std::vector<Largest> largest_;  // valid with `bounds_`
     mutable bool modal_bounds_known_ = false;
     mutable ModalBounds modal_bounds_;
+    mutable bool hub_known_ = false;
+    mutable Hub hub_;  // valid with `hub_known_`
     mutable int expanded_ = -1;
     // In lanes over eight modes, by group: q, q̇ and f at the nodes (`transposed_`) and q, q̇ at the start; derivatives
     // of f at the point `expanded_`. Where there are fast vibrations: their lag (0 of others)

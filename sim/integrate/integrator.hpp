@@ -22,6 +22,7 @@ enum class SegmentKind : int { none = 0, rk8 = 1, taylor = 2, exponential = 3 };
 // Bounds of magnitudes within a step that may span many periods of vibration.
 struct MotionBounds {
     double theta_dot = 0, theta_ddot = 0;  // Θ̇ [rad/s], Θ̈ [rad/s²]
+    double deflection = 0;                 // of any point from the straight beam at the angle Θ [m]; may be infinite
     double deflection_speed = 0;           // ∂v/∂t anywhere on the beam [m/s]
     double deflection_acceleration = 0;    // [m/s²]
     double slope_speed = 0;                // ∂²v/∂x∂t [1/s]
@@ -79,6 +80,8 @@ class Segment {
         value(t, y);
         return y[index];
     }
+    // All of the coordinates, the first components: the same bits. Others are undefined.
+    virtual void coordinates(double t, double* y) const { value(t, y); }
     // Appends the numbers that determine `value`, besides t0 and t1, to `out`; `none`: the segment cannot be stored.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     // Null for steps in which each component is a polynomial of degree `kDegree` at most.

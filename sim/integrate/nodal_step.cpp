@@ -133,8 +133,8 @@ void NodalStep::advance_angle(const Lanes& to) {
     const Lanes by = to - frame_angle_;
     frame_angle_ = to;
     if (!(largest(by) < kSmallRotation)) return evaluate_angle();
-    const Lanes b2 = by * by;
-    const Lanes c = 1 - b2 * (0.5 - b2 * (1.0 / 24)), s = by * (1 - b2 * (1.0 / 6 - b2 * (1.0 / 120)));
+    Lanes s, c;
+    small_sine_and_cosine(by, s, c);
     const Lanes sine = sin * c + cos * s;
     cos = cos * c - sin * s;
     sin = sine;

@@ -62,6 +62,21 @@ void ChannelEvaluator::set_gap(double gap) {
     placed_ = true;
 }
 
+// A prescribed hub has the angle of its drive.
+bool ChannelEvaluator::is_of_coordinates(Channel channel) const {
+    return channel.kind == ChannelKind::t || channel.kind == ChannelKind::q ||
+           (channel.kind == ChannelKind::theta && !system_.drive().prescribed());
+}
+
+double ChannelEvaluator::value_of_coordinates(Channel channel, double t, const double* y) {
+    if (channel.kind == ChannelKind::t) return t;
+    if (channel.kind == ChannelKind::q) return channel.index < system_.coordinates() ? y[channel.index] : kNan;
+    const double* row = system_.model().hub_row();
+    double theta = 0;
+    for (int i = 0; i < system_.coordinates(); ++i) theta += row[i] * y[i];
+    return theta;
+}
+
 double ChannelEvaluator::value(Channel channel) {
     if (needs_cam(channel.kind)) return system_.has_cam() ? value_with_cam(channel.kind) : kNan;
     switch (channel.kind) {

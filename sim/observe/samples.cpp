@@ -59,8 +59,14 @@ void SampleRecorder::evaluate_at(const SegmentInterval& s, double t) {
 const std::vector<double>& SampleRecorder::row(const SegmentInterval& s, double t,
                                                const std::vector<Channel>& channels) {
     const auto evaluate = [&](std::vector<double>& values) {
-        evaluate_at(s, t);
         values.clear();
+        if (std::ranges::all_of(channels, [&](Channel c) { return evaluator_.is_of_coordinates(c); })) {
+            s.segment->coordinates(std::max(t, s.from), y_.data());
+            for (const Channel channel : channels)
+                values.push_back(evaluator_.value_of_coordinates(channel, t, y_.data()));
+            return;
+        }
+        evaluate_at(s, t);
         for (const Channel channel : channels) values.push_back(evaluator_.value(channel));
     };
     if (shared_) return shared_->rows.get(t, channels, evaluate);

@@ -28,6 +28,7 @@ inline constexpr double kLebesgue = 2.6;      // ≥ 1 + (2/π) ln 12, Lebesgue 
 inline constexpr long kMaxAdvances = 100000;  // of conservative advancement through one step
 inline constexpr long kFirstAdvances = 2000;  // from here on the search stops if kMaxAdvances will not suffice
 inline constexpr double kShortestAdvanceShare = 1e-15;  // of the time: rounding
+inline constexpr double kWorthwhileAdvance = 1.0 / 32;  // of the step: the least by the distance of the straight beam
 inline constexpr int kMaxTouchIterations = 60;          // Newton's method with bisection
 inline constexpr double kTouchGap = 1e-16;              // of the cam's radius: rounding
 inline constexpr int kMaxOpeningHalvings = 24;  // of the first subinterval, in search of an open gap after a release

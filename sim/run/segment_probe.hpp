@@ -29,8 +29,10 @@ class SegmentProbe {
     }
     // Only foot, gap and gap rate, in flight.
     ContactState gap(const Segment& segment, double t, bool search) {
-        return gap_.evaluate(t, state(segment, t), search);
+        segment.value_without_ledger(t, y_.data());
+        return gap_.evaluate(t, y_.data(), search);
     }
+    double frame_angle(const Segment& segment, double t) { return segment.coordinate(t, 0, y_.data()); }
 
     int pieces(const Segment& segment) const;
     // Bounds of the coordinates in a segment: middle ± spread.

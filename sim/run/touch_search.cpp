@@ -98,6 +98,8 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
     if (lower_bound(segment.t0, 0, state_.y.data(), no_spread) > h * speed) return {};
 
     double t = segment.t0;
+    if (t != state_.phase_start) t = while_far(segment, bounds, t);
+    if (t == segment.t1) return {};
     ContactState c = probe_.gap(segment, t, true);
     const double far = problem().cam->radius + probe_.system.offset() + std::max(c.gap, 0.0) + h * speed;
     const double most = gap_acceleration_bound(bounds, far);
@@ -111,11 +113,31 @@ std::optional<double> TouchSearch::by_advancement(const Segment& segment, const 
         }
         c.gap = std::max(c.gap, 0.0);  // rounding at the release
     }
-    return advance(segment, t, c, most);
+    return advance(segment, t, c, bounds, most);
+}
+
+// An instant up to which the gap of the straight beam is so much larger than the deflection that nothing touches; the
+// gap is not evaluated for it. Ends where this no longer advances by a good part of the step.
+double TouchSearch::while_far(const Segment& segment, const MotionBounds& bounds, double t) {
+    if (!std::isfinite(bounds.deflection)) return t;
+    const Cam& cam = *problem().cam;
+    const double speed = bounds.theta_dot * reach() + cam.eccentricity * std::fabs(cam.speed);
+    const double worth = bounds.deflection + kWorthwhileAdvance * (segment.t1 - segment.t0) * speed;
+    const double none[kMaxSize] = {};
+    double straight[kMaxSize] = {};
+    while (t < segment.t1) {
+        straight[0] = probe_.frame_angle(segment, t);
+        const double gap = lower_bound(t, 0, straight, none) - bounds.deflection;
+        if (!(gap > worth)) return t;
+        if (gap > (segment.t1 - t) * speed) return segment.t1;
+        t += gap / speed;
+    }
+    return segment.t1;
 }
 
 // Advances from t, with the gap c.gap and |g̈| <= most.
-std::optional<double> TouchSearch::advance(const Segment& segment, double t, ContactState c, double most) {
+std::optional<double> TouchSearch::advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
+                                           double most) {
     const double h = segment.t1 - segment.t0;
     for (long count = 0; count < kMaxAdvances; ++count) {
         if (count % kEvaluationsPerReport == kEvaluationsPerReport - 1) report_(segment.t0);
@@ -130,7 +152,7 @@ std::optional<double> TouchSearch::advance(const Segment& segment, double t, Con
             return falling(segment, t, c, latest);
         }
         const double safe = (c.gap_rate + std::sqrt(c.gap_rate * c.gap_rate + 2 * most * c.gap)) / most;
-        const double next = t + std::max(safe, kShortestAdvanceShare * t);
+        const double next = while_far(segment, bounds, t + std::max(safe, kShortestAdvanceShare * t));
         if (next >= segment.t1) return {};
         t = next;
         c = probe_.gap(segment, t, false);

@@ -20,7 +20,9 @@ class TouchSearch {
   private:
     std::optional<double> by_pieces(const Segment& segment, double end, int count);
     std::optional<double> by_advancement(const Segment& segment, const MotionBounds& bounds);
-    std::optional<double> advance(const Segment& segment, double t, ContactState c, double most);
+    double while_far(const Segment& segment, const MotionBounds& bounds, double t);
+    std::optional<double> advance(const Segment& segment, double t, ContactState c, const MotionBounds& bounds,
+                                  double most);
     std::optional<double> by_resolving(const Segment& segment);
     std::optional<double> falling(const Segment& segment, double t, ContactState c, double latest);
     bool opens(const Segment& segment, double t);

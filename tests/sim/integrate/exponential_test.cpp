@@ -704,6 +704,9 @@ TEST(ExponentialFlight, HasTheSameStateWithoutTheLedger) {
             segment.value(t, whole.data());
             segment.value_without_ledger(t, part.data());
             EXPECT_TRUE(std::equal(whole.begin(), whole.begin() + controlled, part.begin())) << repeat << ", " << share;
+            segment.coordinates(t, part.data());
+            EXPECT_TRUE(std::equal(whole.begin(), whole.begin() + flight.system.coordinates(), part.begin()));
+            EXPECT_EQ(segment.coordinate(t, 0, part.data()), whole[0]);
         }
     }
 }
