@@ -60,8 +60,8 @@ class Captions {
         const double radius = norm(out), side = dot(from - centre, Vec2{-out.y, out.x}) < 0 ? -1 : 1;
         if (!(radius > 0)) return std::nullopt;
         const Vec2 along = Vec2{-out.y, out.x} * (side / radius);
-        for (double far = 0.4; far < 4; far += 0.2)
-            if (const Vec2 at = to + along * (far * radius); !crosses(rim, from, at)) return at;
+        for (int fifths = 2; fifths < 20; ++fifths)
+            if (const Vec2 at = to + along * (0.2 * fifths * radius); !crosses(rim, from, at)) return at;
         return std::nullopt;
     }
 

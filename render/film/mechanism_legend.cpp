@@ -48,8 +48,16 @@ void MechanismLegend::place(OccupancyGrid room) {
 // In the first form that fits into the panel clear of moving parts, else in the one that is covered least. A list that
 // would hide the mechanism is left out.
 void MechanismLegend::place_names(Canvas& canvas, OccupancyGrid& room) {
-    static constexpr Form kForms[] = {{1, 1},   {1, 0.8}, {1, 0.8, false, 2}, {2, 1},         {2, 0.8},
-                                      {3, 0.8}, {4, 0.8}, {2, 0.8, true},     {3, 0.8, true}, {1, 0.8, false, 1, true}};
+    static constexpr Form kForms[] = {{1, 1},
+                                      {1, 0.8},
+                                      {1, 0.8, 2},
+                                      {2, 1},
+                                      {2, 0.8},
+                                      {3, 0.8},
+                                      {4, 0.8},
+                                      {2, 0.8, 1, true},
+                                      {3, 0.8, 1, true},
+                                      {1, 0.8, 1, false, true}};
     constexpr double kFree = 0.01, kApart = 0.1, kMost = 0.3;  // covered shares
     double least = entries().size() > 1 ? kMost : 1;
     for (const Form& form : kForms) {
@@ -88,7 +96,8 @@ std::optional<MechanismLegend::Placed> MechanismLegend::placed(Canvas& canvas, O
     const Box all = form.apart ? Box{} : add(whole);
     for (std::size_t first = 0; first < count; first += rows) {
         const std::size_t names = std::min(rows, count - first);
-        const double before = width * static_cast<double>(first / rows);
+        const std::size_t column = first / rows;
+        const double before = width * static_cast<double>(column);
         out.blocks.push_back(
             {form.apart ? add(size_of(1, names)) : Box{all.x + before, all.y, width, all.h}, first, names});
     }

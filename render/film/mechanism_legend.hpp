@@ -29,13 +29,13 @@ class MechanismLegend {
         double width = 6;  // of its line [design px]
         std::vector<double> dash = {};
     };
-    // How the names are arranged: the number of columns, side by side or each at its own place; the size of everything;
-    // the lines of a name; whether long names are cut.
+    // How the names are arranged: the number of columns; the size of everything; the lines of a name; whether each
+    // column has its own place, or stands beside the others; whether long names are cut.
     struct Form {
         std::size_t columns = 1;
         double size = 1;
-        bool apart = false;
         std::size_t lines = 1;
+        bool apart = false;
         bool cut = false;
     };
     struct Block {  // a column of names

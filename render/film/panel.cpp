@@ -156,7 +156,7 @@ double FilmContext::shown_factor(Channel channel) const {
 }
 
 std::string FilmContext::shown_unit(Channel channel) const {
-    const std::string si = sim::unit(channel, setup->problem);
+    std::string si = sim::unit(channel, setup->problem);
     if (si == "m/s^2") return "m/s²";
     if (shown_factor(channel) == 1) return si;
     return si == "rad" ? "°" : setup->units.rpm ? "rpm" : "°/s";
