@@ -60,12 +60,13 @@ void add_ends_of_contacts(const FilmContext& context, std::vector<Instant>& all)
 }
 
 // Whether linear interpolation from `a` to `b` reproduces `between`.
-bool reproduces(const Instant& a, const Instant& b, const Instant& between, double length) {
+bool reproduces(const Instant& a, const Instant& b, const Instant& between, double length, double largest_force) {
     const double share = (between.t - a.t) / (b.t - a.t);
     const auto off = [&](double x, double y, double z) { return std::abs(x + (y - x) * share - z); };
     if (off(a.theta, b.theta, between.theta) > kPageTolerance) return false;
     if (off(a.cam_angle, b.cam_angle, between.cam_angle) > kPageTolerance) return false;
     if ((a.force > 0) != (between.force > 0) || (b.force > 0) != (between.force > 0)) return false;
+    if (off(a.force, b.force, between.force) > kPageForceTolerance * largest_force) return false;
     for (std::size_t i = 0; i < between.points.size(); ++i)
         if (norm(a.points[i] + (b.points[i] - a.points[i]) * share - between.points[i]) > kPageTolerance * length)
             return false;
@@ -75,12 +76,13 @@ bool reproduces(const Instant& a, const Instant& b, const Instant& between, doub
 // The instants to store: greedily the longest steps that reproduce all instants between.
 std::vector<Instant> thinned_instants(std::vector<Instant> all, double length) {
     constexpr std::size_t kLongest = 200;
+    const double force = std::ranges::max(all, {}, &Instant::force).force;
     std::vector<Instant> out{all.front()};
     for (std::size_t from = 0; from + 1 < all.size();) {
         std::size_t to = from + 1;
         const auto fits = [&](std::size_t end) {
             for (std::size_t i = from + 1; i < end; ++i)
-                if (!reproduces(all[from], all[end], all[i], length)) return false;
+                if (!reproduces(all[from], all[end], all[i], length, force)) return false;
             return true;
         };
         while (to + 1 < all.size() && to - from < kLongest && fits(to + 1)) ++to;

@@ -183,10 +183,17 @@ FrameRate rate_of_page(FrameRate fps, double from, double to) {
 }
 
 FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
-    return with_moves(p,
-                      p.kind == Pictures::Kind::still ? still_times(p.at, motion, scales_until(p), p.collisions)
-                                                      : film_times(p.span, p.end_time, motion, p.collisions),
-                      motion);
+    const auto times = [&] {
+        switch (p.kind) {
+            case Pictures::Kind::still:
+                return still_times(p.at, motion, scales_until(p), p.collisions);
+            case Pictures::Kind::page:
+                return page_times(p.span, p.end_time, motion);
+            default:
+                return film_times(p.span, p.end_time, motion, p.collisions);
+        }
+    };
+    return with_moves(p, times(), motion);
 }
 
 void choose_frames(Pictures& p, const FilmTimes& times) {

@@ -35,9 +35,10 @@ std::string omitted_panels(const Picture& picture) {
     return out;
 }
 
-// A strip of one collision at a time needs more rows than one of the whole time.
+// A strip of one collision at a time needs more rows than one of the whole time, a page more instants.
 bool shows_collisions(const Pictures& p, const sim::Problem& problem) {
-    return p.compare.empty() && problem.cam &&
+    if (!p.compare.empty() || !problem.cam) return false;
+    return p.kind == Pictures::Kind::page ||
            std::ranges::any_of(panels_of(p, problem), &render::PanelSpec::by_collision);
 }
 

@@ -203,6 +203,18 @@ std::vector<double> rows_of_collisions(const sim::Result& motion, double from, d
     return out;
 }
 
+// Rows that resolve the force of impacts; fewer if there are many impacts.
+std::vector<double> rows_of_impacts(const sim::Result& motion, double from, double to) {
+    std::vector<double> out;
+    const int count = std::clamp(int(kFinePoints / std::max(1.0, double(motion.impacts.size()))), 4, 1000);
+    for (const sim::Impact& i : motion.impacts) {
+        const double low = std::max(from, i.t_start),
+                     high = std::min({to, i.t_end.value_or(to), low + kLongestCollision});
+        for (int k = 0; low < high && k <= count; ++k) out.push_back(std::lerp(low, high, double(k) / count));
+    }
+    return out;
+}
+
 // The end of the collision at `t` with a short margin; `t` if there is none.
 double end_of_collision(const sim::Result& motion, double t) {
     std::optional<int> which;
@@ -260,6 +272,12 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
     }
     if (collisions) merge(out.chart, rows_of_collisions(motion, span.from, to));
     out.survey = surveyed(span.from, to);
+    return out;
+}
+
+FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion) {
+    FilmTimes out = film_times(span, end_time, motion);
+    merge(out.frames, rows_of_impacts(motion, span.from, span.to.value_or(end_time)));
     return out;
 }
 

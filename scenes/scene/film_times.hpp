@@ -33,6 +33,8 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
 // `slowed`: impacts of all compared motions, for slow motion; "impact:3" counts those of `motion`.
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions = false);
+// The instants of a page: those of `span`, and more within impacts, so that the force is known between them.
+FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion);
 // `until`: end of the motion that determines the scales [s].
 FilmTimes still_times(const Instant& at, const sim::Result& motion, double until, bool collisions = false);
 

@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
@@ -98,6 +99,40 @@ TEST(Page, ForcesBeginAndEndWithTheirContacts) {
                     ++found;
                 }
     EXPECT_EQ(found, 2 * static_cast<int>(setup.impacts.size()));
+}
+
+// Between poses of a millisecond most of an impact would be missed.
+TEST(Page, StatesTheForceOfImpacts) {
+    const testing::Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.6}})");
+    ASSERT_EQ(testing::shell(folder, "$BEAMCAM render s.json -o s.html").code, 0);
+    const nlohmann::json d = data_of(testing::slurp(folder / "s.html"));
+    const auto times = decoded<std::uint32_t>(d["times"]);
+    const auto values = decoded<float>(d["values"]);
+    const double tick = d["tick"];
+
+    sim::Request impacts;
+    impacts.end_time = 0.6;
+    const sim::Result motion = sim::simulate({}, impacts);
+    ASSERT_FALSE(motion.impacts.empty());
+    sim::Request forces;
+    forces.tables.push_back({{}, {*sim::channel_named("contact_force")}});
+    for (const sim::Impact& i : motion.impacts)
+        for (double share = 0.03; share < 1; share += 0.07)
+            forces.tables.front().times.push_back(i.t_start + share * (i.t_end.value_or(0.6) - i.t_start));
+    const std::vector<double> at = forces.tables.front().times;
+    const std::vector<double> expected = sim::simulate({}, forces).tables.front().values.front();
+    const double largest = std::ranges::max(expected);
+    EXPECT_GT(largest, 100);
+    for (std::size_t k = 0; k < at.size(); ++k) {
+        const double t = at[k];
+        const auto after = static_cast<std::size_t>(
+            std::ranges::upper_bound(times, t, {}, [&](std::uint32_t ticks) { return ticks * tick; }) - times.begin());
+        ASSERT_LT(after, times.size());
+        const double low = times[after - 1] * tick, share = (t - low) / (times[after] * tick - low),
+                     force = values[3 * after - 1] * (1 - share) + values[3 * after + 2] * share;
+        EXPECT_NEAR(force, expected[k], 5e-3 * largest) << t;
+    }
 }
 
 TEST(Page, TheSameMotionGivesTheSameBytes) {
