@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <ranges>
+#include <set>
 
 namespace beamcam::render {
 namespace {
@@ -10,28 +12,60 @@ namespace {
 constexpr double kRing = 0.4;             // lifetime of a ring [s]
 constexpr std::ptrdiff_t kMostRings = 6;  // at once
 
+struct ShownImpact {
+    int frame = 0;       // the first frame that shows it
+    bool brief = false;  // it is shorter than two frames
+};
+
+std::vector<double> frame_times(const FilmContext& context, int member) {
+    std::vector<double> out;
+    for (int k = 0; k < context.frames(); ++k) out.push_back(context.at(member, k));
+    return out;
+}
+
+// None of an impact before the first frame or after the last one.
+std::optional<ShownImpact> shown_impact(const std::vector<double>& times, const sim::Impact& impact) {
+    const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
+    if (first == times.end() || (first == times.begin() && *first > impact.t_start)) return std::nullopt;
+    const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
+    return ShownImpact{static_cast<int>(first - times.begin()), times.size() > 1 && after - first < 2};
+}
+
 }  // namespace
+
+double largest_held_peak(const FilmContext& context, int member) {
+    if (!context.setup->view.show.labels) return 0;
+    const std::vector<double> times = frame_times(context, member);
+    std::map<int, double> strongest;  // contact of each collision
+    std::set<int> held;               // collisions
+    for (const sim::Impact& impact : context.motion(member).impacts) {
+        const auto shown = shown_impact(times, impact);
+        if (!shown) continue;
+        double& force = strongest[impact.collision];
+        force = std::max(force, impact.force_peak.value_or(0));
+        if (shown->brief) held.insert(impact.collision);
+    }
+    double out = 0;
+    for (const int collision : held) out = std::max(out, strongest[collision]);
+    return out;
+}
 
 void ImpactRings::find(const MechanismView& at) {
     frames_ = kRing * at.context.setup->fps;
     labelled_ = at.labelled();
     radius_ = at.problem().cam ? at.problem().cam->radius : 0;
-    std::vector<double> times;
-    for (int k = 0; k < at.context.frames(); ++k) times.push_back(at.context.at(at.member, k));
+    const std::vector<double> times = frame_times(at.context, at.member);
     for (const sim::Impact& impact : at.motion().impacts) {
-        const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
-        if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
-        const int frame = static_cast<int>(first - times.begin());
-        const sim::Pose pose = at.context.pose(at.member, frame);
+        const auto shown = shown_impact(times, impact);
+        if (!shown) continue;
+        const sim::Pose pose = at.context.pose(at.member, shown->frame);
         const DrawnBeam b = at.drawn(at.member, pose);
         if (!b.contact) continue;
         const Vec2 n = b.contact->normal;
-        const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
-        const bool brief = times.size() > 1 && after - first < 2;
-        rings_.push_back({frame,
+        rings_.push_back({shown->frame,
                           std::atan2(n.y, n.x) - pose.cam_angle,
                           {b.contact->on_disc, n, impact.force_peak.value_or(0), true},
-                          brief,
+                          shown->brief,
                           impact.collision});
     }
 }

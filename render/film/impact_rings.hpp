@@ -8,6 +8,9 @@
 
 namespace beamcam::render {
 
+// Of the peaks that ImpactRings::peak() holds in a motion's panel; 0 if there is none [N].
+double largest_held_peak(const FilmContext& context, int member);
+
 class ImpactRings {
   public:
     void find(const MechanismView& at);  // collects the impacts of the motion

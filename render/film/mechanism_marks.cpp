@@ -48,7 +48,7 @@ double speed_gap(const MechanismView& at) { return 20 * at.unit; }
 
 double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit / speed_radius(at)); }
 
-// In proportion to the force.
+// In proportion to the force, peaks that are held included.
 double arrow_length(const MechanismView& at, const ForceArrow& arrow) {
     return force_arrow_length(std::min(1.0, arrow.force / at.context.arrow_scale), at.small, at.marks);
 }

@@ -190,7 +190,7 @@ std::string html_page(const FilmSetup& setup) {
         R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
         json_text(plain_text(setup.title)), context.factor, kPageTolerance * length, length, thickness,
-        problem.hub.radius, context.arrow_scale, setup.units.degrees, colors, cam_json(context), impacts_json(context),
+        problem.hub.radius, context.frame_force, setup.units.degrees, colors, cam_json(context), impacts_json(context),
         numbers_json(thinned_instants(std::move(all), length)));
     std::string page(player_html());
     for (const auto& [mark, text] : {std::pair<std::string, std::string>{

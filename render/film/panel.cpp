@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "render/base/error.hpp"
+#include "render/film/impact_rings.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
 #include "render/plot/user_text.hpp"
@@ -227,7 +228,9 @@ void FilmContext::choose_scales() {
         if (flexible && largest > negligible) moment = std::max(moment, largest);
     }
     if (!std::isfinite(factor)) factor = 1;
-    arrow_scale = force;
+    frame_force = arrow_scale = force;
+    const int held = setup->comparison == Comparison::ghosts ? 1 : members();  // ghosts have no arrows
+    for (int m = 0; m < held; ++m) arrow_scale = std::max(arrow_scale, largest_held_peak(*this, m));
     for (int m = 0; m < members(); ++m) {
         for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) force = std::max(force, s.force);
         for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));

@@ -38,7 +38,8 @@ struct FilmContext {
     double factor = 1;                              // exaggeration of deflection, the same for all motions
     double largest_force = 0;                       // of the film [N]
     double force_scale = 0;                         // largest force of the film, rounded up; 0: no force [N]
-    double arrow_scale = 0;                         // largest force of all frames [N]
+    double frame_force = 0;                         // largest force of all frames [N]
+    double arrow_scale = 0;                         // largest force of an arrow, peaks that are held included [N]
     double moment_scale = 0;                        // end of the colour scale; 0: no colouring [N m]
     ViewExtent extent;                              // of all mechanisms
     Range span;                                     // time from the first to the last instant of frames and charts [s]

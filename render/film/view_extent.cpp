@@ -84,7 +84,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
                 for (Vec2 p : {beam.face(i), beam.back(i)}) extent.beams.add(p), strip.push_back(p);
             if ((m == 0 || !ghosts) && shows_force(pose, beam))
                 extent.arrows.push_back({beam.contact->on_disc, beam.contact->normal,
-                                         std::min(1.0, pose.nearest->force / context.arrow_scale), depth});
+                                         std::min(1.0, pose.nearest->force / context.frame_force), depth});
         };
         for (std::size_t k = 0; k < (still || one.exposures > 1 ? one.exposures : 0); ++k) show(one.pose(0, k), false);
         for (std::size_t k = 0; k < one.surveyed(); ++k) {

@@ -18,7 +18,7 @@ struct FilmContext;
 struct ViewExtent {
     struct ForceArrow {
         Vec2 foot, normal;  // [m]; from the cam to the beam
-        double share = 0;   // fraction of the film's largest force, 0…1
+        double share = 0;   // fraction of the largest force of all frames, 0…1
         double depth = 0;   // depth of the beam between contact and label [m]
     };
     Bounds beams;                               // of the drawn beams [m]

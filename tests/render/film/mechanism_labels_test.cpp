@@ -182,6 +182,37 @@ TEST(ImpactRings, ThePeakStaysOnTheDisc) {
     EXPECT_GT(held, 10);
 }
 
+// Peaks above all forces of the frames have arrows in proportion, too; the largest one has the longest arrow.
+TEST(ImpactRings, ArrowsOfPeaksAreInProportionToTheirForces) {
+    FilmSetup setup = film_of(Style::flat);
+    const double frames = FilmContext(std::make_shared<const FilmSetup>(setup)).frame_force;
+    ASSERT_GT(frames, 0);
+    sim::Impact strong, weak;
+    strong.t_start = 0.1, strong.t_end = 0.101, strong.force_peak = 4 * frames, strong.collision = 1;
+    weak.t_start = 0.7, weak.t_end = 0.701, weak.force_peak = 1.5 * frames, weak.collision = 2;
+    setup.impacts = {strong, weak};
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const MechanismView at(context, *context.places.first(PanelKind::mechanism));
+    ImpactRings rings;
+    rings.find(at);
+    const auto peak = [&](double t) {
+        const int frame = static_cast<int>(std::ceil(t * setup.fps));
+        return rings.peak(frame, context.pose(0, frame));
+    };
+    const auto first = peak(0.101), second = peak(0.701);
+    ASSERT_TRUE(first && second);
+    EXPECT_DOUBLE_EQ(first->force, 4 * frames);
+    EXPECT_DOUBLE_EQ(second->force, 1.5 * frames);
+    const double longest = force_arrow_length(1, at.small, at.marks);
+    EXPECT_NEAR(arrow_length(at, *first), longest, 1e-9);
+    EXPECT_NEAR(arrow_length(at, *second), longest * 1.5 / 4, 1e-9);
+
+    setup.impacts[0].t_end = 0.3;  // longer than two frames: no arrow shows its peak
+    EXPECT_DOUBLE_EQ(FilmContext(std::make_shared<const FilmSetup>(setup)).arrow_scale, 1.5 * frames);
+    setup.view.show.labels = false;  // nor any other one
+    EXPECT_DOUBLE_EQ(FilmContext(std::make_shared<const FilmSetup>(setup)).arrow_scale, frames);
+}
+
 // The names of many motions stay inside their panel, in whatever form.
 TEST(MechanismLegend, StaysWithinItsPanel) {
     for (const auto& [width, height] : {std::pair{1280, 720}, {640, 360}, {320, 180}, {200, 200}}) {
