@@ -33,8 +33,10 @@ std::optional<ShownImpact> shown_impact(const std::vector<double>& times, const 
 
 }  // namespace
 
-double largest_held_peak(const FilmContext& context, int member) {
+double largest_held_peak(const FilmContext& context, const PanelSlot& slot) {
+    if (slot.spec.kind != PanelKind::mechanism || is_small(slot.box, context.unit)) return 0;
     if (!context.setup->view.show.labels) return 0;
+    const int member = std::min(slot.spec.member, context.members() - 1);
     const std::vector<double> times = frame_times(context, member);
     std::map<int, double> strongest;  // contact of each collision
     std::set<int> held;               // collisions

@@ -8,8 +8,8 @@
 
 namespace beamcam::render {
 
-// Of the peaks that ImpactRings::peak() holds in a motion's panel; 0 if there is none [N].
-double largest_held_peak(const FilmContext& context, int member);
+// Of the peaks that ImpactRings::peak() holds in this panel; 0 if there is none [N].
+double largest_held_peak(const FilmContext& context, const PanelSlot& slot);
 
 class ImpactRings {
   public:

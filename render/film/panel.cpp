@@ -114,6 +114,8 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     if (!setup->layout) places = layout(setup->width, setup->height, standard(*setup), mechanisms, extent, shown);
     unit = places.unit;
     tick = places.tick;
+    arrow_scale = frame_force;
+    for (const PanelSlot& slot : places.panels) arrow_scale = std::max(arrow_scale, largest_held_peak(*this, slot));
     if (setup->logo) place_logo();
     std::vector<double> times;
     for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
@@ -228,9 +230,7 @@ void FilmContext::choose_scales() {
         if (flexible && largest > negligible) moment = std::max(moment, largest);
     }
     if (!std::isfinite(factor)) factor = 1;
-    frame_force = arrow_scale = force;
-    const int held = setup->comparison == Comparison::ghosts ? 1 : members();  // ghosts have no arrows
-    for (int m = 0; m < held; ++m) arrow_scale = std::max(arrow_scale, largest_held_peak(*this, m));
+    frame_force = force;
     for (int m = 0; m < members(); ++m) {
         for (const TraceSample& s : samples[static_cast<std::size_t>(m)]) force = std::max(force, s.force);
         for (const sim::Impact& i : motion(m).impacts) force = std::max(force, i.force_peak.value_or(0));

@@ -209,8 +209,11 @@ TEST(ImpactRings, ArrowsOfPeaksAreInProportionToTheirForces) {
 
     setup.impacts[0].t_end = 0.3;  // longer than two frames: no arrow shows its peak
     EXPECT_DOUBLE_EQ(FilmContext(std::make_shared<const FilmSetup>(setup)).arrow_scale, 1.5 * frames);
-    setup.view.show.labels = false;  // nor any other one
-    EXPECT_DOUBLE_EQ(FilmContext(std::make_shared<const FilmSetup>(setup)).arrow_scale, frames);
+    FilmSetup bare = setup, small = setup;  // which hold no peaks
+    bare.view.show.labels = false;
+    small.width = 200, small.height = 112;
+    for (const FilmSetup& each : {bare, small})
+        EXPECT_DOUBLE_EQ(FilmContext(std::make_shared<const FilmSetup>(each)).arrow_scale, frames) << each.width;
 }
 
 // The names of many motions stay inside their panel, in whatever form.
