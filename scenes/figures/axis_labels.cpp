@@ -20,6 +20,7 @@ std::string symbol_of(const std::string& name) {
                                                              {"contact.stiffness", "$K$"},
                                                              {"gravity", "$g$"},
                                                              {"beam.length", "$L$"},
+                                                             {"hub.drive.value", "$τ$"},
                                                              {"initial.angle", "$θ_{0}$"},
                                                              {"initial.angular_velocity", "$\\dot{θ}_{0}$"},
                                                              {"theta", "$θ$"},

@@ -24,8 +24,12 @@ std::string usual_diagram(const Scene& scene);
 // The values of the key "value" for this diagram and the scene's sweep.
 std::vector<std::string> diagram_values(std::string_view diagram, const Scene& scene);
 
-// "ω = 45.2 rad/s: period 2, 3 impacts", without markup. `decimals`: of the value; absent: six significant digits.
-std::string point_text(const Swept& swept, std::uint64_t point, std::optional<int> decimals, Lang lang);
+// The fewest decimals that distinguish values, the same for all, so that texts do not jump between "44.9667" and "45".
+// None for values too large or too close for plain decimals.
+std::optional<int> decimals_of(std::vector<double> values);
+// "$ω$ = 45.2 rad/s: period 2 turns, 3 impacts", with symbol and unit of a GrowingDiagram's axis, for
+// render/plot/user_text.hpp. `shown`: the values in SI units whose texts have the same number of decimals.
+std::string point_text(const Swept& swept, std::uint64_t point, std::vector<double> shown, Lang lang);
 
 // The bifurcation diagram of a film, of which each frame shows more points.
 class GrowingDiagram {

@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <iterator>
 #include <optional>
-#include <set>
 #include <vector>
 
 #include "output/data/sweep_data.hpp"
@@ -81,23 +80,6 @@ std::string omitted_texts(const Size& size) {
     return fmt::format("{}", fmt::join(missing, ", "));
 }
 
-// The same for all values of a film, so that its texts do not jump between "44.9667" and "45"; enough to distinguish
-// neighbours. None for values too large or too close for plain decimals.
-std::optional<int> decimals_of(const std::vector<SweepShot>& shots, const output::SweepData& data) {
-    constexpr int kMost = 6;
-    constexpr double kLargest = 1e5;
-    std::set<double> values;
-    for (const SweepShot& shot : shots) values.insert(data.place(shot.point)[0]);
-    double least = kLargest;
-    for (auto it = values.begin(); it != values.end(); ++it) {
-        if (std::abs(*it) >= kLargest) return {};
-        if (it != values.begin()) least = std::min(least, *it - *std::prev(it));
-    }
-    const int decimals = values.size() < 2 ? 1 : static_cast<int>(std::ceil(1 - std::log10(least)));
-    if (decimals > kMost) return {};
-    return std::max(decimals, 0);
-}
-
 class SweepFilm {
   public:
     SweepFilm(const SweepFilmOutput& how, const Scene& scene, const output::SweepData& data)
@@ -107,7 +89,7 @@ class SweepFilm {
           grid_(scene),
           order_(sweep_order(grid_)),
           shots_(sweep_shots(how, grid_, order_)),
-          decimals_(decimals_of(shots_, data)),
+          decimals_(decimals_of(shown_values())),
           halves_(halves_of(how.size)),
           figure_(figure_output()),
           diagram_({&grid_.scene(), &data}, figure_, order_.place) {}
@@ -155,10 +137,15 @@ class SweepFilm {
         return options;
     }
 
+    std::vector<double> shown_values() const {
+        std::vector<double> values;
+        for (const SweepShot& shot : shots_) values.push_back(data_.place(shot.point)[0]);
+        return values;
+    }
     render::FilmSetup setup_of(const SweepShot& shot) const {
         render::FilmSetup setup = setup_;
         setup.problem = shot.problem;
-        setup.title = point_text({&grid_.scene(), &data_}, shot.point, decimals_, how_.lang);
+        setup.title = point_text({&grid_.scene(), &data_}, shot.point, shown_values(), how_.lang);
         setup.width = static_cast<int>(halves_.beam.w), setup.height = static_cast<int>(halves_.beam.h);
         setup.fps = how_.fps.value();
         setup.view.style = how_.style;
@@ -168,7 +155,7 @@ class SweepFilm {
         setup.view.show = kBesideDiagram;
         setup.layout = render::LayoutNode{};
         setup.units = scene_.units;
-        setup.speed_decimals = decimals_;
+        if (data_.axes[0].name == "cam.speed") setup.speed_decimals = decimals_;
         setup.poses = shot.poses;
         setup.impacts = shot.impacts;
         const double speed = how_.turns * cam_period(shot.problem);  // of time
@@ -217,7 +204,7 @@ class SweepFilm {
     const SweepGrid grid_;
     const SweepOrder order_;
     std::vector<SweepShot> shots_;
-    const std::optional<int> decimals_;  // of the values in texts
+    const std::optional<int> decimals_;  // of the values in SI units
     const Halves halves_;
     const FigureOutput figure_;
     const GrowingDiagram diagram_;

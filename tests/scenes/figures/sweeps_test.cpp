@@ -19,6 +19,7 @@ using sim::AttractorClass;
 using ::testing::Each;
 using ::testing::HasSubstr;
 using ::testing::SizeIs;
+using ::testing::StartsWith;
 
 SweepGrid grid(const std::string& sweep) {
     return SweepGrid(*testing::read(R"({"beam": {"model": "rigid"}, "sweep": )" + sweep + "}").scene);
@@ -127,8 +128,35 @@ TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
     // Whatever is shown, the points are all there, so that limits and dots stay.
     EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[0].x, (std::vector<double>{1, 1, 2, 2, 3, 3}));
     EXPECT_EQ(diagram.until(0, 1).panels[0].clouds[1].x, (std::vector<double>{3, 3, 2, 2, 1, 1}));
-    EXPECT_EQ(point_text(swept, 2, {}, Lang::en), "ω = 3 rad/s: period 1 turn, 2 impacts");
-    EXPECT_EQ(point_text(swept, 2, 2, Lang::zh), "ω = 3.00 rad/s：周期 1 圈，碰撞 2 次");
+}
+
+TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
+    using enum AttractorClass;
+    const auto text = [&](const std::string& over, std::uint64_t point, Lang lang = Lang::en) {
+        const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
+        const output::SweepData points = data(keys, {periodic});
+        return point_text({&keys.scene(), &points}, point, points.axes[0].values, lang);
+    };
+    const std::string periodic_text = ": period 1 turn, 2 impacts";
+    const std::string speeds = R"("key": "cam.speed", "values": [1, 2.25, 3])";
+    EXPECT_EQ(text(speeds, 2), "$ω$ = 3.00\u00A0rad/s" + periodic_text);
+    EXPECT_EQ(text(speeds, 2, Lang::zh), "$ω$ = 3.00\u00A0rad/s：周期 1 圈，碰撞 2 次");
+    EXPECT_EQ(text(R"("key": "cam.eccentricity", "from": 0.001, "to": 0.003, "count": 11)", 6),
+              "$e$ = 2.2\u00A0mm" + periodic_text);
+    EXPECT_EQ(text(R"("key": "contact.restitution", "from": 0.3, "to": 0.6, "count": 11)", 6),
+              "$c_{\\r{r}}$ = 0.48" + periodic_text);
+    EXPECT_EQ(text(R"("key": "initial.angular_velocity", "values": [-1.5, 2])", 0),
+              "$\\dot{θ}_{0}$ = −1.5\u00A0rad/s" + periodic_text);
+    EXPECT_THAT(text(R"("key": "contact.stiffness", "values": [1e6, 2e6])", 1), StartsWith("$K$ = 2×10⁶\u00A0N"));
+}
+
+TEST(GrowingDiagram, HasTheFewestDecimalsThatDistinguishValues) {
+    EXPECT_EQ(decimals_of({30, 35, 40}), 0);
+    EXPECT_EQ(decimals_of({0.3, 0.33, 0.36}), 2);
+    EXPECT_EQ(decimals_of({44.0 + 29 / 30.0, 45, 45 + 1 / 30.0}), 3);
+    EXPECT_EQ(decimals_of({45, 45}), 0);
+    EXPECT_EQ(decimals_of({1e6, 2e6}), std::nullopt);
+    EXPECT_EQ(decimals_of({1, 1 + 1e-9}), std::nullopt);
 }
 
 TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
