@@ -6,6 +6,7 @@
 #include <optional>
 #include <utility>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/figures/swept_points.hpp"
@@ -172,8 +173,10 @@ GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, cons
     });
     if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
-    for (Panel& each : whole_.panels) each.x.short_numbers = true;  // the unit of `point_text`
-    whole_.panels.front().legend = Legend::above;                   // inside the plot it would move as the plot fills
+    const output::SweepAxis& axis = points.axis(0);
+    const bool prefixed = measure_of(axis.unit, largest_magnitude(axis.values)).unit != axis.unit;
+    for (Panel& each : whole_.panels) each.x.short_numbers = prefixed;  // the unit of `point_text`
+    whole_.panels.front().legend = Legend::above;  // inside the plot it would move as the plot fills
     const std::vector<std::optional<std::size_t>> cells = strip_cells(points);
     cells_.assign(whole_.panels.back().cells[0].colors.size(), 0);
     for (std::size_t k = 0; k < cells.size(); ++k)

@@ -264,7 +264,9 @@ std::string point_text(const Swept& swept, std::uint64_t point, std::vector<doub
     const SweptPoints points(swept, lang);
     const output::StoredPoint p = points.data.read(point);
     const output::SweepAxis& axis = points.axis(0);
-    const Measure measure = measure_of(axis.unit, largest_magnitude(axis.values));
+    const Measure measure = points.scale(0) == render::Scale::linear
+                                ? measure_of(axis.unit, largest_magnitude(axis.values))
+                                : Measure{1, axis.unit};
     for (double& each : shown) each *= measure.factor;
     const double value = points.data.place(point)[0] * measure.factor;
     const std::optional<int> decimals = decimals_of(std::move(shown));
