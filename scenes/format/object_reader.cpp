@@ -131,13 +131,13 @@ void ObjectReader::keyword(const Key& key, const std::vector<std::string>& words
 void ObjectReader::object(const Key& key, const Fields& fields, const char*, bool* present) {
     const Node* node = take(key);
     if (!node) return;
-    if (present && node->kind == Node::Kind::null) {
-        *present = false;
-        return;
+    if (present) {
+        const bool none = node->kind == Node::Kind::null;
+        if (!none && node->kind != Node::Kind::object)
+            return expect(*node, key.name, "an object {{ … }}, or null for no {}", key.name);
+        *present = !none;
+        if (none) return;
     }
-    if (present && node->kind != Node::Kind::object)
-        return expect(*node, key.name, "an object {{ … }}, or null for no {}", key.name);
-    if (present) *present = true;
     ObjectReader reader = inside(*node, key.name);
     fields(reader);
     reader.finish();

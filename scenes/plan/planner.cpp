@@ -49,6 +49,8 @@ sim::PoseRequest survey() {
     return request;
 }
 
+constexpr double kCurveStray = 2e-3;  // of the range: two pixels of a panel that fills a frame of 1080 lines
+
 // The curve that a panel draws from the chart's table.
 std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vector<render::PanelSpec>& panels) {
     for (const render::PanelSpec& panel : panels)
@@ -160,7 +162,7 @@ void Planner::add_requests(const Pictures& p, Study& motion) const {
     motion.request.end_time = p.end_time;
     motion.request.horizon = p.horizon;
     motion.request.poses = {{}, survey()};
-    motion.request.tables = {{{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem))}};
+    motion.request.tables = {{{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem)), kCurveStray}};
     if (motion.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
 }
 

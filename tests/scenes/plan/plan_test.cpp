@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "scenes/scene/files.hpp"
+#include "sim/run/simulate.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -85,6 +86,28 @@ TEST(Plan, TableRowsAreMultiplesOfThePeriodAndTheEnd) {
                     .simulation->request.tables[0]
                     .times,
                 ElementsAre(0, 0.5));
+}
+
+// Of ten seconds, in which rows at equal distances of time miss the peaks of the third mode.
+TEST(Plan, ThePhasePortraitReachesThePeaksOfVibration) {
+    const Plan p = plan_of(R"([{"type": "still", "at": 9.99, "layout": "phase"}])",
+                           R"("time": {"end": 10}, "beam": {"modes": 3},)");
+    const sim::Table drawn =
+        sim::simulate(p.pictures[0].shown.front().problem, shown_by(p.pictures[0])).tables[kChartTable];
+    const auto column = [&](sim::ChannelKind kind) {
+        const auto at = std::ranges::find(drawn.channels, sim::Channel{kind, 0}) - drawn.channels.begin();
+        return drawn.values.at(static_cast<std::size_t>(at));
+    };
+    const std::vector<double> t = column(sim::ChannelKind::t), rate = column(sim::ChannelKind::theta_dot);
+    sim::Request all;
+    all.tables.push_back({{}, {{sim::ChannelKind::theta_dot, 0}}});
+    for (double at = 0.8426; at < 0.8434; at += 1e-6) all.tables.front().times.push_back(at);
+    const double peak =
+        std::ranges::max(sim::simulate(p.pictures[0].shown.front().problem, all).tables.front().values.front());
+    double reached = 0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+        if (t[i] > 0.8426 && t[i] < 0.8434) reached = std::max(reached, rate[i]);
+    EXPECT_NEAR(reached, peak, 2e-3 * (std::ranges::max(rate) - std::ranges::min(rate)));
 }
 
 TEST(Plan, AFlatViewNeedsNoOpenGl) {
