@@ -260,16 +260,18 @@ std::optional<int> decimals_of(std::vector<double> values) {
     return {};
 }
 
-std::string point_text(const Swept& swept, std::uint64_t point, std::vector<double> shown, Lang lang) {
+std::optional<int> point_decimals(const Swept& swept, std::vector<double> shown, Lang lang) {
+    const double factor = SweptPoints(swept, lang).measure(0).factor;
+    for (double& each : shown) each *= factor;
+    return decimals_of(std::move(shown));
+}
+
+std::string point_text(const Swept& swept, std::uint64_t point, std::optional<int> decimals, Lang lang) {
     const SweptPoints points(swept, lang);
     const output::StoredPoint p = points.data.read(point);
     const output::SweepAxis& axis = points.axis(0);
-    const Measure measure = points.scale(0) == render::Scale::linear
-                                ? measure_of(axis.unit, largest_magnitude(axis.values))
-                                : Measure{1, axis.unit};
-    for (double& each : shown) each *= measure.factor;
+    const Measure measure = points.measure(0);
     const double value = points.data.place(point)[0] * measure.factor;
-    const std::optional<int> decimals = decimals_of(std::move(shown));
     const std::string number =
         decimals ? render::fixed(value, *decimals) : render::to_plain(beamcam::scenes::number(value, 6));
     const std::string symbol = symbol_of(axis.name);  // markup of a bare name is no formula

@@ -27,9 +27,11 @@ std::vector<std::string> diagram_values(std::string_view diagram, const Scene& s
 // The fewest decimals that distinguish values, the same for all, so that texts do not jump between "44.9667" and "45".
 // None for values too large or too close for plain decimals.
 std::optional<int> decimals_of(std::vector<double> values);
+// The same in the unit of a GrowingDiagram's axis; `shown` in SI units.
+std::optional<int> point_decimals(const Swept& swept, std::vector<double> shown, Lang lang);
 // "$ω$ = 45.2 rad/s: period 2 turns, 3 impacts", with symbol and unit of a GrowingDiagram's axis, for
-// render/plot/user_text.hpp. `shown`: the values in SI units whose texts have the same number of decimals.
-std::string point_text(const Swept& swept, std::uint64_t point, std::vector<double> shown, Lang lang);
+// render/plot/user_text.hpp. `decimals`: of the value; absent: six significant digits.
+std::string point_text(const Swept& swept, std::uint64_t point, std::optional<int> decimals, Lang lang);
 
 // The bifurcation diagram of a film, of which each frame shows more points.
 class GrowingDiagram {

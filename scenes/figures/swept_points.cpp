@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "render/base/error.hpp"
-#include "scenes/figures/axis_labels.hpp"
 
 namespace beamcam::scenes {
 
@@ -43,6 +42,12 @@ constexpr std::string_view kApproach = "v_n_before";
 
 SweptPoints::SweptPoints(const Swept& swept, Lang how)
     : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {}
+
+Measure SweptPoints::measure(std::size_t i) const {
+    const output::SweepAxis& axis = this->axis(i);
+    return scale(i) == render::Scale::linear ? measure_of(axis.unit, largest_magnitude(axis.values))
+                                             : Measure{1, axis.unit};
+}
 
 render::Scale SweptPoints::scale(std::size_t i) const {
     return scene.sweep->over[i].logarithmic ? render::Scale::logarithmic : render::Scale::linear;

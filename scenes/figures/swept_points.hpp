@@ -7,6 +7,7 @@
 
 #include "output/data/sweep_data.hpp"
 #include "render/plot/figure.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/scene/scene.hpp"
@@ -21,6 +22,7 @@ class SweptPoints {
     std::uint64_t seeds() const { return starts_.size(); }
     SeedKind seed(std::uint64_t point) const { return starts_[point % starts_.size()]; }
     render::Scale scale(std::size_t i) const;
+    Measure measure(std::size_t i) const;  // of the values of an axis in texts: with a prefix if it is linear
     // Of the samples; throws PictureError.
     std::size_t column(const std::string& name) const;
     bool of_impacts() const { return scene.sweep->sampling.kind == sim::SampleKind::impacts; }

@@ -90,6 +90,7 @@ class SweepFilm {
           order_(sweep_order(grid_)),
           shots_(sweep_shots(how, grid_, order_)),
           decimals_(decimals_of(shown_values())),
+          title_decimals_(point_decimals({&grid_.scene(), &data}, shown_values(), how.lang)),
           halves_(halves_of(how.size)),
           figure_(figure_output()),
           diagram_({&grid_.scene(), &data}, figure_, order_.place) {}
@@ -145,7 +146,7 @@ class SweepFilm {
     render::FilmSetup setup_of(const SweepShot& shot) const {
         render::FilmSetup setup = setup_;
         setup.problem = shot.problem;
-        setup.title = point_text({&grid_.scene(), &data_}, shot.point, shown_values(), how_.lang);
+        setup.title = point_text({&grid_.scene(), &data_}, shot.point, title_decimals_, how_.lang);
         setup.width = static_cast<int>(halves_.beam.w), setup.height = static_cast<int>(halves_.beam.h);
         setup.fps = how_.fps.value();
         setup.view.style = how_.style;
@@ -204,7 +205,7 @@ class SweepFilm {
     const SweepGrid grid_;
     const SweepOrder order_;
     std::vector<SweepShot> shots_;
-    const std::optional<int> decimals_;  // of the values in SI units
+    const std::optional<int> decimals_, title_decimals_;  // of the values in SI units, and in the unit of the titles
     const Halves halves_;
     const FigureOutput figure_;
     const GrowingDiagram diagram_;

@@ -135,7 +135,8 @@ TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
     const auto text = [&](const std::string& over, std::uint64_t point, Lang lang = Lang::en) {
         const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
         const output::SweepData points = data(keys, {periodic});
-        return point_text({&keys.scene(), &points}, point, points.axes[0].values, lang);
+        const Swept swept{&keys.scene(), &points};
+        return point_text(swept, point, point_decimals(swept, points.axes[0].values, lang), lang);
     };
     const std::string periodic_text = ": period 1 turn, 2 impacts";
     const std::string speeds = R"("key": "cam.speed", "values": [1, 2.25, 3])";
