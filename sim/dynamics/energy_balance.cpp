@@ -26,7 +26,7 @@ System::EnergyBalance System::energy_balance(double t, const double* y, double g
 System::EnergyBalance System::energy_balance(double t, const double* y) {
     EnergyBalance b = mechanical_balance(t, y);
     double normal = 0, bristle_energy = 0;
-    if (phase_.touching) {
+    if (phase_.touching && (!phase_.held || has_bristle())) {
         const ContactState c = current_contact(t, y, false);
         normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
         if (has_bristle()) {

@@ -88,7 +88,23 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
         offer_end(s, c, extrema[c]);
         if (const auto range = range_within(s, c, extrema[c])) collect(s, c, *range, kept, extrema[c]);
     }
+    if (kept_numbers_ > drop_at_) drop_beaten(extrema);
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
+}
+
+// Most steps of a contact promise more than those before, until the next one. What the best values have beaten since
+// goes, before it fills memory that would be new to the process.
+void ExtremaFinder::drop_beaten(const std::vector<Extremum>& extrema) {
+    for (std::size_t c = 0; c < channels_.size(); ++c)
+        for (const double sign : {1.0, -1.0}) {
+            const double to_beat = best_so_far(channels_[c].kind, sign, extrema[c]).to_beat();
+            std::erase_if(candidates_[c][sign > 0 ? 0 : 1].steps,
+                          [&](const Candidate& candidate) { return candidate.high <= to_beat; });
+        }
+    std::erase_if(kept_, [](const auto& step) { return step.use_count() == 1; });
+    kept_numbers_ = 0;
+    for (const auto& step : kept_) kept_numbers_ += step->numbers.size();
+    drop_at_ = 2 * kept_numbers_ + kNumbersPerDrop;
 }
 
 // Keeps the step if the channel may exceed its best value within; a step that cannot be kept is searched now.
@@ -148,7 +164,9 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     if (modes.known_at_nodes(channel, nodes) && offer_nodes(s, nodes, e) && is_beaten(range, channel.kind, e))
         return std::nullopt;
     if (step_.polynomial() && !is_separation(channel.kind)) return step_.sampled_range(s, channel, sampled_);
-    return mode ? range : modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
+    if (mode) return range;
+    const ModalChannels::Range closer = modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
+    return ModalChannels::Range{std::max(range.low, closer.low), std::min(range.high, closer.high)};
 }
 
 // The dense output of a polynomial errs most in the middle of the step; twice that covers the rest.
@@ -166,6 +184,7 @@ std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const Segment
     step->kind = s.segment->numbers(step->numbers);
     numbers_of_step_ = std::max(numbers_of_step_, step->numbers.size());
     kept_numbers_ += step->numbers.size();
+    kept_.push_back(step);
     return step;
 }
 
@@ -175,7 +194,9 @@ void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     for (std::size_t c = 0; c < channels_.size(); ++c)
         for (const double sign : {1.0, -1.0})
             search_candidates(c, sign, candidates_[c][sign > 0 ? 0 : 1].steps, extrema[c]);
+    kept_.clear();
     kept_numbers_ = 0;
+    drop_at_ = kNumbersPerDrop;
     set_phase(phase);
 }
 

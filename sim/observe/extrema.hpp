@@ -65,6 +65,7 @@ class ExtremaFinder {
     void collect(const SegmentInterval& s, std::size_t channel, const ModalChannels::Range& range,
                  std::shared_ptr<const KeptStep>& kept, Extremum& e);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
+    void drop_beaten(const std::vector<Extremum>& extrema);
     void search_kept(std::vector<Extremum>& extrema);
     void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
     void search_parts(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
@@ -88,7 +89,8 @@ class ExtremaFinder {
     long incomplete_ = 0, halvings_left_ = kHalvingsOfRun, evaluations_ = 0;
 
     std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum
-    std::size_t kept_numbers_ = 0, numbers_of_step_ = 0;
+    std::vector<std::shared_ptr<const KeptStep>> kept_;  // all that candidates share
+    std::size_t kept_numbers_ = 0, numbers_of_step_ = 0, drop_at_ = kNumbersPerDrop;
     long kept_steps_ = 0;
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> stored_;
     const KeptStep* loaded_ = nullptr;
