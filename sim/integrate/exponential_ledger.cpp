@@ -1,7 +1,8 @@
 // The energy balance within a step of the exponential collocation, including vibration that the nodes do not resolve.
 // MODEL.md §12.
-#include <algorithm>
+#include <array>
 #include <cmath>
+#include <utility>
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/exponential_segment.hpp"
@@ -20,8 +21,48 @@ Lanes ExponentialSegment::resolved_rate(std::size_t i) const {
     return d.slow * h < kResolvedRadians ? (-d.slow / d.apart()) * (v[i] + d.fast * q[i]) : Lanes{};
 }
 
-// ∫₀ˢ g q̇ for a polynomial g(z), z = 2s − 1, and the part of q̇ that the nodes do not resolve.
-double ExponentialSegment::work_on(std::size_t i, const double* g, double s, const double* y) const {
+// Σ c_j zʲ with z = 2s − 1, so that dz/dt = 2/h.
+struct ExponentialSegment::Polynomial {
+    std::array<double, kNodes> c{};
+
+    static Polynomial through(const Lanes& nodal) {
+        Polynomial p;
+        for (std::size_t j = 0; j < kNodes; ++j) p.c[j] = sum(Collocation::get().monomial[j] * nodal);
+        return p;
+    }
+    double operator()(double z) const {
+        double value = 0;
+        for (std::size_t j = kNodes; j-- > 0;) value = value * z + c[j];
+        return value;
+    }
+    void add(double factor, const Polynomial& p) {
+        for (std::size_t j = 0; j < kNodes; ++j) c[j] += factor * p.c[j];
+    }
+    Polynomial derivative(double h) const {
+        Polynomial d;
+        for (std::size_t j = 0; j + 1 < kNodes; ++j) d.c[j] = static_cast<double>(j + 1) * c[j + 1] * (2 / h);
+        return d;
+    }
+};
+
+// ∫ a b dt, from z = 0 on.
+struct ExponentialSegment::ProductIntegral {
+    std::array<double, 2 * kNodes> c{};
+
+    ProductIntegral(const Polynomial& a, const Polynomial& b, double h) {
+        for (std::size_t i = 0; i < kNodes; ++i)
+            for (std::size_t j = 0; j < kNodes; ++j) c[i + j + 1] += a.c[i] * b.c[j];
+        for (std::size_t k = 1; k < c.size(); ++k) c[k] *= 0.5 * h / static_cast<double>(k);
+    }
+    double operator()(double z) const {
+        double value = 0;
+        for (std::size_t k = c.size(); k-- > 0;) value = value * z + c[k];
+        return value;
+    }
+};
+
+// ∫₀ˢ g q̇ for a polynomial g and the part of q̇ that the nodes do not resolve.
+double ExponentialSegment::work_on(std::size_t i, const Polynomial& g, double s, const double* y) const {
     if (!decays(form_->oscillators[i])) return work_on_vibration(i, g, s, y);
     const double fast = work_on_decay(i, true, g, s, y);
     const bool slow_resolved = decays_of(form_->oscillators[i]).slow * h < kResolvedRadians;
@@ -29,39 +70,25 @@ double ExponentialSegment::work_on(std::size_t i, const double* g, double s, con
 }
 
 // The part −r x of q̇: ẋ = −rx + cf has a polynomial solution; the decaying rest is integrated by parts.      (S52a)
-double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const double* g, double s, const double* y) const {
+double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const Polynomial& g, double s,
+                                         const double* y) const {
     const Decays d = decays_of(form_->oscillators[i]);
     const double r = fast ? d.fast : d.slow, other = fast ? d.slow : d.fast, c = (fast ? -1 : 1) / d.apart();
-    double particular[kNodes] = {}, derived[kNodes];
-    for (std::size_t j = 0; j < kNodes; ++j) derived[j] = sum(Collocation::get().monomial[j] * f[i]);
-    const auto derive = [&](double* polynomial) {
-        for (int j = 0; j + 1 < kNodes; ++j) polynomial[j] = (j + 1) * polynomial[j + 1] * (2 / h);
-        polynomial[kNodes - 1] = 0;
-    };
+    Polynomial particular, derived = Polynomial::through(f[i]);
     double factor = c / r;
-    for (int k = 0; k < kNodes; ++k) {
-        for (int j = 0; j < kNodes; ++j) particular[j] += factor * derived[j];
-        derive(derived);
-        factor /= -r;
+    for (int k = 0; k < kNodes; ++k, factor /= -r) {
+        particular.add(factor, derived);
+        derived = derived.derivative(h);
     }
+    const ProductIntegral steady(g, particular, h);
     const auto integral = [&](double z, double x) {
-        double power[2 * kNodes];
-        power[0] = 1;
-        for (int j = 1; j < 2 * kNodes; ++j) power[j] = power[j - 1] * z;
-        double total = 0;
-        for (int a = 0; a < kNodes; ++a) {
-            x -= particular[a] * power[a];
-            for (int b = 0; b < kNodes; ++b) total += g[a] * particular[b] * power[a + b + 1] / (a + b + 1);
-        }
-        total *= 0.5 * h;
-        double poly[kNodes];
-        std::copy_n(g, kNodes, poly);
+        double total = steady(z);
+        x -= particular(z);
+        Polynomial poly = g;
         for (int k = 0; k < kNodes; ++k) {
-            double value = 0;
-            for (int j = 0; j < kNodes; ++j) value += poly[j] * power[j];
             x /= r;
-            total -= value * x;
-            derive(poly);
+            total -= poly(z) * x;
+            poly = poly.derivative(h);
         }
         return total;
     };
@@ -69,51 +96,38 @@ double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const double*
     return -r * (integral(2 * s - 1, x1) - integral(-1, x0));
 }
 
-// Below critical damping: the particular solution is a polynomial, and the free vibration v_h is integrated by parts
-// against g.                                                                                              (S54)
-double ExponentialSegment::work_on_vibration(std::size_t i, const double* g, double s, const double* y) const {
+// The motion that follows the forcing f without vibration: Σ c_j f⁽ʲ⁾, a polynomial.
+ExponentialSegment::Polynomial ExponentialSegment::steady_motion(std::size_t i) const {
     const Oscillator& o = form_->oscillators[i];
-    const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
-    double particular[kNodes] = {}, speed[kNodes] = {}, derived[kNodes];
-    for (std::size_t j = 0; j < kNodes; ++j) derived[j] = sum(Collocation::get().monomial[j] * f[i]);
+    const double w2 = o.omega * o.omega;
+    Polynomial steady, derived = Polynomial::through(f[i]);
     double c = 1 / w2, before = 0;
     for (int k = 0; k < kNodes; ++k) {
-        for (int j = 0; j < kNodes; ++j) particular[j] += c * derived[j];
-        for (int j = 0; j + 1 < kNodes; ++j) derived[j] = (j + 1) * derived[j + 1] * (2 / h);
-        derived[kNodes - 1] = 0;
-        for (int j = 0; j < kNodes; ++j) speed[j] += c * derived[j];
-        const double next = -(2 * o.gamma * c + before) / w2;
-        before = c;
-        c = next;
+        steady.add(c, derived);
+        derived = derived.derivative(h);
+        before = std::exchange(c, -(2 * o.gamma * c + before) / w2);
     }
+    return steady;
+}
+
+// Below critical damping: the free vibration v_h about the steady motion is integrated by parts against g.  (S54)
+double ExponentialSegment::work_on_vibration(std::size_t i, const Polynomial& g, double s, const double* y) const {
+    const Oscillator& o = form_->oscillators[i];
+    const double w2 = o.omega * o.omega;
+    const Polynomial steady = steady_motion(i), speed = steady.derivative(h);
+    const ProductIntegral of_steady(g, speed, h);
     const auto integral = [&](double z, double x, double dx) {
-        double power[2 * kNodes];
-        power[0] = 1;
-        for (int j = 1; j < 2 * kNodes; ++j) power[j] = power[j - 1] * z;
-        double total = 0, qp = 0, vp = 0;
-        for (int a = 0; a < kNodes; ++a) {
-            qp += particular[a] * power[a];
-            vp += speed[a] * power[a];
-            for (int b = 0; b < kNodes; ++b) total += g[a] * speed[b] * power[a + b + 1] / (a + b + 1);
-        }
-        total *= 0.5 * h;
-        double poly[kNodes];
-        std::copy_n(g, kNodes, poly);
-        double low = dx - vp, high = x - qp, sign = 1;  // V₀ = v_h, V₁ = q_h, V_{k+1} = −(V_{k−1} + 2γV_k)/ω²
+        double total = of_steady(z);
+        double low = dx - speed(z), high = x - steady(z);  // V₀ = v_h, V₁ = q_h, V_{k+1} = −(V_{k−1} + 2γV_k)/ω²
+        Polynomial poly = g;
         for (int k = 0; k < kNodes; ++k) {
-            double value = 0;
-            for (int j = 0; j < kNodes; ++j) value += poly[j] * power[j];
-            total += sign * value * high;
-            sign = -sign;
-            for (int j = 0; j + 1 < kNodes; ++j) poly[j] = (j + 1) * poly[j + 1] * (2 / h);
-            poly[kNodes - 1] = 0;
-            const double next = -(low + 2 * o.gamma * high) / w2;
-            low = high;
-            high = next;
+            total += (k % 2 ? -1 : 1) * poly(z) * high;
+            poly = poly.derivative(h);
+            low = std::exchange(high, -(low + 2 * o.gamma * high) / w2);
         }
         return total;
     };
-    return integral(2 * s - 1, x1, dx1) - integral(-1, q0[i], v0[i]);
+    return integral(2 * s - 1, y[1 + i], y[2 + n_ + i]) - integral(-1, q0[i], v0[i]);
 }
 
 // Loss of one mode up to s: the fall of its energy and the work of the forcing, ∫2γmv² = m{E(0) − E(t) + ∫f v},
@@ -124,15 +138,10 @@ double ExponentialSegment::structural_loss(std::size_t i, double s, const double
     const double w2 = o.omega * o.omega, x1 = y[1 + i], dx1 = y[2 + n_ + i];
     const double fell = 0.5 * (v0[i] * v0[i] - dx1 * dx1 + w2 * (q0[i] * q0[i] - x1 * x1));
     if (resolved(i)) return form_->mass * fell;
-    double force[kNodes];
-    for (std::size_t j = 0; j < kNodes; ++j) force[j] = sum(Collocation::get().monomial[j] * f[i]);
-    double work = work_on(i, force, s, y);
+    double work = work_on(i, Polynomial::through(f[i]), s, y);
     if (left_out.contains(i)) {
-        double last = x1, start = q0[i], power = 1 / w2, sign = 1 / w2;
-        for (int j = 0; j < kNodes; ++j, power *= 2 * s - 1, sign = -sign) {
-            last -= force[j] * power;
-            start -= force[j] * sign;
-        }
+        const Polynomial steady = steady_motion(i);
+        const double last = x1 - steady(2 * s - 1), start = q0[i] - steady(-1);
         work += 0.5 * left_out.stiffness(i) * (last * last - start * start);
     }
     return form_->mass * (fell + work);
@@ -143,8 +152,8 @@ double ExponentialSegment::torque_on_vibration(double s, const double* y) const 
     const Collocation& gauss = Collocation::get();
     Lanes torque;
     for (int k = 0; k < kNodes; ++k) torque[k] = drive_.torque(t0 + h * gauss.c[k]);
-    double polynomial[kNodes], work = 0;
-    for (std::size_t j = 0; j < kNodes; ++j) polynomial[j] = sum(gauss.monomial[j] * torque);
+    const Polynomial polynomial = Polynomial::through(torque);
+    double work = 0;
     for (std::size_t i = 0; i < n_; ++i)
         if (!resolved(i)) work += form_->h[i] * work_on(i, polynomial, s, y);
     return work;

@@ -87,9 +87,12 @@ class ExponentialSegment final : public StoredSegment {
     void evaluate(double t, bool ledger, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
-    double work_on(std::size_t mode, const double* g, double s, const double* y) const;
-    double work_on_vibration(std::size_t mode, const double* g, double s, const double* y) const;
-    double work_on_decay(std::size_t mode, bool fast, const double* g, double s, const double* y) const;
+    struct Polynomial;
+    struct ProductIntegral;
+    Polynomial steady_motion(std::size_t mode) const;
+    double work_on(std::size_t mode, const Polynomial& g, double s, const double* y) const;
+    double work_on_vibration(std::size_t mode, const Polynomial& g, double s, const double* y) const;
+    double work_on_decay(std::size_t mode, bool fast, const Polynomial& g, double s, const double* y) const;
     struct Largest {  // within the step, of a mode
         double force, amplitude, rate;
     };

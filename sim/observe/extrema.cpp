@@ -243,6 +243,8 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
     if (is_beaten(step_.sampled_range(s, channel, sampled), channel.kind, sign, e)) return;
     for (const SegmentInterval& part : parts) {
         step_.begin(part);
+        if (is_beaten(step_.range(part, channel), channel.kind, sign, e)) continue;
+        step_.begin(part);
         StepChannels::SampledStates states;
         search(part, channel, sign, states, e);
     }

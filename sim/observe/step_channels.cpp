@@ -259,6 +259,11 @@ Variation StepChannels::variation(const SegmentInterval& s, Channel channel, con
     return out;
 }
 
+ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {
+    const double first = value(s, channel, s.from), last = value(s, channel, s.to);
+    return modal_channels_.range(channel, first, last);
+}
+
 ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel, SampledStates& sampled) {
     const Samples values = sample(s, channel, sampled);
     const auto [low, high] = std::ranges::minmax(values);

@@ -53,7 +53,9 @@ class StepChannels {
     Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    // Bounds of the channel from its samples.
+    // Bounds of the channel from its values at the ends.
+    ModalChannels::Range range(const SegmentInterval& s, Channel channel);
+    // The same from its samples.
     ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel, SampledStates& sampled);
 
     System& system() { return evaluator_.system(); }
