@@ -23,11 +23,11 @@ System::EnergyBalance System::energy_balance(double t, const double* y, double g
     return b;
 }
 
-System::EnergyBalance System::energy_balance(double t, const double* y) {
+System::EnergyBalance System::energy_balance(double t, const double* y, const ContactState* contact) {
     EnergyBalance b = mechanical_balance(t, y);
     double normal = 0, bristle_energy = 0;
     if (phase_.touching && (!phase_.held || has_bristle())) {
-        const ContactState c = current_contact(t, y, false);
+        const ContactState c = contact ? *contact : current_contact(t, y, false);
         normal = phase_.held ? 0 : law_.stored_energy(-c.gap);
         if (has_bristle()) {
             const bool state = phase_.friction == FrictionState::stick || friction_.lags;

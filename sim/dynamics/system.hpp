@@ -89,7 +89,8 @@ class System final : public Ode {
                    loss_friction - work_cam - work_drive;
         }
     };
-    EnergyBalance energy_balance(double t, const double* y);
+    // `contact`: the contact there, if it is known.
+    EnergyBalance energy_balance(double t, const double* y, const ContactState* contact = nullptr);
     // The same in contact with a known gap, without a bristle.
     EnergyBalance energy_balance(double t, const double* y, double gap);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.

@@ -14,7 +14,7 @@ bool is_of_hub(ChannelKind kind) { return kind == ChannelKind::theta || kind == 
 // While they touch.
 bool needs_gap(ChannelKind kind) {
     return kind == ChannelKind::energy_contact || kind == ChannelKind::energy_residual ||
-           kind == ChannelKind::loss_contact;
+           kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
 }
 
 bool needs_contact(ChannelKind kind) {
@@ -165,14 +165,17 @@ double StepChannels::value_of_state(Channel channel, double t, std::optional<Con
     if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
-    if (probing_ && evaluator_.system().has_cam() && (stored || needs_contact(channel.kind))) {
+    if (evaluator_.system().has_cam() && (stored || needs_contact(channel.kind) || unlike_law(channel.kind))) {
         if (contact)
             evaluator_.set_contact(*contact);
-        else
+        else if (probing_)
             probe_contact(t);
         contact = evaluator_.contact();
     }
-    if (probing_ && stored) evaluator_.set_gap(contact->gap);
+    if (stored && probing_)
+        evaluator_.set_gap(contact->gap);
+    else if (stored)
+        evaluator_.set_energy_balance(evaluator_.system().energy_balance(t, y_.data(), &*contact));
     return evaluator_.value(channel);
 }
 
