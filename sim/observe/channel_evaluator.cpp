@@ -40,9 +40,9 @@ const System::EnergyBalance& ChannelEvaluator::energy_balance() {
 
 // In contact the whole balance needs the gap.
 const Energies& ChannelEvaluator::energies() {
+    if (energies_known_) return energies_;
     if (balance_known_ || !system_.phase().touching) return energy_balance().energies;
-    if (!energies_known_) energies_ = model().energies();
-    energies_known_ = true;
+    set_energies(model().energies());
     return energies_;
 }
 
@@ -55,6 +55,11 @@ void ChannelEvaluator::set_contact(const ContactState& contact) {
 void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) {
     balance_ = balance;
     balance_known_ = true;
+}
+
+void ChannelEvaluator::set_energies(const Energies& energies) {
+    energies_ = energies;
+    energies_known_ = true;
 }
 
 void ChannelEvaluator::set_gap(double gap) {

@@ -25,14 +25,15 @@ class ChannelEvaluator {
     System& system() { return system_; }
     Model& model();  // in that state
     const System::EnergyBalance& energy_balance();
+    const Energies& energies();
     // Each of these spares a computation whose result at this instant is available.
     void set_energy_balance(const System::EnergyBalance& balance);
+    void set_energies(const Energies& energies);
     void set_gap(double gap);
     void set_contact(const ContactState& contact);
     const ContactState& contact();
 
   private:
-    const Energies& energies();
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double tip(ChannelKind kind);
     double value_with_cam(ChannelKind kind);

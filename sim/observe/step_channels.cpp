@@ -22,6 +22,12 @@ bool needs_contact(ChannelKind kind) {
            kind == ChannelKind::contact_force || is_separation(kind);
 }
 
+// Of the beam.
+bool is_energy(ChannelKind kind) {
+    return kind == ChannelKind::energy_kinetic || kind == ChannelKind::energy_potential ||
+           kind == ChannelKind::energy_elastic;
+}
+
 bool needs_ledger(ChannelKind kind) {
     switch (kind) {
         case ChannelKind::loss_structural:
@@ -156,12 +162,13 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
     if (channel.kind == ChannelKind::q)
         return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
     evaluate_state(s, channel.kind, t, y_.data());
-    std::optional<ContactState> contact;
-    return value_of_state(channel, t, contact);
+    SampledState sampled;
+    return value_of_state(channel, t, sampled);
 }
 
-// Of the state in `y_`; takes `contact` if it is there, else computes and keeps it.
-double StepChannels::value_of_state(Channel channel, double t, std::optional<ContactState>& contact) {
+// Of the state in `y_`; takes contact and energies from `sampled` if they are there, else computes and keeps them.
+double StepChannels::value_of_state(Channel channel, double t, SampledState& sampled) {
+    std::optional<ContactState>& contact = sampled.contact;
     if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
@@ -176,6 +183,9 @@ double StepChannels::value_of_state(Channel channel, double t, std::optional<Con
         evaluator_.set_gap(contact->gap);
     else if (stored)
         evaluator_.set_energy_balance(evaluator_.system().energy_balance(t, y_.data(), &*contact));
+    if (!is_energy(channel.kind)) return evaluator_.value(channel);
+    if (sampled.energies) evaluator_.set_energies(*sampled.energies);
+    sampled.energies = evaluator_.energies();
     return evaluator_.value(channel);
 }
 
@@ -227,7 +237,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
                 evaluator_.set_gap(touch->gap[k]);
                 values[k] = evaluator_.value(channel);
             } else {
-                values[k] = value_of_state(channel, t, sampled.contacts[k]);
+                values[k] = value_of_state(channel, t, sampled.states[k]);
             }
         }
     }
@@ -242,7 +252,7 @@ void StepChannels::place_sample(const SegmentInterval& s, ChannelKind kind, std:
         return;
     }
     if (needs_ledger(kind)) return evaluate_state(s, kind, sample_time(s, k), y_.data());
-    std::vector<double>& state = sampled.states[k];
+    std::vector<double>& state = sampled.states[k].y;
     if (state.empty()) {
         state.resize(y_.size());
         evaluate_state(s, kind, sample_time(s, k), state.data());

@@ -18,10 +18,15 @@ class StepChannels {
   public:
     static constexpr std::size_t kSamples = kNodes + 2;  // both ends and the Gauss nodes
     using Samples = std::array<double, kSamples>;
-    // States without the ledger, contacts and channels at the samples of one step, each computed when first needed.
+    // What channels share at a sample, each computed when first needed.
+    struct SampledState {
+        std::vector<double> y;  // without the ledger
+        std::optional<ContactState> contact;
+        std::optional<Energies> energies;
+    };
+    // The same at the samples of one step.
     struct SampledStates {
-        std::array<std::vector<double>, kSamples> states;
-        std::array<std::optional<ContactState>, kSamples> contacts;
+        std::array<SampledState, kSamples> states;
         std::optional<Samples> balance;  // of the channel energy_residual
     };
 
@@ -61,7 +66,7 @@ class StepChannels {
     System& system() { return evaluator_.system(); }
 
   private:
-    double value_of_state(Channel channel, double t, std::optional<ContactState>& contact);
+    double value_of_state(Channel channel, double t, SampledState& sampled);
     void search_again();
     void bound(const SegmentInterval& s);
     void sample_touch(const SegmentInterval& s);
