@@ -107,6 +107,11 @@ void ExtremaFinder::drop_beaten(const std::vector<Extremum>& extrema) {
     drop_at_ = 2 * kept_numbers_ + kNumbersPerDrop;
 }
 
+// The residual is an error: where the forcing is exact is enough.
+bool ExtremaFinder::has_only_nodes(ChannelKind kind) const {
+    return kind == ChannelKind::energy_residual && !step_.polynomial();
+}
+
 // Keeps the step if the channel may exceed its best value within; a step that cannot be kept is searched now.
 void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const ModalChannels::Range& range,
                             std::shared_ptr<const KeptStep>& kept, Extremum& e) {
@@ -115,10 +120,15 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
         if (is_beaten(range, kind, sign, e)) continue;
         Candidates& candidates = candidates_[c][sign > 0 ? 0 : 1];
         const double high = bound(range, sign);
-        if (is_separation(kind) && high > kHigherPromise * candidates.promise) {
-            candidates.promise = high;
+        const bool promising = high > kHigherPromise * candidates.promise;
+        if (promising) candidates.promise = high;
+        if (promising && is_separation(kind)) {
             offer(e, s.to, step_.value(s, channels_[c], s.to));
             if (is_beaten(range, kind, sign, e)) continue;
+        }
+        if (has_only_nodes(kind)) {
+            if (promising) search_parts(s, channels_[c], sign, sampled_, e);
+            if (sampled_.balance) continue;  // of both signs
         }
         if (!kept) kept = keep(s);
         if (kept->kind != SegmentKind::none)
@@ -255,8 +265,7 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
                            Extremum& e) {
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, sampled, e);
     const Samples samples = step_.sample(s, channel, sampled);
-    // An error: where the forcing is exact is enough.
-    if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {
+    if (has_only_nodes(channel.kind)) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
         return;
     }

@@ -59,6 +59,7 @@ class ExtremaFinder {
     static bool less_promising(const Candidate& a, const Candidate& b);
 
     void offer_end(const SegmentInterval& s, std::size_t channel, Extremum& e);
+    bool has_only_nodes(ChannelKind kind) const;
     bool offer_nodes(const SegmentInterval& s, const Lanes& nodes, Extremum& e);
     std::optional<ModalChannels::Range> range_within(const SegmentInterval& s, std::size_t channel, Extremum& e);
     ModalChannels::Range residual_range(const SegmentInterval& s, std::size_t channel);
