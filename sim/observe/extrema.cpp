@@ -104,7 +104,7 @@ void ExtremaFinder::drop_beaten(const std::vector<Extremum>& extrema) {
     std::erase_if(kept_, [](const auto& step) { return step.use_count() == 1; });
     kept_numbers_ = 0;
     for (const auto& step : kept_) kept_numbers_ += step->numbers.size();
-    drop_at_ = 2 * kept_numbers_ + kNumbersPerDrop;
+    drop_at_ = kept_numbers_ + kNumbersPerDrop;
 }
 
 // The residual is an error: where the forcing is exact is enough.
