@@ -17,8 +17,8 @@ inline constexpr long kHalvingsOfRun = 3'000'000, kHalvingsPerStep = 1000;
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, until those that are beaten are dropped
-// A costly channel, or one whose steps have loose bounds, is evaluated where its bound is this many times the highest so
-// far, so that later steps are excluded sooner.
+// A costly channel with loose bounds is evaluated where its bound is this many times the highest so far, so that later
+// steps are excluded sooner.
 inline constexpr double kHigherPromise = 1.2;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.
 inline constexpr int kMostParabolas = 8;

@@ -79,6 +79,13 @@ TEST(Extrema, OfFortyModesExceedEverySample) {
     expect_true_extrema(turning_cam(ModelKind::first_order, 40), 0.28, 4'000);
 }
 
+// Fast vibration goes on, so that the bounds of most steps in flight exceed the extrema.
+TEST(Extrema, OfAlmostElasticContactExceedEverySample) {
+    Problem p = turning_cam(ModelKind::first_order, 6);
+    p.contact.restitution = 0.98;
+    expect_true_extrema(p, 0.5, 8'000);
+}
+
 TEST(Extrema, OfARigidBeamExceedEverySample) { expect_true_extrema(turning_cam(ModelKind::rigid, 2), 0.5, 8'000); }
 
 TEST(Extrema, OfADampedBeamExceedEverySample) {
