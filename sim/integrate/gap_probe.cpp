@@ -59,6 +59,7 @@ bool GapProbe::expanded(double t, const double* y, bool search, ContactState& c)
         c.x = x_;
         c.gap = touch.gap;
         c.gap_rate = touch.gap_rate;
+        c.slip = touch.slip;
         c.normal = {touch.nx * frame.cos - touch.ny * frame.sin, touch.nx * frame.sin + touch.ny * frame.cos};
         return true;
     }

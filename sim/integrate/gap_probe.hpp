@@ -15,8 +15,8 @@ class GapProbe {
     // The system must outlive the probe. `apart`: consecutive instants are not close to each other.
     explicit GapProbe(System& system, bool apart = false);
 
-    // Gap, its rate, x and the normal of the contact as System::contact has them, to rounding; nothing else is filled
-    // in. `search`: the foot is not near that of the last evaluation.
+    // Gap, its rate, slip, x and the normal of the contact as System::contact has them, to rounding; nothing else is
+    // filled in. `search`: the foot is not near that of the last evaluation.
     ContactState evaluate(double t, const double* y, bool search);
     // Later results do not depend, not even by rounding, on earlier evaluations.
     void forget();

@@ -19,7 +19,7 @@ bool needs_gap(ChannelKind kind) {
 
 bool needs_contact(ChannelKind kind) {
     return kind == ChannelKind::gap || kind == ChannelKind::contact_x || kind == ChannelKind::contact_s ||
-           kind == ChannelKind::contact_force || is_separation(kind);
+           kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || is_separation(kind);
 }
 
 // Of the beam.
@@ -150,11 +150,15 @@ bool StepChannels::is_linear(ChannelKind kind) {
     return is_of_hub(kind) && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
-// Geometry and normal force: the probe costs less than a search of the whole beam.
+// Geometry and forces, without a bristle: the probe costs less than a search of the whole beam.
 void StepChannels::probe_contact(double t) {
     ContactState c = probe_.evaluate(t, y_.data(), false);
     const System& system = evaluator_.system();
-    if (system.phase().touching) c.force = system.normal_law().force(-c.gap, -c.gap_rate, system.phase().approach);
+    const Phase& phase = system.phase();
+    if (phase.touching) {
+        c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
+        c.friction = system.friction().force(phase.friction, c.force, c.slip, 0);
+    }
     evaluator_.set_contact(c);
 }
 
@@ -194,9 +198,8 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
     if (probing_ && evaluator_.system().has_cam()) {
-        const bool touching = evaluator_.system().phase().touching;
-        if (!touching || evaluator_.system().friction().kinetic == 0) probe_contact(t);
-        if (touching) evaluator_.set_gap(evaluator_.contact().gap);
+        probe_contact(t);
+        if (evaluator_.system().phase().touching) evaluator_.set_gap(evaluator_.contact().gap);
     }
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
