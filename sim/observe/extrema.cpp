@@ -2,53 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
-#include <numbers>
 
-#include "sim/base/numerics.hpp"
-#include "sim/observe/constants.hpp"
-#include "sim/observe/interval_search.hpp"
+#include "sim/observe/best_values.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-double negligible(ChannelKind kind) {
-    return kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
-}
-
-BestValue best_so_far(ChannelKind kind, double sign, const Extremum& e) {
-    return sign > 0 ? BestValue{sign, e.max, e.t_max, negligible(kind)}
-                    : BestValue{sign, -e.min, e.t_min, negligible(kind)};
-}
-
-// What cannot be computed is no bound: candidates need an order.
-double bound(const ModalChannels::Range& range, double sign) {
-    const double high = sign > 0 ? range.high : -range.low;
-    return std::isnan(high) ? std::numeric_limits<double>::infinity() : high;
-}
-
-bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, double sign, const Extremum& e) {
-    return bound(range, sign) <= best_so_far(kind, sign, e).to_beat();
-}
-
-bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, const Extremum& e) {
-    const double share = negligible(kind);
-    return range.high <= e.max + share * std::fabs(e.max) && range.low >= e.min - share * std::fabs(e.min);
-}
-
-void offer(Extremum& e, double t, double value) {
-    if (value < e.min) {
-        e.min = value;
-        e.t_min = t;
-    }
-    if (value > e.max) {
-        e.max = value;
-        e.t_max = t;
-    }
-}
-
-}  // namespace
-
 ExtremaFinder::ExtremaFinder(const System& system, std::vector<Channel> channels, Poll poll)
     : step_(system),
       poll_(std::move(poll)),
@@ -242,117 +199,6 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
         if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
     }
     candidates.clear();
-}
-
-void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign,
-                                 StepChannels::SampledStates& sampled, Extremum& e) {
-    step_.begin(s);  // as if nothing had been searched before
-    const std::vector<SegmentInterval> parts = step_.parts(s);
-    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, sampled, e);
-    // Vibrations of which too little reaches the channel need no parts.
-    if (is_beaten(step_.sampled_range(s, channel, sampled), channel.kind, sign, e)) return;
-    for (const SegmentInterval& part : parts) {
-        step_.begin(part);
-        if (is_beaten(step_.range(part, channel), channel.kind, sign, e)) continue;
-        step_.begin(part);
-        StepChannels::SampledStates states;
-        search(part, channel, sign, states, e);
-    }
-    step_.begin(s);
-}
-
-void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
-                           Extremum& e) {
-    if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, sampled, e);
-    const Samples samples = step_.sample(s, channel, sampled);
-    if (has_only_nodes(channel.kind)) {
-        for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
-        return;
-    }
-    BestValue best = best_so_far(channel.kind, sign, e);
-    const double before = best.value;
-    climb_step([&](double t) { return step_.value(s, channel, t); }, s, channel, samples, best);
-    if (best.value > before) offer(e, best.t, sign * best.value);
-}
-
-// Raises `best` to the largest value of f in the step.
-template <class F>
-void ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples,
-                               BestValue& best) {
-    const Variation variation = step_.variation(s, channel, samples);
-    for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
-    const auto [low, high] = std::ranges::minmax(samples);
-    const double farthest = variation.strays(kWidestNodeGap * (s.to - s.from));
-    if (std::max(best.sign * low, best.sign * high) + farthest <= best.to_beat()) return;
-    const double radians = (s.to - s.from) * step_.system().highest_frequency();
-    const double needed = std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostHalvings);
-    const long allowed = std::min(halvings_left_, static_cast<long>(needed));
-    best.intervals = allowed;
-    const auto polled = [&](double t) {
-        if (++evaluations_ % kEvaluationsPerPoll == 0 && poll_) poll_();
-        return f(t);
-    };
-    for (std::size_t k = 0; k + 1 < samples.size(); ++k)
-        climb(polled, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
-    if (best.intervals < 0) ++incomplete_;
-    halvings_left_ -= allowed - std::max(best.intervals, 0L);
-}
-
-double ExtremaFinder::rim() { return 2 * std::numbers::pi * step_.system().problem().cam->radius; }
-
-// The arc on the disc jumps at a mark; without that jump, next to another.
-double ExtremaFinder::unwrapped(double arc, double near) { return arc - rim() * std::round((arc - near) / rim()); }
-
-// The arc has a corner where the foot of the contact reaches or leaves an end of the beam.
-template <class F>
-void ExtremaFinder::offer_corners(const F& arc, const SegmentInterval& s, const Samples& feet, BestValue& best) {
-    const double length = step_.system().problem().beam.length;
-    const auto at_end = [&](double x) { return !(x > 0 && x < length); };
-    for (std::size_t k = 0; k + 1 < feet.size(); ++k) {
-        const bool before = at_end(feet[k]);
-        if (at_end(feet[k + 1]) == before) continue;
-        double a = sample_time(s, k), b = sample_time(s, k + 1);
-        for (double t = 0.5 * (a + b); t > a && t < b; t = 0.5 * (a + b))
-            (at_end(step_.value(s, {ChannelKind::contact_x}, t)) == before ? a : b) = t;
-        best.offer({a, arc(a)});
-        best.offer({b, arc(b)});
-    }
-}
-
-void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, StepChannels::SampledStates& sampled,
-                               Extremum& e) {
-    constexpr Channel kArc{ChannelKind::contact_s};
-    Samples samples = step_.sample(s, kArc, sampled);
-    const Samples feet = step_.sample(s, {ChannelKind::contact_x}, sampled);
-    const double first = samples[0];
-    const auto arc = [&](double t) { return unwrapped(step_.value(s, kArc, t), first); };
-    for (double& value : samples) value = unwrapped(value, first);
-    BestValue best = best_so_far(kArc.kind, sign, e);
-    const double before = best.value;
-    climb_step(arc, s, kArc, samples, best);
-    offer_corners(arc, s, feet, best);
-    if (!(best.value > before)) return;
-    const double value = sign * best.value;
-    if (value >= 0 && unwrapped(value, 0) != 0 && value < rim()) return offer(e, best.t, value);
-    // It passes the mark, where it is as small and as large as it can be.
-    const double mark = value < 0 ? 0 : rim();
-    const double t =
-        find_root([&](double at) { return arc(at) - mark; }, std::min(s.from, best.t), std::max(s.from, best.t));
-    offer(e, t, 0);
-    offer(e, t, std::nextafter(rim(), 0.0));
-}
-
-void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) {
-    step_.begin(s);
-    Extremum of_force{0, s.from, peaks.force.value_or(0), s.from}, of_gap{-peaks.penetration, s.from, 0, s.from};
-    StepChannels::SampledStates states;
-    const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
-        if (step_.modes().touch() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
-        search_parts(s, {kind}, sign, states, e);
-    };
-    if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
-    raise(ChannelKind::gap, -1, of_gap);
-    peaks = {of_force.max, -of_gap.min};
 }
 
 }  // namespace beamcam::sim
