@@ -80,7 +80,7 @@ class System final : public Ode {
     // friction; array of `coordinates`. False if the inertia is not positive.
     bool generalized_force(double t, const ContactState& c, double normal, double* f);
 
-    // Energies, losses and work at (t, y); the total is constant (S38).
+    // Energies, losses and work; the total is constant (S38).
     struct EnergyBalance {
         Energies energies;
         double contact = 0, loss_structural = 0, loss_contact = 0, loss_friction = 0, work_cam = 0, work_drive = 0;
@@ -89,10 +89,9 @@ class System final : public Ode {
                    loss_friction - work_cam - work_drive;
         }
     };
-    // `contact`: the contact there, if it is known.
-    EnergyBalance energy_balance(double t, const double* y, const ContactState* contact = nullptr);
-    // The same in contact with a known gap, without a bristle.
-    EnergyBalance energy_balance(double t, const double* y, double gap);
+    bool contact_stores_energy() const { return phase_.touching && (!phase_.held || has_bristle()); }
+    // After `set_state`. Of the contact, if it stores energy, only the gap counts and, with a bristle, the force.
+    EnergyBalance current_energy_balance(const double* y, const ContactState& c);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
     // The same after `set_state`, in flight or with the contact forces of `c`.
@@ -129,7 +128,6 @@ class System final : public Ode {
     double cam_power(double t, const ContactState& c, double normal, double tangential) const;
     bool assemble(double* f);         // false if the inertia is not positive
     void require_inertia(double* f);  // the same, but throws InertiaLost
-    EnergyBalance mechanical_balance(double t, const double* y);
 
     struct SharedModes;
 

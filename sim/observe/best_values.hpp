@@ -1,6 +1,7 @@
 // The best values of a channel so far, and whether bounds of it exceed them.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -11,13 +12,16 @@
 
 namespace beamcam::sim {
 
-inline double negligible(ChannelKind kind) {
-    return kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
+// A negligible rise over the best value, and a rounding error of the channel.
+inline double negligible(ChannelKind kind, double best, const Extremum& e) {
+    const double share = kind == ChannelKind::energy_residual ? kNegligibleImbalance : kNegligibleRise;
+    const double largest = e.min <= e.max ? std::max(std::fabs(e.min), std::fabs(e.max)) : 0;
+    return std::max(share * std::fabs(best), kValueRounding * largest);
 }
 
 inline BestValue best_so_far(ChannelKind kind, double sign, const Extremum& e) {
-    return sign > 0 ? BestValue{sign, e.max, e.t_max, negligible(kind)}
-                    : BestValue{sign, -e.min, e.t_min, negligible(kind)};
+    return sign > 0 ? BestValue{sign, e.max, e.t_max, negligible(kind, e.max, e)}
+                    : BestValue{sign, -e.min, e.t_min, negligible(kind, e.min, e)};
 }
 
 // What cannot be computed is no bound: candidates need an order.
@@ -31,8 +35,7 @@ inline bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, doubl
 }
 
 inline bool is_beaten(const ModalChannels::Range& range, ChannelKind kind, const Extremum& e) {
-    const double share = negligible(kind);
-    return range.high <= e.max + share * std::fabs(e.max) && range.low >= e.min - share * std::fabs(e.min);
+    return range.high <= e.max + negligible(kind, e.max, e) && range.low >= e.min - negligible(kind, e.min, e);
 }
 
 inline void offer(Extremum& e, double t, double value) {

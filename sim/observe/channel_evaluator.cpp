@@ -31,10 +31,7 @@ const ContactState& ChannelEvaluator::contact() {
 }
 
 const System::EnergyBalance& ChannelEvaluator::energy_balance() {
-    if (!balance_known_) {
-        balance_ = system_.energy_balance(t_, y_.data());
-        balance_known_ = placed_ = true;
-    }
+    if (!balance_known_) set_balance_with(system_.contact_stores_energy() ? contact() : ContactState{});
     return balance_;
 }
 
@@ -63,8 +60,14 @@ void ChannelEvaluator::set_energies(const Energies& energies) {
 }
 
 void ChannelEvaluator::set_gap(double gap) {
-    set_energy_balance(system_.energy_balance(t_, y_.data(), gap));
-    placed_ = true;
+    ContactState c;
+    c.gap = gap;
+    set_balance_with(c);
+}
+
+void ChannelEvaluator::set_balance_with(const ContactState& c) {
+    model();
+    set_energy_balance(system_.current_energy_balance(y_.data(), c));
 }
 
 // A prescribed hub has the angle of its drive.

@@ -34,6 +34,7 @@ class ChannelEvaluator {
     const ContactState& contact();
 
   private:
+    void set_balance_with(const ContactState& c);
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double tip(ChannelKind kind);
     double value_with_cam(ChannelKind kind);

@@ -9,6 +9,7 @@ namespace beamcam::sim {
 // Share of the best value below which a rise is not searched for. The error of the energy balance is rounding and
 // truncation: its digits do not matter.
 inline constexpr double kNegligibleRise = 1e-10, kNegligibleImbalance = 1e-3;
+inline constexpr double kValueRounding = 1e-14;  // of the channel's largest magnitude: no less is searched for
 // The most intervals that a search halves in one step: these, and these for each radian of the fastest vibration, but
 // no more than the third; and all of a run: so many, and for each of its steps. Many times more than a valid motion
 // needs. A vibration that neither grows nor decays over millions of periods has no end otherwise.

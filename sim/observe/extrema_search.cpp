@@ -116,7 +116,7 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) 
         search_parts(s, {kind}, sign, states, e);
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
-    raise(ChannelKind::gap, -1, of_gap);
+    if (!step_.rounding_only(ChannelKind::gap)) raise(ChannelKind::gap, -1, of_gap);
     peaks = {of_force.max, -of_gap.min};
 }
 

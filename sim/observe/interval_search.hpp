@@ -18,15 +18,15 @@ struct TimedValue {
 
 // The largest value of sign · f so far.
 struct BestValue {
-    double sign, value, t, negligible;
+    double sign, value, t;
+    double left_out;     // a rise that is negligible
     long intervals = 0;  // that the search may still halve
     void offer(const TimedValue& s) {
         if (!(sign * s.value > value)) return;
         value = sign * s.value;
         t = s.t;
     }
-    double left_out() const { return negligible * std::fabs(value); }
-    double to_beat() const { return value + left_out(); }
+    double to_beat() const { return value + left_out; }
 };
 
 // The maximum of sign · f near three samples, if the parabola through them exceeds the best value.
@@ -61,7 +61,7 @@ void climb(const F& f, const Variation& variation, const TimedValue& a, const Ti
     if (--best.intervals < 0) return;
     const TimedValue m{t, f(t)};
     best.offer(m);
-    if (variation.unresolved(length) <= best.left_out()) {
+    if (variation.unresolved(length) <= best.left_out) {
         climb_crest(f, variation, a, m, b, best);
         return;
     }

@@ -225,11 +225,14 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
     if (kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
-    return kind == ChannelKind::contact_s ? arc_range(range) : range;
+    return within(kind, range);
 }
 
 // The arc jumps at the mark on the disc.
-ModalChannels::Range ModalChannels::arc_range(const Range& range) const {
+ModalChannels::Range ModalChannels::within(ChannelKind kind, const Range& range) const {
+    if (kind == ChannelKind::contact_x)
+        return {std::max(range.low, bounds_.nearest), std::min(range.high, bounds_.farthest)};
+    if (kind != ChannelKind::contact_s) return range;
     const double around = 2 * std::numbers::pi * sensitivity_.cam_radius();
     const bool jumps = range.low < 0 || range.high > around || range.high - range.low > 0.5 * around;
     return jumps ? Range{0, around} : range;

@@ -42,8 +42,8 @@ class ModalChannels {
     std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
     // Of q alone, by the bounds of its mode if it is one: cheap.
     Range mode_range(Channel channel) const;
-    // Of the arc on the disc: that range, or the whole disc if the mark may be in it.
-    Range arc_range(const Range& range) const;
+    // The possible part of that range; of the arc on the disc the whole disc if the mark may be in it.
+    Range within(ChannelKind kind, const Range& range) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 

@@ -56,7 +56,11 @@ void PartBounds::place_contact() {
                  on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * part.length();
     away = norm(disc - on_beam * along) + turn * basis_.reach + moved + deflection;
     const double bent = kBentContactShift * (inclination * away + deflection * inclination);
-    arm = std::min(basis_.length, std::max(0.0, foot - root) + turn * norm(disc) + moved + bent) + deflection;
+    const double shift = turn * norm(disc) + moved + bent;
+    const auto on = [&](double x) { return std::clamp(x, 0.0, basis_.length); };
+    nearest = on(foot - root - shift);
+    farthest = on(foot - root + shift);
+    arm = farthest > 0 ? farthest + deflection : 0;
 }
 
 // The law is convex in the penetration and linear in its rate: its slopes just beyond the deepest and fastest point are

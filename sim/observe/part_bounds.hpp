@@ -33,6 +33,7 @@ class PartBounds {
     double hub_acceleration = 0;                        // of |θ̈|
     double torque = 0;                                  // of the drive
     // With a cam.
+    double nearest = 0, farthest = 0;  // of the place of the contact, x_c
     double arm = 0;                    // of the contact's distance from the root
     double away = 0;                   // of the distance from the disc's centre to the beam
     double foot_speed = 0, slide = 0;  // of the contact along a straight beam, and along the bent one

@@ -138,6 +138,7 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
         evaluator_.set(touch.t[k], y_.data());
         if (probing_) probe_contact(touch.t[k]);
         const ContactState& c = evaluator_.contact();
+        polynomial_contacts_[k] = c;
         touch.gap[k] = c.gap;
         touch.gap_rate[k] = c.gap_rate;
         touch.force[k] = c.force;
@@ -175,18 +176,14 @@ double StepChannels::value_of_state(Channel channel, double t, SampledState& sam
     std::optional<ContactState>& contact = sampled.contact;
     if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
-    const bool stored = needs_gap(channel.kind) && evaluator_.system().phase().touching;
-    if (evaluator_.system().has_cam() && (stored || needs_contact(channel.kind) || unlike_law(channel.kind))) {
-        if (contact)
-            evaluator_.set_contact(*contact);
-        else if (probing_)
-            probe_contact(t);
+    const System& system = evaluator_.system();
+    const bool stored = needs_gap(channel.kind) && system.phase().touching;
+    if (contact) {
+        evaluator_.set_contact(*contact);
+    } else if (probing_ && system.has_cam() && (stored || needs_contact(channel.kind))) {
+        probe_contact(t);
         contact = evaluator_.contact();
     }
-    if (stored && probing_)
-        evaluator_.set_gap(contact->gap);
-    else if (stored)
-        evaluator_.set_energy_balance(evaluator_.system().energy_balance(t, y_.data(), &*contact));
     if (!is_energy(channel.kind)) return evaluator_.value(channel);
     if (sampled.energies) evaluator_.set_energies(*sampled.energies);
     sampled.energies = evaluator_.energies();
@@ -197,10 +194,7 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
                           const System::EnergyBalance* balance, std::vector<double>& out) {
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
-    if (probing_ && evaluator_.system().has_cam()) {
-        probe_contact(t);
-        if (evaluator_.system().phase().touching) evaluator_.set_gap(evaluator_.contact().gap);
-    }
+    if (probing_ && evaluator_.system().has_cam()) probe_contact(t);
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (channels[c].kind == ChannelKind::q)
@@ -240,6 +234,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
                 evaluator_.set_gap(touch->gap[k]);
                 values[k] = evaluator_.value(channel);
             } else {
+                if (touch && polynomial_) sampled.states[k].contact = polynomial_contacts_[k];
                 values[k] = value_of_state(channel, t, sampled.states[k]);
             }
         }
@@ -284,8 +279,7 @@ ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Chann
     const Samples values = sample(s, channel, sampled);
     const auto [low, high] = std::ranges::minmax(values);
     const double stray = variation(s, channel, values).strays(kWidestNodeGap * (s.to - s.from));
-    const ModalChannels::Range range{low - stray, high + stray};
-    return channel.kind == ChannelKind::contact_s ? modal_channels_.arc_range(range) : range;
+    return modal_channels_.within(channel.kind, {low - stray, high + stray});
 }
 
 }  // namespace beamcam::sim

@@ -41,6 +41,8 @@ class StepChannels {
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
+    // In sustained impulsive contact the gap is zero but for rounding errors.
+    bool rounding_only(ChannelKind kind) { return kind == ChannelKind::gap && system().phase().held; }
     // The channel depends on the state of a bristle, or on a contact that the law does not describe.
     bool unlike_law(ChannelKind kind) const {
         return !probing_ && (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
@@ -81,6 +83,7 @@ class StepChannels {
     PolynomialBounds polynomial_bounds_;
     std::array<std::vector<double>, kSamples> polynomial_states_;
     TouchSamples polynomial_touch_;
+    std::array<ContactState, kSamples> polynomial_contacts_;
     std::vector<double> y_;
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`

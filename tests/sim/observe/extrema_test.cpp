@@ -222,6 +222,39 @@ TEST(Extrema, AreSearchedUntilInterrupted) {
     EXPECT_THROW(simulate(p, request, stop_at_end), Interrupted);
 }
 
+// How often the searches of the channels may be interrupted: once for each 256 evaluations.
+long searches_times_256(const Problem& problem, double end, std::vector<Channel> channels) {
+    Request request;
+    request.end_time = end;
+    request.extrema = std::move(channels);
+    Request motion;
+    motion.end_time = end;
+    motion.impact_peaks = false;
+    const auto polls = [&](const Request& of) {
+        long count = 0;
+        simulate(problem, of, [&](double) { return ++count > 0; });
+        return count;
+    };
+    return polls(request) - polls(motion);
+}
+
+// A beam that hangs away from the cam is nearest to it at its root all along.
+TEST(Extrema, OfAFootThatStaysAtAnEndNeedNoSearch) {
+    Problem p = turning_cam(ModelKind::first_order, 8);
+    p.cam->centre = {0.25, 0.3};
+    p.initial.angle = -1.4;
+    p.initial.q = {0.01};
+    EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::contact_x}, {ChannelKind::separation}}), 2);
+}
+
+// In sustained impulsive contact the gap is zero but for rounding.
+TEST(Extrema, OfRoundingAreNotSearched) {
+    Problem p = turning_cam(ModelKind::first_order, 8, -4);
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 0.2;
+    EXPECT_LE(searches_times_256(p, 1.2, {{ChannelKind::gap}}), 20);
+}
+
 TEST(Extrema, OfOtherMethodsExceedEverySample) {
     SKIP_UNDER_SANITIZERS();
     for (const Method method : {Method::rk8, Method::cvode_adams, Method::cvode_bdf}) {
