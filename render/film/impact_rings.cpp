@@ -9,7 +9,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr double kRing = 0.4;             // lifetime of a ring [s]
+constexpr double kRing = 0.4;             // lifetime of a ring, freezes not counted [s]
 constexpr std::ptrdiff_t kMostRings = 6;  // at once
 
 struct ShownImpact {
@@ -23,12 +23,25 @@ std::vector<double> frame_times(const FilmContext& context, int member) {
     return out;
 }
 
+// For each frame, the number of frames up to it in which time moved.
+std::vector<int> moved_frames(const std::vector<double>& times) {
+    std::vector<int> out(times.size(), 0);
+    for (std::size_t k = 1; k < times.size(); ++k) out[k] = out[k - 1] + (times[k] > times[k - 1] ? 1 : 0);
+    return out;
+}
+
 // None of an impact before the first frame or after the last one.
 std::optional<ShownImpact> shown_impact(const std::vector<double>& times, const sim::Impact& impact) {
     const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
     if (first == times.end() || (first == times.begin() && *first > impact.t_start)) return std::nullopt;
     const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
-    return ShownImpact{static_cast<int>(first - times.begin()), times.size() > 1 && after - first < 2};
+    const bool one_instant = first == after || *first == *(after - 1);
+    return ShownImpact{static_cast<int>(first - times.begin()), times.size() > 1 && one_instant};
+}
+
+// The station of the line that is nearest to a place relative to the beam's length.
+std::size_t station(const DrawnBeam& beam, double place) {
+    return static_cast<std::size_t>(std::lround(place * static_cast<double>(beam.line.size() - 1)));
 }
 
 }  // namespace
@@ -55,8 +68,8 @@ double largest_held_peak(const FilmContext& context, const PanelSlot& slot) {
 void ImpactRings::find(const MechanismView& at) {
     frames_ = kRing * at.context.setup->fps;
     labelled_ = at.labelled();
-    radius_ = at.problem().cam ? at.problem().cam->radius : 0;
     const std::vector<double> times = frame_times(at.context, at.member);
+    moved_ = moved_frames(times);
     for (const sim::Impact& impact : at.motion().impacts) {
         const auto shown = shown_impact(times, impact);
         if (!shown) continue;
@@ -64,18 +77,20 @@ void ImpactRings::find(const MechanismView& at) {
         const DrawnBeam b = at.drawn(at.member, pose);
         if (!b.contact) continue;
         const Vec2 n = b.contact->normal;
+        const double place = std::clamp(impact.x / at.problem().beam.length, 0.0, 1.0);
+        const Vec2 left = b.left[station(b, place)];
         rings_.push_back({shown->frame,
                           std::atan2(n.y, n.x) - pose.cam_angle,
-                          {b.contact->on_disc, n, impact.force_peak.value_or(0), true},
+                          place,
+                          {cross(n, left), dot(n, left)},
+                          impact.force_peak.value_or(0),
                           shown->brief,
                           impact.collision});
     }
 }
 
-bool ImpactRings::change(int frame) const {
-    return std::ranges::any_of(rings_, [&](const Ring& r) {
-        return frame >= r.frame && frame < r.frame + frames_ + 1;  // including the frame without it
-    });
+double ImpactRings::age(const Ring& ring, int frame) const {
+    return (moved_[static_cast<std::size_t>(frame)] - moved_[static_cast<std::size_t>(ring.frame)]) / frames_;
 }
 
 // Rings move with the disc.
@@ -83,7 +98,7 @@ void ImpactRings::draw(const MechanismScene& s) const {
     if (!s.at.problem().cam) return;
     const auto later = std::ranges::upper_bound(rings_, s.frame, {}, &Ring::frame);
     for (const Ring& r : std::ranges::subrange(later - std::min(kMostRings, later - rings_.begin()), later)) {
-        const double share = (s.frame - r.frame) / frames_;
+        const double share = age(r, s.frame);
         if (share >= 1) continue;
         const Vec2 at =
             s.px(s.pose.disc_centre + sim::unit(s.pose.cam_angle + r.material_angle) * s.at.problem().cam->radius);
@@ -94,20 +109,20 @@ void ImpactRings::draw(const MechanismScene& s) const {
 }
 
 // Of the collision's contacts so far. A longer contact shows its own force.
-std::optional<ForceArrow> ImpactRings::peak(int frame, const sim::Pose& pose) const {
+std::optional<ForceArrow> ImpactRings::peak(int frame, const DrawnBeam& beam) const {
     if (!labelled_) return std::nullopt;
     const Ring* latest = nullptr;
     for (const Ring& r : rings_)
-        if (frame >= r.frame && frame < r.frame + frames_ && (!latest || r.frame >= latest->frame || !r.brief))
-            latest = &r;
+        if (frame >= r.frame && age(r, frame) < 1 && (!latest || r.frame >= latest->frame || !r.brief)) latest = &r;
     if (!latest || !latest->brief) return std::nullopt;
-    const ForceArrow* most = &latest->peak;
+    const Ring* most = latest;
     for (const Ring& r : rings_)
-        if (r.frame <= frame && r.collision == latest->collision && r.peak.force > most->force) most = &r.peak;
-    if (!(most->force > 0)) return std::nullopt;
-    ForceArrow out = *most;
-    out.foot = pose.disc_centre + out.normal * radius_;
-    return out;
+        if (r.frame <= frame && r.collision == latest->collision && r.peak > most->peak) most = &r;
+    if (!(most->peak > 0)) return std::nullopt;
+    const std::size_t i = station(beam, most->place);
+    const Vec2 left = beam.left[i], along{left.y, -left.x};
+    const Vec2 face = beam.line[i] + left * (most->direction.y >= 0 ? beam.low : beam.high);
+    return ForceArrow{face, along * most->direction.x + left * most->direction.y, most->peak, true};
 }
 
 }  // namespace beamcam::render

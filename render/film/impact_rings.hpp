@@ -16,22 +16,25 @@ class ImpactRings {
     void find(const MechanismView& at);  // collects the impacts of the motion
     void draw(const MechanismScene& s) const;
     // Peak force of a collision, as long as the ring of its latest contact is visible and that is shorter than two
-    // frames; at the disc of the frame's pose, in the direction of the force.
-    std::optional<ForceArrow> peak(int frame, const sim::Pose& pose) const;
-    bool change(int frame) const;  // a ring changes between the previous frame and this one
+    // frames. It acts on the beam: its arrow stays at the place of the beam that was struck, and turns with it.
+    std::optional<ForceArrow> peak(int frame, const DrawnBeam& beam) const;
 
   private:
     struct Ring {
         int frame = 0;              // the first frame that shows it
         double material_angle = 0;  // on the disc, from its mark [rad]
-        ForceArrow peak = {};
-        bool brief = false;  // the contact is shorter than two frames
+        double place = 0;           // on the beam, relative to its length
+        Vec2 direction;             // of the force, along the beam and to its left
+        double peak = 0;            // [N]
+        bool brief = false;         // the contact is shorter than two frames
         int collision = 0;
     };
+    double age(const Ring& ring, int frame) const;  // in lifetimes; a freeze stops it
+
     std::vector<Ring> rings_;
-    double radius_ = 0;      // of the disc [m]
-    double frames_ = 1;      // lifetime of a ring
-    bool labelled_ = false;  // peaks are shown, because their label says that they are peaks
+    std::vector<int> moved_;  // number of frames up to this one in which time moved
+    double frames_ = 1;       // lifetime of a ring
+    bool labelled_ = false;   // peaks are shown, because their label says that they are peaks
 };
 
 }  // namespace beamcam::render

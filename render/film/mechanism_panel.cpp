@@ -135,7 +135,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     threads.trace.advance_to(pose.t);
     const std::optional<Perspective> perspective = cameras_.perspective(at, frame);
     const Perspective* view = perspective ? &*perspective : nullptr;
-    const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame, pose));
+    const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame, drawn));
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, arrow, labels};
     draw_tip_path(s);
     if (at.ghosts) draw_ghost_bodies(s);
@@ -211,12 +211,12 @@ void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
         tip_path_.draw_trail(s, at_);
 }
 
-// The camera, fading labels and the rings of impacts change while time is frozen.
+// The camera and fading labels change while time is frozen.
 bool MechanismPanel::animates_while_paused(int frame) const {
     if (cameras_.move_at(frame)) return true;
     for (const auto* label : {&labels_.angle, &labels_.speed, &labels_.force})
         if (*label && (*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1)) return true;
-    return rings_.change(frame);
+    return false;
 }
 
 std::vector<Box> MechanismPanel::labels(Canvas& canvas, int frame) const {

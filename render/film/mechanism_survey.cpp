@@ -67,7 +67,7 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         followed.push_back({at_.look.camera.to_world(tip),
                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
                             at_.problem().cam ? pose.cam_centre : Vec2{}});
-        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k, pose));
+        const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn));
         for (SweptRegion* each : {&swept, &in_contact}) {
             if (each == &in_contact && !arrow) continue;
             each->add_beam(shape.face, shape.back);
@@ -115,7 +115,7 @@ std::vector<std::vector<Box>> MechanismPanel::moving_under_captions() const {
                     if (m > 0 || exposure > 0) continue;
                     swept.add_motion(before, shape.face);
                     before = shape.face;
-                    if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, pose))) swept.add_arrow(*arrow);
+                    if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
                     add_measured(at_, pose, drawn, swept);
                 }
         }

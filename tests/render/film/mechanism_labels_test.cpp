@@ -161,11 +161,12 @@ TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
     }
 }
 
-// The arrow of a peak that is held stays on the disc, which moves on.
-TEST(ImpactRings, ThePeakStaysOnTheDisc) {
+// The arrow of a peak that is held stays where the beam was struck, and turns with the beam.
+TEST(ImpactRings, ThePeakStaysOnTheBeam) {
     FilmSetup setup = film_of(Style::flat);
     sim::Impact impact;
     impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
+    impact.x = 0.25 * setup.problem.beam.length;
     setup.impacts = {impact};
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
     const MechanismView at(context, *context.places.first(PanelKind::mechanism));
@@ -173,11 +174,13 @@ TEST(ImpactRings, ThePeakStaysOnTheDisc) {
     rings.find(at);
     int held = 0;
     for (int k = 0; k < context.frames(); ++k) {
-        const sim::Pose pose = context.pose(0, k);
-        const auto peak = rings.peak(k, pose);
+        const DrawnBeam beam = at.beam_of(0, k);
+        const auto peak = rings.peak(k, beam);
         if (!peak) continue;
         ++held;
-        EXPECT_NEAR(norm(peak->foot - pose.disc_centre), setup.problem.cam->radius, 1e-12) << k;
+        const std::size_t struck = (beam.line.size() - 1) / 4;
+        EXPECT_NEAR(norm(peak->foot - beam.face(struck)), 0, 1e-12) << k;
+        EXPECT_NEAR(dot(peak->normal, beam.left[struck]), 1, 0.02) << k;  // the beam may be bent by then
     }
     EXPECT_GT(held, 10);
 }
@@ -197,7 +200,7 @@ TEST(ImpactRings, ArrowsOfPeaksAreInProportionToTheirForces) {
     rings.find(at);
     const auto peak = [&](double t) {
         const int frame = static_cast<int>(std::ceil(t * setup.fps));
-        return rings.peak(frame, context.pose(0, frame));
+        return rings.peak(frame, at.beam_of(0, frame));
     };
     const auto first = peak(0.101), second = peak(0.701);
     ASSERT_TRUE(first && second);
