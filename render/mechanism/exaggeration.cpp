@@ -46,6 +46,14 @@ double cam_side(const Problem& problem, const Pose& pose) {
     return std::copysign(smoothstep(0, 0.5, std::abs(across)), across);
 }
 
+// 1 if the beam may touch the cam, 0 if its root is the point nearest the cam: the beam points away.
+double towards_cam(const Problem& problem, const Pose& pose) {
+    if (!problem.cam || !pose.nearest) return 0;
+    const double of_root =
+        norm(pose.centreline.front() - pose.disc_centre) - problem.cam->radius - sim::contact_offset(problem);
+    return of_root > 0 ? 1 - smoothstep(0.7, 1, pose.nearest->gap / of_root) : 1;
+}
+
 // 1 if the point nearest the cam fixes the base line, 0 if not (the beam is far away).
 double cam_weight(const Problem& problem, const Pose& pose) {
     if (!problem.cam || !pose.nearest) return 0;
@@ -163,7 +171,7 @@ DrawnBeam drawn_beam(const Problem& problem, const Pose& pose, double factor, do
         }
     }
     add_normals(beam);
-    beam.side = cam_side(problem, pose);
+    beam.side = cam_side(problem, pose) * towards_cam(problem, pose);
     const bool borrowed = !problem.cam && reference && reference->cam;
     if (borrowed) beam.side = 1;
     beam.low = -depth / 2 + beam.side * (depth / 2 - (borrowed ? sim::contact_offset(*reference) : offset));

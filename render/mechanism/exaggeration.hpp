@@ -6,6 +6,8 @@
 //   * far from the cam, or without one, it is the least-squares line through O, or the direction of the hub if the hub
 //   is
 //     prescribed. The transition is smooth.
+// The section extends away from the cam, so that nothing overlaps; that of a beam that points away from the cam is
+// centred on the hinge, and the transition is smooth again.
 // The hinge is fixed. Since the drawn slope at the contact differs from the true one, the line is then rotated about O
 // by the small angle that makes the drawn gap equal to the true one (zero if the true beam penetrates): the drawn beam
 // never enters the drawn cam, and the motion stays continuous through touch and release.
@@ -34,7 +36,8 @@ struct DrawnBeam {
     std::vector<Vec2> line;    // the centre line, stations as in the pose [m]
     std::vector<Vec2> left;    // unit normals, tangent turned by +90°
     double low = 0, high = 0;  // the section spans line + left·[low, high] [m]
-    double side = 0;  // +1: the cam is to the right of the beam (below), −1: to the left; between: in transition
+    // +1: the cam is to the right of the beam (below), −1: to the left; between: in transition; 0: nowhere near
+    double side = 0;
     double base_angle = 0;  // of the drawn base line [rad]
     std::optional<DrawnContact> contact;
     bool clear = true;  // false: it enters the disc, or touches it far from the true contact; the factor is too large

@@ -2,7 +2,9 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/plot/ticks.hpp"
 #include "tests/render/synthetic.hpp"
@@ -234,6 +236,37 @@ TEST(Exaggeration, ABeamWithoutACamLiesAsTheOneItIsComparedWith) {
         EXPECT_NEAR(norm(a.back(i) - b.back(i)), 0, 1e-12);
     }
     EXPECT_NEAR(alone.low, -depth / 2, 1e-15);
+}
+
+// A beam that turns over: its section is centred on the hinge while it points away from the cam, moves smoothly to the
+// side away from the cam, and is there before the beam can touch.
+TEST(Exaggeration, TheSectionOfABeamThatPointsAwayIsCentredOnTheHinge) {
+    const FilmSetup film = test::synthetic_film();
+    const sim::Problem& problem = film.problem;
+    const double h = problem.beam.depth;
+    sim::Pose pose = film.poses.front();
+    const double last = double(pose.centreline.size() - 1);
+    double before = 1;
+    for (int degrees = 25; degrees <= 335; ++degrees) {
+        pose.theta = degrees * std::numbers::pi / 180;
+        const Vec2 along = sim::unit(pose.theta);
+        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+            pose.centreline[i] = along * (problem.beam.length * double(i) / last);
+        const double x = std::clamp(dot(pose.disc_centre, along), 0.0, problem.beam.length);
+        const Vec2 away = along * x - pose.disc_centre;
+        pose.nearest->x = x, pose.nearest->normal = away * (1 / norm(away));
+        pose.nearest->gap = norm(away) - problem.cam->radius - sim::contact_offset(problem);
+        const DrawnBeam beam = drawn_beam(problem, pose, 1, h);
+        if (degrees >= 91 && degrees <= 269) {
+            EXPECT_NEAR(beam.low, -h / 2, 1e-6 * h) << degrees;
+        }
+        if (pose.nearest->gap < 0.02) {
+            EXPECT_EQ(std::abs(beam.side), 1) << degrees;
+        }
+        EXPECT_NEAR(beam.side, before, 0.1) << degrees;
+        before = beam.side;
+    }
+    EXPECT_EQ(before, -1);
 }
 
 TEST(Exaggeration, ATouchingBeamIsDrawnTouchingWhereItDoes) {
