@@ -105,7 +105,9 @@ void LitMechanism::draw_solid(const MechanismScene& s, const std::vector<Color>&
     if (!renderer_) renderer_ = make_lit_renderer(width, height);
     Perspective inside = *s.view;
     inside.centre = inside.centre - Vec2{s.at.box.x, s.at.box.y};
-    const SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.look.unit, rim);
+    SolidScene scene = solid_scene(s.shape, s.at.palette, s.at.box, inside, s.at.wide, s.at.look.unit, rim);
+    // A near camera cuts bodies at the edges of the panel, and their shadows as well.
+    scene.fade *= std::clamp(2 - s.at.zoom(), 0.0, 1.0);
     renderer_->draw(scene, image_);
     const int x = static_cast<int>(s.at.box.x), y = static_cast<int>(s.at.box.y);
     DirtyTiles where(s.canvas.image().width, s.canvas.image().height);

@@ -43,6 +43,7 @@ struct SolidScene {
     std::size_t wall = 0;  // the first corners: parts of the wall on which shadows may fall
     double reach = 1;      // everything is within this distance of the origin [px]
     double shadow = 0.3;   // opacity
+    double fade = 60;      // width in which shadows fade out at the edges of the picture [px]
     DirtyTiles seen;       // the rest of the picture is transparent
 };
 

@@ -152,12 +152,12 @@ void main() {
     color = vec4(sqrt(clamp(c, 0.0, 1.0)).bgr, 1.0);
 })";
 
-// The wall shows only shadows, which fade out before the edge of the panel.
+// The wall shows only shadows.
 inline constexpr const char* kWallFragment = R"(
-uniform float opacity; uniform vec2 size;
+uniform float opacity, fade; uniform vec2 size;
 void main() {
     float seen = light_that_arrives(dot(normalize(normal), light_near), 2.0, more_taps);
-    vec2 rim = smoothstep(0.0, 60.0, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
+    vec2 rim = smoothstep(0.0, fade, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
     color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);
 })";
 

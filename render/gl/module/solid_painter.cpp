@@ -117,6 +117,7 @@ void SolidPainter::draw_scene(const SolidScene& scene) {
     draw_triangles(scene.wall, scene.mesh.corners.size());
     use_program(wall_, scene);
     set(wall_, "opacity", float(scene.shadow));
+    set(wall_, "fade", float(std::max(scene.fade, 1e-3)));
     draw_triangles(0, scene.wall);  // after the bodies, so that hidden pixels are not shaded
 }
 

@@ -256,5 +256,28 @@ TEST(Camera, TheForceIsWrittenClearOfANearBeam) {
     EXPECT_GT(looked_at, 5);
 }
 
+// A near camera cuts shadows at the edges of the panel, where it cuts bodies: they do not fade before.
+TEST(GlCamera, ShadowsReachTheEdgesOfTheNearPanel) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = film_of(Style::solid);
+    setup.view.transparent = true;
+    const auto shadows_at_edge = [&](double zoom) {
+        setup.view.shot.zoom = zoom;
+        Film film(setup);
+        const Image image = drawn(film, 0);
+        const Box box = film.geometry(0).layout.first(PanelKind::mechanism)->box.inset(2);
+        int count = 0;
+        for (int y = int(box.y); y < int(box.bottom()); ++y)
+            for (const int x : {int(box.x), int(box.right())}) {
+                const std::uint32_t pixel = image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)];
+                const std::uint32_t alpha = pixel >> 24;
+                count += alpha > 30 && alpha < 150 && (pixel & 0xFFFFFF) == 0;  // black: a shadow alone
+            }
+        return count;
+    };
+    EXPECT_EQ(shadows_at_edge(1.001), 0);
+    EXPECT_GT(shadows_at_edge(4), 20);
+}
+
 }  // namespace
 }  // namespace beamcam::render
