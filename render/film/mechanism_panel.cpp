@@ -23,8 +23,8 @@ using std::numbers::pi;
 
 struct MechanismPanel::ThreadState final : FilmPanel::State {
     ThreadState(const FilmContext& context, int member, double scale, const Box& box)
-        : path(context.setup->view.tip_path ? static_cast<int>(box.w) : 1,
-               context.setup->view.tip_path ? static_cast<int>(box.h) : 1),
+        : path(kept_path(context.setup->view.tip_path, box)),
+          path_casing(kept_path(context.setup->view.tip_path && context.setup->view.transparent, box)),
           trace(context.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
         const sim::Problem& problem = context.motion(member).problem;
         const double r = problem.cam ? problem.cam->radius : 1, l = problem.beam.length;
@@ -32,7 +32,10 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
         trace = Trace(context.samples[static_cast<std::size_t>(member)], 2 * pi * r, places(2 * pi * r * scale), l,
                       places(l * scale));
     }
-    AccumulatedLayer path;
+    static AccumulatedLayer kept_path(bool needed, const Box& box) {
+        return needed ? AccumulatedLayer(static_cast<int>(box.w), static_cast<int>(box.h)) : AccumulatedLayer(1, 1);
+    }
+    AccumulatedLayer path, path_casing;
     Trace trace;
     LitMechanism lit;
     Offscreen seen, exposed;  // view of a moving camera; one of several exposures
@@ -107,13 +110,20 @@ bool MechanismPanel::whole_path() const {
 
 void MechanismPanel::accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const {
     if (!whole_path()) return;
-    AccumulatedLayer& path = static_cast<ThreadState*>(state)->path;
-    Box changed = path.extend_to(at_.context.at(at_.member, frame), tip_path_.whole(), kept.fonts(),
-                                 {at_.palette.motion_faint, 1.6 * at_.unit});
-    if (restart) changed = path.whole();
+    ThreadState& threads = *static_cast<ThreadState*>(state);
+    const double t = at_.context.at(at_.member, frame);
+    Pen pen{at_.palette.motion_faint, 1.6 * at_.unit};
+    Box changed = threads.path.extend_to(t, tip_path_.whole(), kept.fonts(), pen);
+    if (kept.casing) {
+        pen = {kept.casing->color, pen.width + kept.casing->width};
+        changed = threads.path_casing.extend_to(t, tip_path_.whole(), kept.fonts(), pen);  // it is wider
+    }
+    if (restart) changed = threads.path.whole();
     if (changed.empty()) return;
     kept.replace_part(background, 0, 0, {changed.x + at_.box.x, changed.y + at_.box.y, changed.w, changed.h});
-    kept.image_part(path.image(), static_cast<int>(at_.box.x), static_cast<int>(at_.box.y), changed);
+    for (const AccumulatedLayer* each : {&threads.path_casing, &threads.path})
+        if (each == &threads.path || kept.casing)
+            kept.image_part(each->image(), static_cast<int>(at_.box.x), static_cast<int>(at_.box.y), changed);
 }
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
@@ -137,7 +147,6 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     const Perspective* view = perspective ? &*perspective : nullptr;
     const std::optional<ForceArrow> arrow = force_arrow_of(pose, drawn, rings_.peak(frame, drawn));
     const MechanismScene s{canvas, frame, pose, drawn, shape, at, view, arrow, labels};
-    draw_tip_path(s);
     if (at.ghosts) draw_ghost_bodies(s);
     const bool several = at.motion().exposures > 1, one = !several || view_strobes();
     const auto bodies = [&] {
@@ -152,6 +161,7 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
         draw_base_line(s);
     }
     if (!s.view) draw_cam_speed(s);
+    draw_tip_path(s);  // over the halos of letters, which would interrupt it
     bodies();
     if (s.view) draw_cam_speed(s);  // in the plane of the front of the beam: the mount must not hide it
     if (!s.view && one) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });

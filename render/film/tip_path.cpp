@@ -73,16 +73,28 @@ void TipPath::find_whole(const MechanismView& home) {
 }
 
 void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) const {
+    struct Piece {
+        std::vector<Vec2> line;
+        double opacity;
+    };
+    std::vector<Piece> pieces;
     const auto now = static_cast<std::size_t>(s.frame);
     for (std::size_t k = now; k-- > 0;) {
         const double age = (moved_[now] - moved_[k]) / (kTrailSeconds * home.context.setup->fps);
         if (age > 1) break;
         if (moved_[k + 1] == moved_[k]) continue;
-        std::vector<Vec2> way = piece(home, k);
-        for (Vec2& p : way) p = seen_in(s, home, p);
-        s.canvas.polyline(way);
-        s.canvas.stroke({home.palette.motion.faded(0.55 * (1 - age)), 2 * home.unit, {}, Cap::butt});
+        pieces.push_back({piece(home, k), 1 - age});
+        for (Vec2& p : pieces.back().line) p = seen_in(s, home, p);
     }
+    const auto stroke = [&](Color color, double strength, double width) {
+        for (const Piece& each : pieces) {
+            s.canvas.polyline(each.line);
+            s.canvas.stroke({color.faded(strength * each.opacity), width, {}, Cap::butt});
+        }
+    };
+    const double width = 2 * home.unit;
+    if (s.canvas.casing) stroke(s.canvas.casing->color, 1, width + s.canvas.casing->width);
+    stroke(home.palette.motion, 0.55, width);
 }
 
 void TipPath::draw_whole(const MechanismScene& s, const MechanismView& home) const {
@@ -90,8 +102,10 @@ void TipPath::draw_whole(const MechanismScene& s, const MechanismView& home) con
     std::vector<Vec2> line;
     for (std::ptrdiff_t i = 0; i < end; ++i)
         line.push_back(seen_in(s, home, whole_.points[static_cast<std::size_t>(i)] + Vec2{home.box.x, home.box.y}));
-    s.canvas.polyline(line);
-    s.canvas.stroke({s.at.palette.motion_faint, 1.6 * s.at.unit});
+    const Pen pen{s.at.palette.motion_faint, 1.6 * s.at.unit};
+    if (const std::optional<Casing>& under = s.canvas.casing)
+        s.canvas.curve(line, {under->color, pen.width + under->width});
+    s.canvas.curve(line, pen);
 }
 
 }  // namespace beamcam::render

@@ -161,6 +161,30 @@ TEST(Layers, LieOverEachOtherAsIfTheyWereOne) {
     EXPECT_GT(of_other, 1000);
 }
 
+// The path of the tip has an outline like other lines, its oldest part included.
+TEST(Layers, ThePathOfTheTipHasAnOutline) {
+    for (const bool whole : {false, true}) {
+        FilmSetup setup = test::flat_film({.duration = 0.5}, 1280, 720);
+        setup.layout = LayoutNode{};
+        setup.view.tip_path = whole;
+        setup.view.transparent = true;
+        Film film(setup);
+        const Image image = drawn(film, 20);
+        const FrameGeometry g = film.geometry(10);
+        const std::size_t end = g.beam.line.size() - 1;
+        const Vec2 tip = g.camera.to_pixels((g.beam.face(end) + g.beam.back(end)) * 0.5);
+        const Color paper = palette(Theme::light).paper;
+        int bright = 0;  // pixels near to the paper's colour beside the line
+        for (int y = -4; y <= 4; ++y)
+            for (int x = -4; x <= 4; ++x) {
+                const std::uint32_t p =
+                    image.pixels[std::size_t(tip.y + y) * std::size_t(image.width) + std::size_t(tip.x + x)];
+                bright += double(p >> 16 & 255) > 0.5 * 255 * paper.r && (p >> 24) > 128;
+            }
+        EXPECT_GT(bright, 8) << whole;
+    }
+}
+
 // A contact shorter than two frames shows its peak force as long as its ring, 0.4 s.
 TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
     FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
