@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "render/film/mechanism_cameras.hpp"
+#include "render/film/label_visibility.hpp"
 #include "render/film/mechanism_marks.hpp"
 #include "render/film/swept_region.hpp"
 #include "render/plot/ticks.hpp"
@@ -14,7 +14,6 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kText = 4;                  // weight of labels, over which names are not readable; of bodies 1
-constexpr double kLabelFade = 0.2;           // duration of fading a label without a free place [s]
 constexpr double kFarthestLetter = 65;       // largest distance of θ from its arc [design px of the letter]
 constexpr double kLowestLetter = 1.2;        // largest angle of θ beyond the horizontal [rad]
 constexpr double kSameEpisode = 0.5;         // longest time without a force during which its label keeps its place [s]
@@ -54,52 +53,62 @@ class LabelPlacer {
         if (const auto projections = cameras.projections(); !projections.empty()) view = projections.front();
     }
 
-    // Radius at which the letter fits beside the arc, limited by the cam and the panel.
+    // Radius at which the letter fits beside the arc, limited by the panel. An arc that has no room between hub and cam
+    // is beyond the cam or, if the beam is too short for that, behind the disc.
     double arc_radius() const {
         const double letter = angle_letter(at), depth = at.look.depth * at.look.camera.scale;
-        const double preferred = 17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3);
-        return std::min(std::clamp(preferred, 92 * at.marks, 150 * at.marks), needs.arc_room);
+        const double preferred = std::clamp(17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3),
+                                            92 * at.marks, 150 * at.marks);
+        if (needs.before_cam >= least_arc()) return std::min({preferred, needs.before_cam, needs.arc_room});
+        const double beyond = std::max(preferred, needs.beyond_cam + 12 * u);
+        const double reach = 0.8 * (at.problem().hub.radius + at.problem().beam.length) * at.look.camera.scale;
+        return std::min(beyond <= reach ? beyond : preferred, needs.arc_room);
     }
 
     // The arc in all positions of the beam; empty without an arc.
     std::vector<Vec2> arc(double radius) const {
         std::vector<Vec2> out;
         const double from = std::min(needs.angles.low, 0.0), to = std::max(needs.angles.high, 0.0);
-        for (int i = 0; i <= 64 && radius >= at.hub() + 22 * at.marks; ++i)
+        for (int i = 0; i <= 64 && radius >= least_arc(); ++i)
             out.push_back(at.px({0, 0}) + down(from + (to - from) * i / 64) * radius);
         return out;
     }
 
     // The letter goes to the middle of the sector between the horizontal and the nearest position of the beam or, if
-    // that is too small, to the other side of the horizontal, beside the arc. None if it has room in neither.
+    // that is too small, to the other side of the horizontal, beside the arc. If it has room in neither, it goes where
+    // it is visible longest.
     std::optional<LabelPlace> angle(const OccupancyGrid& room, double radius) const {
-        const double letter = angle_letter(at), side = -needs.angles.low > needs.angles.high ? -1 : 1;
+        const double letter = angle_letter(at);
         const double widest = std::max(-needs.angles.low, needs.angles.high);
         const double under_beam = 0.5 * at.look.depth * at.look.camera.scale + 3 * u;  // an arc that is never seen
         if (arc(radius).empty() || widest < kLeastArc || widest * radius < under_beam) return std::nullopt;
         const Vec2 o = at.px({0, 0}), size{13 * letter, 17 * letter};
-        const Vec2 inside = o + down(side * 0.5 * least_angle()) * (radius - 17 * letter),
-                   beyond = o + Vec2{radius, side * 16 * letter};
+        const Vec2 inside = o + down(side() * 0.5 * least_angle()) * (radius - 17 * letter),
+                   beyond = o + Vec2{radius, side() * 16 * letter};
         for (const Vec2 middle : {inside, beyond}) {
             if (middle == inside && radius <= at.hub() + 34 * letter) continue;
-            LabelPlace out = place(room, about(middle, size), o, 3 * u);
+            const LabelPlace out = place(room, about(middle, size), o, 3 * u);
             const Vec2 way = at.px(out.base) + out.offset - o;
-            const double turned = side * std::atan2(-way.y, way.x);
+            const double turned = side() * std::atan2(-way.y, way.x);
             const double far = middle == inside ? std::abs(norm(way) - radius) : norm(way - Vec2{radius, 0});
-            if (far > kFarthestLetter * letter || turned < -kLowestLetter || turned > least_angle()) continue;
-            const Vec2 on_arc = o + way * (radius / norm(way));
-            out.base = at.look.camera.to_world(on_arc);
-            out.offset = o + way - on_arc;
-            fade(out, room);
-            return out;
+            if (far <= kFarthestLetter * letter && turned >= -kLowestLetter && turned <= least_angle() &&
+                room.covered(box(out)) == 0)
+                return beside_arc(way, size, radius, room);
         }
-        return std::nullopt;
+        return beside_arc(longest_visible(size, radius, widest), size, radius, room);
     }
 
-    // The label is beside its arrow; the arrow goes to the first side with space for both.
+    // The label is beside its arrow; the arrow goes to the first side with space for both, or else to the direction
+    // with the least that is covered.
     LabelPlace speed(const OccupancyGrid& room, double width, double& way) const {
         double least = std::numeric_limits<double>::infinity();
-        for (const double each : {-0.30 * pi, -0.70 * pi, 0.30 * pi, 0.70 * pi, -0.5 * pi, 0.5 * pi, 0.0, pi}) {
+        std::vector<double> ways{-0.30 * pi, -0.70 * pi, 0.30 * pi, 0.70 * pi, -0.5 * pi, 0.5 * pi, 0.0, pi};
+        const std::size_t usual_ways = ways.size();
+        for (int i = 1; i < 12; ++i)
+            for (const double turn : {-i * pi / 12, i * pi / 12}) ways.push_back(ways.front() + turn);
+        constexpr double kShadows = 0.1;  // a cost that shadows alone may have
+        for (std::size_t i = 0; i < ways.size() && (i < usual_ways || least > kShadows); ++i) {
+            const double each = ways[i];
             double cost = room.covered(speed_box(each, width));
             for_each_arrow_box(each, [&](const Box& box) { cost += room.covered(box); });
             if (cost < least) least = cost, way = each;
@@ -141,16 +150,45 @@ class LabelPlacer {
     }
 
   private:
-    // The mechanism at a frame, as its camera sees it.
-    struct Seen {
-        Seen(const MechanismCameras& cameras, int k)
-            : frame(k), at(cameras.view(k)), projection(cameras.perspective(at, k)) {}
-        const Perspective* by() const { return projection ? &*projection : nullptr; }
+    // A smaller arc is not drawn [px].
+    double least_arc() const { return at.hub() + 22 * at.marks; }
 
-        int frame;
-        MechanismView at;
-        std::optional<Perspective> projection;
-    };
+    double side() const { return -needs.angles.low > needs.angles.high ? -1 : 1; }
+
+    // `way`: from the hinge to the middle of the letter, which keeps its distance from the arc [px].
+    LabelPlace beside_arc(Vec2 way, Vec2 size, double radius, const OccupancyGrid& room) const {
+        const Vec2 on_arc = way * (radius / norm(way));
+        LabelPlace out{at.look.camera.to_world(at.px({0, 0}) + on_arc), way - on_arc, size, {}, {}};
+        fade(out, room);
+        return out;
+    }
+
+    // Of the places beside the arc, the one that is beside what is drawn of it and visible longest, by a sample of the
+    // frames.
+    Vec2 longest_visible(Vec2 size, double radius, double widest) const {
+        constexpr int kPlaces = 24, kFrames = 60;
+        const int step = 1 + at.context.frames() / kFrames;
+        Vec2 best = down(side() * widest / 2) * radius;
+        double most = 0;
+        for (int i = 0; i < kPlaces; ++i)
+            for (const double off : {-17.0, 17.0}) {
+                const double angle = widest * (i + 0.5) / kPlaces;
+                const Vec2 way = down(side() * angle) * (radius + off * angle_letter(at));
+                const Box letter = about(at.px({0, 0}) + way, size);
+                if (!at.box.contains(letter)) continue;
+                std::vector<int> met, reached;
+                for (int k = 0; k < at.context.frames(); k += step) {
+                    if (meets_body(letter, {cameras, k})) met.push_back(k);
+                    if (side() * drawn_angle(at.context.pose(at.member, k)) >= angle) reached.push_back(k);
+                }
+                LabelPlace trial;
+                fade_about(trial, met, at.context);
+                double visible = 0;
+                for (const int k : reached) visible += trial.opacity_at(k);
+                if (visible > most) best = way, most = visible;
+            }
+        return best;
+    }
 
     double least_angle() const { return std::max({needs.angles.low, -needs.angles.high, 0.0}); }
 
@@ -182,41 +220,15 @@ class LabelPlacer {
         return {on_base, found.centre() - on(at.px(on_base)), {preferred.w, preferred.h}, {}, {}};
     }
 
-    // Covers the bodies and the arrow of the force.
-    OccupancyGrid with_bodies(OccupancyGrid room, const Seen& now, const ForceArrow* arrow = nullptr) const {
-        SweptRegion parts(now.at, std::move(room),
-                          now.projection ? std::vector{*now.projection} : std::vector<Perspective>());
-        const sim::Pose pose = at.context.pose(at.member, now.frame);
-        parts.add_shape(mechanism_shape(at.problem(), pose, at.drawn(at.member, pose), now.at.look, at.palette));
-        if (arrow) parts.add_arrow(*arrow);
-        return std::move(parts.room);
-    }
-
     // The label is hidden in frames in which a moving part is in its place.
     void fade(LabelPlace& label, const OccupancyGrid& room) const {
         if (!cameras.move() && room.covered(box(label)) == 0) return;
         std::vector<int> met;
         for (int k = 0; k < at.context.frames(); ++k) {
-            const Seen now(cameras, k);
+            const SeenFrame now(cameras, k);
             if (meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);
         }
-        fade_about(label, met);
-    }
-
-    bool meets_body(const Box& box, const Seen& now) const {
-        return with_bodies(OccupancyGrid(box, 4 * u), now).covered(box.inset(0.01)) > 0.01;
-    }
-
-    void fade_about(LabelPlace& label, const std::vector<int>& met) const {
-        if (met.empty()) return;
-        const double fade = kLabelFade * at.context.setup->fps;
-        for (int k = 0; k < at.context.frames(); ++k) {
-            const auto after = std::ranges::lower_bound(met, k);
-            int far = at.context.frames();
-            if (after != met.end()) far = *after - k;
-            if (after != met.begin()) far = std::min(far, k - *std::prev(after));
-            label.opacity.push_back(static_cast<float>(std::min(1.0, far / (1 + fade))));
-        }
+        fade_about(label, met, at.context);
     }
 
     // Before a moving camera the label keeps a place in the picture as long as a force is shown.
@@ -230,18 +242,18 @@ class LabelPlacer {
             const Box place = pinned_place(label.size, first, end);
             for (std::size_t i = first; i < end; ++i) {
                 label.pinned[static_cast<std::size_t>(needs.frames[i])] = place.centre();
-                if (meets_body(place, Seen(cameras, needs.frames[i]))) met.push_back(needs.frames[i]);
+                if (meets_body(place, SeenFrame(cameras, needs.frames[i]))) met.push_back(needs.frames[i]);
             }
         }
-        fade_about(label, met);
+        fade_about(label, met, at.context);
     }
 
     // The place nearest to the first of these arrows that no body meets while they are shown.
     Box pinned_place(Vec2 size, std::size_t first, std::size_t end) const {
         OccupancyGrid room(at.label_area(), 4 * u);
         for (std::size_t i = first; i < end; ++i)
-            room = with_bodies(std::move(room), Seen(cameras, needs.frames[i]), &needs.arrows[i]);
-        const Seen now(cameras, needs.frames[first]);
+            room = with_bodies(std::move(room), SeenFrame(cameras, needs.frames[i]), &needs.arrows[i]);
+        const SeenFrame now(cameras, needs.frames[first]);
         const Box beside = beside_tip(now.at, now.by(), needs.arrows[first], size);
         return room.nearest_free(beside.inset(-4 * u)).inset(4 * u);
     }

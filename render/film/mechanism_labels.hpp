@@ -1,8 +1,9 @@
 // Places of the labels of a mechanism. Each label keeps one place over the whole film: the nearest to its owner that no
-// moving part ever meets. A label far from its owner gets a leader line; the letter of the angle is left out instead. A
-// label without a free place fades out while a part moves through it.
+// moving part ever meets. A label far from its owner gets a leader line. A label without a free place, or an angle's
+// without one near its arc, fades out while a part moves through it.
 #pragma once
 
+#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -42,8 +43,10 @@ struct MechanismLabels {
 };
 
 struct LabelNeeds {
-    Range angles;                    // range of θ over the film, as drawn [rad]
-    double arc_room = 0;             // largest radius of the arc of θ that fits [px]
+    Range angles;         // range of θ over the film, as drawn [rad]
+    double arc_room = 0;  // largest radius of the arc of θ that fits into the panel [px]
+    double before_cam = std::numeric_limits<double>::infinity();  // largest one between hub and cam [px]
+    double beyond_cam = 0;           // radius within which everything is that the disc sweeps [px]
     std::vector<ForceArrow> arrows;  // of every frame with a force
     std::vector<int> frames;         // … and these frames
 };

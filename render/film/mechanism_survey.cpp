@@ -53,7 +53,8 @@ static void add_measured(const MechanismView& at, const Pose& pose, const DrawnB
 }
 
 LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {
-    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}, {}};
+    LabelNeeds needs;
+    needs.angles = {kInfinity, -kInfinity};
     Bounds seen;
     std::vector<Vec2> before;
     for (int k = 0; k < at_.context.frames(); ++k) {
@@ -79,8 +80,9 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         before = shape.face;
         if (at_.problem().cam) {
             const sim::Cam& cam = *at_.problem().cam;
-            const double free = norm(pose.cam_centre) - cam.radius - cam.eccentricity;
-            needs.arc_room = std::min(needs.arc_room, 0.86 * free * at_.look.camera.scale);
+            const double away = norm(pose.cam_centre), swept_by_disc = cam.radius + cam.eccentricity;
+            needs.before_cam = std::min(needs.before_cam, 0.86 * (away - swept_by_disc) * at_.look.camera.scale);
+            needs.beyond_cam = std::max(needs.beyond_cam, (away + swept_by_disc) * at_.look.camera.scale);
         }
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
@@ -90,7 +92,7 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         for (SweptRegion* each : {&swept, &in_contact})
             each->add_curve(tip_path_.piece(at_, static_cast<std::size_t>(k)));  // the trail
     const Range from_rest{std::min(needs.angles.low, 0.0), std::max(needs.angles.high, 0.0)};
-    needs.arc_room = std::min(needs.arc_room, arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit)));
+    needs.arc_room = arc_room(from_rest, at_.px({0, 0}), at_.box.inset(4 * at_.unit));
     if (at_.context.setup->view.tip_path) tip_path_.find_whole(at_);
     // Shadows fade out in the gap around the panel.
     lit_box_ = lit_box(seen.box(), at_.box.inset(-std::floor(10 * at_.unit)), at_.unit);

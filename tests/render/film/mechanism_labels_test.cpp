@@ -3,10 +3,13 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <numbers>
 
 #include "render/film/impact_rings.hpp"
 #include "render/film/mechanism_cameras.hpp"
 #include "render/film/panel.hpp"
+#include "render/film/swept_region.hpp"
 #include "tests/render/synthetic.hpp"
 
 namespace beamcam::render {
@@ -158,6 +161,52 @@ TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
             }
         }
         EXPECT_GT(captions, 100);
+    }
+}
+
+// A rod that is led about its hub.
+FilmSetup led_rod(double from, double rate, double duration = 1) {
+    FilmSetup setup = test::flat_film({.duration = duration}, 1280, 720);
+    for (sim::Pose& pose : setup.poses) {
+        pose.theta = from + rate * pose.t;
+        const double last = double(pose.centreline.size() - 1);
+        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+            pose.centreline[i] = sim::unit(pose.theta) * (setup.problem.beam.length * double(i) / last);
+        pose.nearest.reset();
+    }
+    return setup;
+}
+
+// The arrow of the cam's speed finds the only free direction, between those that are tried first.
+TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
+    const FilmContext context(std::make_shared<const FilmSetup>(test::flat_film({.duration = 0.1}, 1280, 720)));
+    const MechanismView at(context, *context.places.first(PanelKind::mechanism));
+    const MechanismCameras cameras(at);
+    const Vec2 axis = at.px(at.problem().cam->centre);
+    for (const double free : {0.4, 2.5, -2.8}) {
+        SweptRegion swept(at, OccupancyGrid(at.box, 2), {}), in_contact = swept;
+        constexpr double kHalf = 0.52, kStep = 0.05;  // the arrow spans up to 0.8 rad
+        for (double angle = free + kHalf; angle < free - kHalf + 2 * std::numbers::pi; angle += kStep)
+            swept.room.cover_convex(std::array{axis, axis + down(angle) * 3000, axis + down(angle + kStep) * 3000});
+        const MechanismLabels labels = place_labels(at, cameras, {}, swept, in_contact);
+        EXPECT_LT(std::abs(std::remainder(labels.speed_way - free, 2 * std::numbers::pi)), kHalf - 0.35) << free;
+    }
+}
+
+// The angle has its arc and letter, too, where the cam leaves no room between itself and the hub.
+TEST(MechanismLabels, TheAngleIsShownBesideACamAtTheHub) {
+    for (const double centre : {0.06, 0.5}) {
+        FilmSetup setup = led_rod(1.2, -0.2);
+        sim::Cam& cam = *setup.problem.cam;
+        cam.centre = {centre, 0}, cam.radius = 0.8 * centre, cam.eccentricity = 0.15 * centre, cam.speed = 0;
+        for (sim::Pose& pose : setup.poses) pose.cam_centre = pose.disc_centre = cam.centre;
+        const FilmContext context(std::make_shared<const FilmSetup>(setup));
+        const MechanismView home(context, *context.places.first(PanelKind::mechanism));
+        const Vec2 hinge = home.px({0, 0});
+        int near = 0;
+        for (const Box& label : Film(setup).geometry(0).labels)
+            near += norm(label.centre() - hinge) < 0.45 * home.look.camera.scale;
+        EXPECT_GE(near, 1) << centre;
     }
 }
 

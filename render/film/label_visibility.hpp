@@ -1,0 +1,28 @@
+// When moving parts meet the place of a label, and its opacity, which fades around those frames.
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "render/film/mechanism_cameras.hpp"
+#include "render/plot/placement.hpp"
+
+namespace beamcam::render {
+
+// The mechanism at a frame, as its camera sees it.
+struct SeenFrame {
+    SeenFrame(const MechanismCameras& cameras, int k);
+    const Perspective* by() const { return projection ? &*projection : nullptr; }
+
+    int frame;
+    MechanismView at;
+    std::optional<Perspective> projection;
+};
+
+// Covers the bodies and the arrow of the force.
+OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now, const ForceArrow* arrow = nullptr);
+bool meets_body(const Box& box, const SeenFrame& now);
+// Hides the label in the frames `met`, and fades it before and after.
+void fade_about(LabelPlace& label, const std::vector<int>& met, const FilmContext& context);
+
+}  // namespace beamcam::render
