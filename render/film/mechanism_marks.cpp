@@ -253,19 +253,24 @@ LabelPlace force_place(const MechanismScene& s) {
     return label;
 }
 
-static Vec2 tip_of(const MechanismScene& s, const ForceArrow& arrow) {
-    return s.on(s.at.px(arrow.foot) + Vec2{arrow.normal.x, -arrow.normal.y} * arrow_length(s.at, arrow));
+static Vec2 tip_of(const MechanismView& at, const Perspective* view, const ForceArrow& arrow) {
+    return at.seen(at.px(arrow.foot) + Vec2{arrow.normal.x, -arrow.normal.y} * arrow_length(at, arrow), view);
+}
+
+Vec2 visible_end(const MechanismView& at, const Perspective* view, const ForceArrow& arrow) {
+    const Vec2 tip = tip_of(at, view, arrow);
+    return at.shows(tip) ? tip : at.seen(at.px(arrow.foot), view);
 }
 
 void draw_force_leader(const MechanismScene& s) {
     if (!s.arrow || !names_force(s, s.px(s.arrow->foot))) return;
-    draw_leader(s, force_place(s), s.at.palette.contact, tip_of(s, *s.arrow), s.arrow->foot);
+    draw_leader(s, force_place(s), s.at.palette.contact, visible_end(s.at, s.view, *s.arrow), s.arrow->foot);
 }
 
 void draw_force(const MechanismScene& s) {
     if (!s.arrow) return;
     const ForceArrow& arrow = *s.arrow;
-    const Vec2 foot = s.px(arrow.foot), tip = tip_of(s, arrow);
+    const Vec2 foot = s.px(arrow.foot), tip = tip_of(s.at, s.view, arrow);
     s.canvas.circle(foot, 5 * s.at.marks);
     s.canvas.fill(s.at.palette.contact);
     // A force too small for an arrow is shown by the dot and the number.

@@ -31,6 +31,8 @@ TextStyle force_style(const MechanismView& at);
 std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
                                          const std::optional<ForceArrow>& peak);
 LabelPlace force_place(const MechanismScene& s);  // of the label of the force at this frame
+// Where the leader of its label ends: the tip or, if a near camera does not show that, the foot [px].
+Vec2 visible_end(const MechanismView& at, const Perspective* view, const ForceArrow& arrow);
 void draw_force_leader(const MechanismScene& s);
 void draw_force(const MechanismScene& s);
 // A colour for each bin around the disc, alpha 0 if it was never touched.

@@ -8,6 +8,7 @@
 
 #include "render/film/impact_rings.hpp"
 #include "render/film/mechanism_cameras.hpp"
+#include "render/film/mechanism_marks.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/swept_region.hpp"
 #include "tests/render/synthetic.hpp"
@@ -193,6 +194,19 @@ TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
     }
 }
 
+// The leader of a force whose arrow leaves the view of a near camera ends where the arrow does not.
+TEST(MechanismLabels, LeadersEndInTheViewOfANearCamera) {
+    FilmSetup setup = film_of(Style::flat);
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    MechanismView at(context, *context.places.first(PanelKind::mechanism));
+    ForceArrow arrow{{0.5, 0.2}, {0, 1}, context.arrow_scale};
+    EXPECT_GT(norm(visible_end(at, nullptr, arrow) - at.px(arrow.foot)), 20);
+    CameraFrame near{at.look.camera, 1, 0, 0};
+    near.camera.origin = near.camera.origin + Vec2{0, at.box.y + 10 - at.px(arrow.foot).y};  // its foot is at the edge
+    const MechanismView above = at.with_camera(near);
+    EXPECT_EQ(visible_end(above, nullptr, arrow), above.px(arrow.foot));
+}
+
 // The angle has its arc and letter, too, where the cam leaves no room between itself and the hub.
 TEST(MechanismLabels, TheAngleIsShownBesideACamAtTheHub) {
     for (const double centre : {0.06, 0.5}) {
@@ -304,6 +318,16 @@ TEST(MechanismLegend, IsClearOfManyBeamsInASmallPicture) {
             for (const Box& list : g.legend) EXPECT_FALSE(meets_beam(list, home, g.beam, nullptr)) << int(how) << k;
         }
     }
+}
+
+TEST(MechanismLegend, TheScaleBarIsNotBesideTheLogo) {
+    FilmSetup setup = test::flat_film({.duration = 0.2}, 1280, 720);
+    setup.layout = LayoutNode{};
+    setup.logo = std::make_shared<const Image>(300, 120);
+    const FrameGeometry g = Film(setup).geometry(0);
+    ASSERT_TRUE(g.layout.logo);
+    ASSERT_EQ(g.legend.size(), 1U);
+    EXPECT_FALSE(g.legend[0].overlaps(g.layout.logo->inset(-20 * g.layout.unit)));
 }
 
 // A name that is too long for its panel has two lines before it is cut.
