@@ -98,8 +98,7 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     const double column = (view.high - view.low) / plot.w, before = 4 * style_.unit + 4;
     const figure::Interval past{std::max(view.low, view.low + (from - plot.x - before) * column),
                                 std::min(t, view.high), true};
-    canvas.clip({from, top, cut - from, plot.h + (windowed() ? 9 : 2 * kAround)},
-                [&] { (shown ? *shown : plot_).draw_data(canvas, past); });
+    canvas.clip({from, top, cut - from, past_box().h}, [&] { (shown ? *shown : plot_).draw_data(canvas, past); });
     draw_cursor(canvas, cut - 0.5, readings);
 }
 

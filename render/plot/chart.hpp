@@ -6,6 +6,7 @@
 // any order.
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <span>
 #include <string>
@@ -48,7 +49,10 @@ class Chart {
     void draw_background(Canvas& canvas) const;  // axes, labels, the future
     // All curves as past, of the size of `past_box`; columns up to `past_column` may be shown. Empty with a window.
     Image past(const Fonts& fonts) const;
-    Box past_box() const { return plot_.box().inset(-kAround); }
+    Box past_box() const {
+        const Box around = plot_.box().inset(-kAround);
+        return {around.x, around.y, around.w, around.h - kAround + std::ceil(plot_.numbers_below())};
+    }
     // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
     // The moving part: the last columns of the curves until t, with a window all columns. `readings`: the values of the
@@ -58,7 +62,7 @@ class Chart {
     bool windowed() const { return c_.window.has_value(); }
 
   private:
-    static constexpr double kAround = 8;  // beside the plot that the past may reach [px]
+    static constexpr double kAround = 8;  // above and beside the plot that the past may reach [px]
     figure::Interval whole(bool past) const { return {time().low, time().high, past}; }
     int cursor_column(const Range& view, double t) const;
     void draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const;

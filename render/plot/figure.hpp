@@ -48,7 +48,7 @@ struct Dot {
     double x = 0, y = 0;
     Color color = {}, faint = {};  // faint: in the future
 };
-// A tick on the x axis at an instant of the past, in one of the lanes above each other.
+// A tick below the x axis at an instant of the past, in one of the lanes below each other.
 struct EventTick {
     double x = 0;
     Color color = {};

@@ -185,7 +185,7 @@ void Plot::draw_x_axis(Painter& on) const {
         draw_page_ticks(on, *x_, box_, Side::bottom, lowest_, style_->tick, style_->minor_tick);
         return draw_page_ticks(on, *x_, box_, Side::top, false, style_->tick, style_->minor_tick);
     }
-    const double u = style_->unit, below = 9 * u + style_->numbers;
+    const double u = style_->unit, below = numbers_below();
     const bool grid = panel_->x.grid;
     TextStyle text = style_->tick_numbers();
     text.align = HAlign::centre;

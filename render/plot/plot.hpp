@@ -52,6 +52,8 @@ class Plot {
 
     // How much the numbers below the plot are lowered so that they do not touch those beside it at a corner.
     double drop(const Painter& on) const;
+    // Of films: from the axis down to the baseline of its numbers [px].
+    double numbers_below() const { return 9 * style_->unit + style_->numbers; }
     void draw_x_axis(Painter& on) const;
     void draw_y_axis(Painter& on) const;
     void draw_frame(Painter& on) const;

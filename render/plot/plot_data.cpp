@@ -107,11 +107,11 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     if (!part.past) return;
     for (const EventTick& event : panel_->events) {
         if (!within(event.x)) continue;
-        // All lanes share the height of two ticks, so that they stay below the curves.
-        const double x = along_x(event.x) + shift_.x,
-                     tall = event.lanes == 1 ? 10 * u : std::min(8.0, 20.0 / event.lanes) * u;
-        const double foot = box_.bottom() + shift_.y - 1 - tall * event.lane;
-        on.line({x, foot}, {x, foot - (event.lanes == 1 ? tall : 0.85 * tall)}, {event.color, 1.8 * u, {}, Cap::butt});
+        // Between axis and numbers, clear of the curves. The lanes share the room.
+        const double x = along_x(event.x) + shift_.x, room = numbers_below() - on.cap_height(style_->numbers) - 3.5 * u;
+        const double tall = std::min(10 * u, room / event.lanes),
+                     top = box_.bottom() + shift_.y + 1.5 * u + tall * event.lane;
+        on.line({x, top}, {x, top + (event.lanes == 1 ? tall : 0.8 * tall)}, {event.color, 1.8 * u, {}, Cap::butt});
     }
 }
 

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "render/draw/canvas.hpp"
 
 namespace beamcam::render::figure {
@@ -58,6 +60,32 @@ TEST(Plot, DrawsThePastToItsInstantAndTheFutureFainter) {
         EXPECT_NEAR(drawn.high, kBox.x + (past ? 0.6 : 0.75) * kBox.w, 2);
         EXPECT_LT(columns_with(image, past ? 0x00FF00 : 0xFF0000).high, 0);
     }
+}
+
+// Ticks of events touch neither the curves nor the numbers of the axis, however many lanes there are.
+TEST(Plot, TicksOfEventsAreBetweenTheAxisAndItsNumbers) {
+    const Fonts fonts;
+    for (const double unit : {0.5, 1.0, 2.0})
+        for (const int lanes : {1, 3, 8}) {
+            Panel panel{.x = {.from = 0, .to = 1, .unit = 1}, .y = {.from = 0, .to = 1}};
+            for (int lane = 0; lane < lanes; ++lane)
+                panel.events.push_back({.x = 0.5, .color = rgb(0xFF0000), .lane = lane, .lanes = lanes});
+            const PlotStyle film = film_style(palette(Theme::light), unit, 17 * unit);
+            Image image(300, 200);
+            double numbers = 0;
+            {
+                Canvas canvas(image, fonts);
+                Plot plot(panel, film, "test");
+                plot.place(canvas, kBox);
+                plot.draw_data(canvas, {});
+                numbers = kBox.bottom() + plot.numbers_below() - canvas.cap_height(film.numbers);
+            }
+            for (int y = 0; y < image.height; ++y) {
+                const auto row = image.pixels.begin() + std::ptrdiff_t(y) * image.width;
+                const bool empty = std::all_of(row, row + image.width, [](std::uint32_t pixel) { return pixel == 0; });
+                EXPECT_TRUE(empty || (y >= kBox.bottom() && y + 1 <= numbers)) << y << ", " << lanes << " lanes";
+            }
+        }
 }
 
 // A window moves the curves and its numbers, and no number is before the first instant of the film.
