@@ -1,3 +1,5 @@
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -24,6 +26,7 @@ namespace {
 using Added = std::function<void(std::size_t panel, std::size_t cloud, std::uint64_t point)>;
 
 constexpr std::uint32_t kSeedColors[] = {0x000000, 0xE0218A, 0x009E73, 0x56B4E9};
+constexpr double kOverFirst = 0.65;  // opacity of the other starts' dots, which do not hide those of the first
 
 constexpr std::uint64_t kMostLanes = 8;
 std::uint64_t lanes_of(const SweptPoints& points) { return std::min(points.seeds(), kMostLanes); }
@@ -69,11 +72,11 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
     const std::uint64_t count = points.seed(0) == SeedKind::random ? 1 : points.seeds();
     std::vector<figure::Cloud> clouds;
     for (std::uint64_t seed = 0; seed < count; ++seed)
-        clouds.push_back(
-            {count > 1 ? look_of(points.seed(seed)).label.in(points.lang) : "",
-             {},
-             {},
-             count > 1 ? rgb(kSeedColors[seed % std::size(kSeedColors)]).faded(seed > 0 ? 0.65 : 1) : rgb(0x000000)});
+        clouds.push_back({count > 1 ? look_of(points.seed(seed)).label.in(points.lang) : "",
+                          {},
+                          {},
+                          count > 1 ? rgb(kSeedColors[seed % std::size(kSeedColors)]).faded(seed > 0 ? kOverFirst : 1)
+                                    : rgb(0x000000)});
     return clouds;
 }
 
@@ -107,12 +110,29 @@ figure::Panel exponents_panel(std::vector<figure::Cloud> clouds) {
             .name = "exponent"};
 }
 
-figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::vector<figure::Cloud> clouds) {
+// A cloud without points, which names the colour of dots of all starts at one place.
+figure::Cloud coinciding(const std::vector<figure::Cloud>& clouds, Lang lang) {
+    Color all = clouds.front().color;
+    for (const figure::Cloud& cloud : clouds) all = mix(all, cloud.color, cloud.color.a);
+    all.a = 1;
+    return {.label = phrase(lang, "coinciding", "重合"), .color = all};
+}
+
+// `classes`: those of the motions.
+figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::vector<figure::Cloud> clouds,
+                            const std::vector<figure::Swatch>& classes) {
     figure::Panel panel{.y = {.label = column_label(points, column)},
                         .clouds = std::move(clouds),
                         .legend = figure::Legend::box,
                         .name = points.data.columns[column].name};
-    if (!all_empty(panel.clouds)) return panel;
+    if (!all_empty(panel.clouds)) {
+        if (panel.clouds.size() > 1) panel.clouds.push_back(coinciding(panel.clouds, points.lang));
+        return panel;
+    }
+    std::vector<std::string> names;
+    for (const figure::Swatch& each : classes) names.push_back(each.label);
+    panel.title = phrase(points.lang, "No settled point to draw; motions: {}", "没有可绘制的点；运动：{}",
+                         fmt::join(names, phrase(points.lang, ", ", "、")));
     panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};  // numbers would be invented
     panel.legend = figure::Legend::none;
     panel.share = 0.15;
@@ -135,9 +155,10 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
     Dots dots = dots_of(points, column, order, added);
     const bool empty = all_empty(dots.samples), known = !all_empty(dots.exponents);
     figure::Figure out;
-    out.panels = {samples_panel(points, column, std::move(dots.samples))};
+    figure::Panel strip = class_strip(points);
+    out.panels = {samples_panel(points, column, std::move(dots.samples), strip.swatches)};
     if (known) out.panels.push_back(exponents_panel(std::move(dots.exponents)));
-    out.panels.push_back(class_strip(points));
+    out.panels.push_back(std::move(strip));
     const std::vector<double> edges = out.panels.back().cells[0].x;
     for (figure::Panel& each : out.panels)
         each.x = {.label = label_of(points.axis(0)),
@@ -146,7 +167,7 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
                   .to = edges.back(),
                   .tight = true};
     out.stack = out.share_x = true;
-    out.aspect = empty ? 0.35 : known ? 1.05 : 0.8;
+    out.aspect = empty ? 0.45 : known ? 1.05 : 0.8;
     if (empty) out.caption = phrase(points.lang, "No motion has a section to draw.", "没有可绘制的截面。");
     if (known)
         out.caption += (empty ? " " : "") + phrase(points.lang,
@@ -173,10 +194,10 @@ GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, cons
     });
     if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
-    const output::SweepAxis& axis = points.axis(0);
-    const bool prefixed = measure_of(axis.unit, largest_magnitude(axis.values)).unit != axis.unit;
+    const bool prefixed = points.measure(0).unit != points.axis(0).unit;
     for (Panel& each : whole_.panels) each.x.short_numbers = prefixed;  // the unit of `point_text`
-    whole_.panels.front().legend = Legend::above;  // inside the plot it would move as the plot fills
+    Panel& samples = whole_.panels.front();
+    if (samples.legend == Legend::box) samples.legend = Legend::above;  // in the plot it would move as the plot fills
     const std::vector<std::optional<std::size_t>> cells = strip_cells(points);
     cells_.assign(whole_.panels.back().cells[0].colors.size(), 0);
     for (std::size_t k = 0; k < cells.size(); ++k)

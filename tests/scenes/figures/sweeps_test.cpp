@@ -103,6 +103,11 @@ TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     ASSERT_THAT(figure.panels, SizeIs(2));
     EXPECT_FALSE(figure.panels[0].y.numbered);
     EXPECT_THAT(figure.caption, HasSubstr("No motion has a section to draw."));
+    EXPECT_EQ(figure.panels[0].title, "No settled point to draw; motions: following, over-the-top");
+    const output::SweepData none = data(speeds, {over_the_top});
+    const GrowingDiagram growing({&speeds.scene(), &none}, {}, {0, 1});
+    EXPECT_EQ(growing.until(0, 1).panels[0].title, "No settled point to draw; motions: over-the-top");
+    EXPECT_EQ(growing.until(0, 1).panels[0].legend, render::figure::Legend::none);
 }
 
 TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
@@ -116,7 +121,7 @@ TEST(GrowingDiagram, ShowsMoreAndMoreOfOneAndTheSameDiagram) {
     const auto shown = [&](std::size_t last) {
         const auto figure = diagram.until(last, 2.5);
         EXPECT_EQ(figure.panels[0].rules.back().at, 2.5);
-        EXPECT_THAT(figure.panels[0].clouds, SizeIs(2));
+        EXPECT_THAT(figure.panels[0].clouds, SizeIs(3));
         const auto& colors = figure.panels[1].cells[0].colors;
         const auto cells = std::ranges::count_if(colors, [](const render::Color& c) { return c.a > 0; });
         return std::tuple(figure.panels[0].clouds[0].shown, figure.panels[0].clouds[1].shown, cells);
@@ -206,9 +211,14 @@ TEST(Diagram, DistinguishesUpAndDown) {
     const SweepGrid both =
         grid(R"({"over": [{"key": "cam.speed", "values": [1, 2]}], "seed": ["carry-up", "carry-down"]})");
     const auto figure = diagram("bifurcation", both, data(both, {AttractorClass::periodic}), "v_n_before");
-    ASSERT_THAT(figure.panels[0].clouds, SizeIs(2));
+    ASSERT_THAT(figure.panels[0].clouds, SizeIs(3));
     EXPECT_EQ(figure.panels[0].clouds[0].label, "carried up");
     EXPECT_EQ(figure.panels[0].clouds[1].label, "carried down");
+    // The colour of a dot over a dot is in the legend.
+    EXPECT_EQ(figure.panels[0].clouds[2].label, "coinciding");
+    EXPECT_THAT(figure.panels[0].clouds[2].x, SizeIs(0));
+    const render::Color up = figure.panels[0].clouds[0].color, down = figure.panels[0].clouds[1].color;
+    EXPECT_NEAR(figure.panels[0].clouds[2].color.r, up.r * (1 - down.a) + down.r * down.a, 1e-12);
     EXPECT_FALSE(figure.panels[0].clouds[0].color == figure.panels[0].clouds[1].color);
     EXPECT_EQ(figure.panels[1].cells[0].y.back(), 2);
 }
