@@ -130,6 +130,9 @@ struct Callout {
 // Display units of angles and rotational speeds; SI otherwise.
 struct Units {
     bool degrees = false, rpm = false;
+    // Factor from an SI unit to the one that is shown, and that one.
+    double factor(const std::string& si) const;
+    std::string unit(const std::string& si) const;
     bool operator==(const Units&) const = default;
 };
 

@@ -152,17 +152,22 @@ void FilmContext::place_logo() {
     line.w -= wide + (places.scales ? 40 : 24) * unit;
 }
 
-double FilmContext::shown_factor(Channel channel) const {
-    const std::string si = sim::unit(channel, setup->problem);
-    if (si == "rad/s" && setup->units.rpm) return 30 / std::numbers::pi;
-    return setup->units.degrees && (si == "rad" || si == "rad/s") ? 180 / std::numbers::pi : 1;
+double Units::factor(const std::string& si) const {
+    if (si == "rad/s" && rpm) return 30 / std::numbers::pi;
+    return degrees && (si == "rad" || si == "rad/s") ? 180 / std::numbers::pi : 1;
 }
 
-std::string FilmContext::shown_unit(Channel channel) const {
-    std::string si = sim::unit(channel, setup->problem);
+std::string Units::unit(const std::string& si) const {
     if (si == "m/s^2") return "m/s²";
-    if (shown_factor(channel) == 1) return si;
-    return si == "rad" ? "°" : setup->units.rpm ? "rpm" : "°/s";
+    if (factor(si) == 1) return si;
+    return si == "rad" ? "°" : rpm ? "rpm" : "°/s";
+}
+
+double FilmContext::shown_factor(Channel channel) const {
+    return setup->units.factor(sim::unit(channel, setup->problem));
+}
+std::string FilmContext::shown_unit(Channel channel) const {
+    return setup->units.unit(sim::unit(channel, setup->problem));
 }
 
 double FilmContext::measured_angle(std::size_t k, double t) const {

@@ -19,11 +19,11 @@ std::string equation(const char* symbol, const std::string& value) {
 
 std::string contact_piece(const sim::Problem& problem) {
     if (problem.contact.model == sim::ContactModel::restitution)
-        return "impulses, " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+        return "impulses, " + equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
     const std::string k = equation("K", power_text(sim::contact_stiffness(problem)) +
                                             fmt::format("\u00A0N\u2009m^{{−{:.3g}}}", problem.contact.exponent));
     if (problem.contact.damping == sim::DampingLaw::none) return k + ", elastic";
-    return k + ", " + equation("c", fmt::format("{:.3g}", problem.contact.restitution));
+    return k + ", " + equation("c_{\\r{r}}", fmt::format("{:.3g}", problem.contact.restitution));
 }
 
 // Structural damping; empty: none.

@@ -194,8 +194,17 @@ GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, cons
     });
     if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
-    const bool prefixed = points.measure(0).unit != points.axis(0).unit;
-    for (Panel& each : whole_.panels) each.x.short_numbers = prefixed;  // the unit of `point_text`
+    const Measure measure = points.measure(0);  // the unit of `point_text`
+    factor_ = measure.factor;
+    const auto convert = [&](std::vector<double>& values) {
+        for (double& each : values) each *= factor_;
+    };
+    for (Panel& each : whole_.panels) {
+        each.x.label = axis_label(symbol_of(points.axis(0).name), measure.unit);
+        *each.x.from *= factor_, *each.x.to *= factor_;
+        for (figure::Cloud& cloud : each.clouds) convert(cloud.x);
+        for (figure::Cells& cells : each.cells) convert(cells.x);
+    }
     Panel& samples = whole_.panels.front();
     if (samples.legend == Legend::box) samples.legend = Legend::above;  // in the plot it would move as the plot fills
     const std::vector<std::optional<std::size_t>> cells = strip_cells(points);
@@ -213,7 +222,7 @@ Figure GrowingDiagram::until(std::size_t last, double at) const {
             out.panels[i].clouds[c].shown =
                 static_cast<std::size_t>(std::ranges::upper_bound(places, last) - places.begin());
         }
-        out.panels[i].rules.push_back({.at = at, .vertical = true});
+        out.panels[i].rules.push_back({.at = factor_ * at, .vertical = true});
     }
     std::vector<render::Color>& colors = out.panels.back().cells[0].colors;
     for (std::size_t i = 0; i < colors.size(); ++i)

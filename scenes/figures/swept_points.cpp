@@ -45,6 +45,7 @@ SweptPoints::SweptPoints(const Swept& swept, Lang how)
 
 Measure SweptPoints::measure(std::size_t i) const {
     const output::SweepAxis& axis = this->axis(i);
+    if (const double factor = scene.units.factor(axis.unit); factor != 1) return {factor, scene.units.unit(axis.unit)};
     return scale(i) == render::Scale::linear ? measure_of(axis.unit, largest_magnitude(axis.values))
                                              : Measure{1, axis.unit};
 }

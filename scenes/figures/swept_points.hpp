@@ -22,7 +22,8 @@ class SweptPoints {
     std::uint64_t seeds() const { return starts_.size(); }
     SeedKind seed(std::uint64_t point) const { return starts_[point % starts_.size()]; }
     render::Scale scale(std::size_t i) const;
-    Measure measure(std::size_t i) const;  // of the values of an axis in texts: with a prefix if it is linear
+    // Of the values of an axis in films: the scene's unit of angles and speeds, else with a prefix if it is linear.
+    Measure measure(std::size_t i) const;
     // Of the samples; throws PictureError.
     std::size_t column(const std::string& name) const;
     bool of_impacts() const { return scene.sweep->sampling.kind == sim::SampleKind::impacts; }

@@ -56,24 +56,39 @@ void check_words(ObjectReader& r, const char* key, const std::string& text) {
 
 // ---- pictures ----------------------------------------------------------------------------------
 
+// The value of a key as it is written, or the first one of a sweep over it; null: none.
+const Node* written_value(const Node& scene, const std::string& key) {
+    const Member *sweep = scene.find("sweep"), *over = sweep ? sweep->value.find("over") : nullptr;
+    for (std::size_t i = 0; over && i < over->value.items.size(); ++i) {
+        const Node& item = over->value.items[i];
+        const Member *name = item.find("key"), *from = item.find("from"), *values = item.find("values");
+        if (!name || name->value.text != key) continue;
+        if (from) return &from->value;
+        if (values && !values->value.items.empty()) return &values->value.items.front();
+    }
+    const Node* at = &scene;
+    for (std::size_t begin = 0; at && begin <= key.size();) {
+        const std::size_t end = std::min(key.find('.', begin), key.size());
+        const Member* member = at->find(key.substr(begin, end - begin));
+        at = member ? &member->value : nullptr;
+        begin = end + 1;
+    }
+    return at;
+}
+
 // The units of the first of these keys that is a text with a unit.
 void infer_units(ObjectReader& r, render::Units& units) {
-    using Keys = std::initializer_list<const char*>;
-    const auto first_ends_in = [&](std::initializer_list<Keys> all, std::initializer_list<std::string_view> names) {
-        for (const Keys& keys : all) {
-            const Node* at = r.node();
-            for (const char* key : keys) {
-                const Member* member = at ? at->find(key) : nullptr;
-                at = member ? &member->value : nullptr;
-            }
-            if (at && at->kind == Node::Kind::string)
+    const auto first_ends_in = [&](std::initializer_list<const char*> keys,
+                                   std::initializer_list<std::string_view> names) {
+        for (const char* key : keys)
+            if (const Node* at = r.node() ? written_value(*r.node(), key) : nullptr;
+                at && at->kind == Node::Kind::string)
                 return std::ranges::any_of(names,
                                            [&](auto name) { return std::string_view(at->text).ends_with(name); });
-        }
         return false;
     };
-    units.degrees = first_ends_in({{"initial", "angle"}, {"cam", "phase"}}, {"deg", "°"});
-    units.rpm = first_ends_in({{"cam", "speed"}, {"hub", "drive", "speed"}, {"initial", "angular_velocity"}}, {"rpm"});
+    units.degrees = first_ends_in({"initial.angle", "cam.phase"}, {"deg", "°"});
+    units.rpm = first_ends_in({"cam.speed", "hub.drive.speed", "initial.angular_velocity"}, {"rpm"});
 }
 
 void check_view(ObjectReader& r, const View& view) {

@@ -67,7 +67,7 @@ void visit(SceneVisitor& v, Scene& scene) {
                      "Unit of angles; by default that of initial.angle or cam.phase, if it is a text with a unit.");
             s.choice(sim::derived("speed"), scene.units.rpm, {{false, "rad/s"}, {true, "rpm"}},
                      "Unit of angular speeds; by default that of cam.speed, the drive or initial.angular_velocity, the "
-                     "first that is a text with a unit.");
+                     "first that is a text with a unit. Of a key that is swept the sweep's first value counts.");
         },
         "Units of angles and speeds in films.", nullptr);
     v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });

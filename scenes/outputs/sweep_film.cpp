@@ -66,13 +66,20 @@ void put(const render::Image& part, const render::Box& box, render::Image& whole
                     whole.pixels.begin() + std::ptrdiff_t(row + int(box.y)) * whole.width + std::ptrdiff_t(box.x));
 }
 
-constexpr render::Shown kBesideDiagram{.clock = false, .legend = false};  // beside the beam
+// The parts beside the beam. Letters have the size that they have in a film of the whole picture.
+render::Shown beside_diagram(const Size& size) {
+    const auto unit = [](double width, double height) {
+        return render::layout(static_cast<int>(width), static_cast<int>(height), render::LayoutNode{}, {}).unit;
+    };
+    const render::Box beam = halves_of(size).beam;
+    return {.clock = false, .legend = false, .size = unit(size.width, size.height) / unit(beam.w, beam.h)};
+}
 
 // Texts beside the beam that do not fit into a film of this size; empty if all fit.
 std::string omitted_texts(const Size& size) {
     const render::Box beam = halves_of(size).beam;
     const render::Layout places =
-        render::layout(static_cast<int>(beam.w), static_cast<int>(beam.h), render::LayoutNode{}, kBesideDiagram);
+        render::layout(static_cast<int>(beam.w), static_cast<int>(beam.h), render::LayoutNode{}, beside_diagram(size));
     std::vector<std::string> missing;
     if (!places.title) missing.emplace_back("the value and its class");
     if (!places.parameters) missing.emplace_back("the line of parameters");
@@ -89,8 +96,7 @@ class SweepFilm {
           grid_(scene),
           order_(sweep_order(grid_)),
           shots_(sweep_shots(how, grid_, order_)),
-          decimals_(decimals_of(shown_values())),
-          title_decimals_(point_decimals({&grid_.scene(), &data}, shown_values(), how.lang)),
+          digits_(value_digits({&grid_.scene(), &data}, shown_values(), how.lang)),
           halves_(halves_of(how.size)),
           figure_(figure_output()),
           diagram_({&grid_.scene(), &data}, figure_, order_.place) {}
@@ -146,17 +152,17 @@ class SweepFilm {
     render::FilmSetup setup_of(const SweepShot& shot) const {
         render::FilmSetup setup = setup_;
         setup.problem = shot.problem;
-        setup.title = point_text({&grid_.scene(), &data_}, shot.point, title_decimals_, how_.lang);
+        setup.title = point_text({&grid_.scene(), &data_}, shot.point, digits_, how_.lang);
         setup.width = static_cast<int>(halves_.beam.w), setup.height = static_cast<int>(halves_.beam.h);
         setup.fps = how_.fps.value();
         setup.view.style = how_.style;
         setup.view.lang = how_.lang;
         setup.view.paper = 0xffffff;
         setup.view.exaggeration = factor_ ? factor_ : how_.exaggeration;
-        setup.view.show = kBesideDiagram;
+        setup.view.show = beside_diagram(how_.size);
         setup.layout = render::LayoutNode{};
         setup.units = scene_.units;
-        if (data_.axes[0].name == "cam.speed") setup.speed_decimals = decimals_;
+        if (data_.axes[0].name == "cam.speed") setup.speed_decimals = digits_.decimals;
         setup.poses = shot.poses;
         setup.impacts = shot.impacts;
         const double speed = how_.turns * cam_period(shot.problem);  // of time
@@ -205,7 +211,7 @@ class SweepFilm {
     const SweepGrid grid_;
     const SweepOrder order_;
     std::vector<SweepShot> shots_;
-    const std::optional<int> decimals_, title_decimals_;  // of the values in SI units, and in the unit of the titles
+    const ValueDigits digits_;  // of the values in titles and labels
     const Halves halves_;
     const FigureOutput figure_;
     const GrowingDiagram diagram_;

@@ -135,7 +135,7 @@ TEST(ParameterLine, WhatFindsNoRoomIsNamedInPlainWords) {
               "the end of the title");
     EXPECT_TRUE(omitted_text(1920, 1080, {}, 1, essay, {&problem}).empty());
     EXPECT_EQ(omitted_text(160, 90, {}, 1, "Fall", {&problem}).front(), "the title");
-    EXPECT_EQ(tiny[4], "K = 10⁸ N m^−1.5, c = 0.7");
+    EXPECT_EQ(tiny[4], "K = 10⁸ N m^−1.5, c_r = 0.7");
 }
 
 // Lines break before operators, and end with an ellipsis if truncated; tall formulas do not overlap the line below.

@@ -141,7 +141,7 @@ TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
         const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
         const output::SweepData points = data(keys, {periodic});
         const Swept swept{&keys.scene(), &points};
-        return point_text(swept, point, point_decimals(swept, points.axes[0].values, lang), lang);
+        return point_text(swept, point, value_digits(swept, points.axes[0].values, lang), lang);
     };
     const std::string periodic_text = ": period 1 turn, 2 impacts";
     const std::string speeds = R"("key": "cam.speed", "values": [1, 2.25, 3])";
@@ -154,6 +154,34 @@ TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
     EXPECT_EQ(text(R"("key": "initial.angular_velocity", "values": [-1.5, 2])", 0),
               "$\\dot{θ}_{0}$ = −1.5\u00A0rad/s" + periodic_text);
     EXPECT_THAT(text(R"("key": "contact.stiffness", "values": [1e6, 2e6])", 1), StartsWith("$K$ = 2×10⁶\u00A0N"));
+    // Of a logarithmic axis as many digits as distinguish the values.
+    const std::string decades = R"("key": "cam.speed", "spacing": "log", "from": 0.01, "to": 100, "count": )";
+    EXPECT_THAT(text(decades + "7", 5), StartsWith("$ω$ = 21.5\u00A0rad/s"));
+    EXPECT_THAT(text(decades + "7", 0), StartsWith("$ω$ = 0.01\u00A0rad/s"));
+    EXPECT_THAT(text(decades + "4001", 3333), StartsWith("$ω$ = 21.53\u00A0rad/s"));
+}
+
+// Films have the units in which the scene gives angles and speeds.
+TEST(GrowingDiagram, HasTheUnitsOfTheScene) {
+    const auto named = [](const std::string& over, const std::string& label, const std::string& value) {
+        const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
+        const output::SweepData points = data(keys, {AttractorClass::periodic});
+        const Swept swept{&keys.scene(), &points};
+        const std::vector<double>& values = points.axes[0].values;
+        const auto figure = GrowingDiagram(swept, {}, {0, 1}).until(1, values[1]);
+        EXPECT_EQ(figure.panels[1].x.label, label);
+        EXPECT_NEAR(figure.panels[0].rules.back().at, figure.panels[0].clouds[0].x.back(), 1e-9);
+        EXPECT_NEAR(*figure.panels[1].x.to, figure.panels[1].cells[0].x.back(), 1e-9);
+        EXPECT_THAT(point_text(swept, 1, value_digits(swept, values, Lang::en), Lang::en), StartsWith(value));
+        return figure.panels[0].clouds[0].x.back();
+    };
+    EXPECT_NEAR(named(R"("key": "cam.speed", "values": ["300 rpm", "400 rpm"])", "$ω$ / rpm", "$ω$ = 400\u00A0rpm:"),
+                400, 1e-9);
+    EXPECT_NEAR(named(R"("key": "initial.angle", "from": "30 deg", "to": "45 deg", "count": 2)", "$θ_{0}$ / °",
+                      "$θ_{0}$ = 45°:"),
+                45, 1e-9);
+    EXPECT_NEAR(named(R"("key": "cam.eccentricity", "values": ["1 mm", "2 mm"])", "$e$ / mm", "$e$ = 2\u00A0mm:"), 2,
+                1e-9);
 }
 
 TEST(GrowingDiagram, HasTheFewestDecimalsThatDistinguishValues) {

@@ -166,6 +166,11 @@ TEST(Reader, PicturesHaveTheUnitsOfTheScene) {
               (render::Units{true, true}));
     EXPECT_EQ(units(R"({"initial": {"angle": 1}, "cam": {"speed": "2 rad/s"}})"), render::Units{});
     EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "units": {"angle": "rad"}})"), render::Units{});
+    // Of a key that is swept, the values of the sweep decide.
+    const std::string speed = R"({"cam": {"speed": "1 rad/s"}, "sweep": {"over": [{"key": "cam.speed", )";
+    EXPECT_EQ(units(speed + R"("from": "300 rpm", "to": "400 rpm", "count": 3}]}})"), (render::Units{.rpm = true}));
+    EXPECT_EQ(units(speed + R"("values": ["300 rpm"]}]}})"), (render::Units{.rpm = true}));
+    EXPECT_EQ(units(speed + R"("values": [30]}]}})"), render::Units{});
     const std::string written = to_json(*read(R"({"initial": {"angle": "60 deg"}})").scene);
     EXPECT_EQ(units(written), (render::Units{true, false}));
 }

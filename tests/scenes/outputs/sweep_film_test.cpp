@@ -43,6 +43,23 @@ TEST(SweepFilm, GrowsFromAnEmptyDiagramToTheWholeOne) {
     EXPECT_LT(middle, last);
 }
 
+// The letters beside the beam are as high as in a film of the whole picture.
+TEST(SweepFilm, HasLettersOfTheWholePicture) {
+    const Folder folder;
+    folder.write("s.json", kSwept);
+    const Finished done = shell(folder, R"($BEAMCAM run s.json --set 'outputs=[{"type": "sweep-film", "file": "f.mkv",
+        "size": [1280, 720], "fps": 2, "duration": 1, "style": "flat"}]')");
+    ASSERT_EQ(done.code, 0) << done.err;
+    const Finished raw = shell(folder,
+                               "ffmpeg -v error -i f.mkv -vf crop=560:60:720:0 -frames:v 1 -pix_fmt gray "
+                               "-f rawvideo -");
+    ASSERT_EQ(raw.out.size(), 560u * 60u);
+    int rows = 0;  // of the title
+    for (std::size_t y = 0; y < 60; ++y)
+        rows += std::ranges::any_of(raw.out.substr(560 * y, 560), [](char c) { return std::uint8_t(c) < 128; });
+    EXPECT_GE(rows, 0.03 * 720);
+}
+
 TEST(SweepFilm, RefusesWhatItCannotShow) {
     const Folder folder;
     const auto judged = [&](const char* scene, const std::string& film) {

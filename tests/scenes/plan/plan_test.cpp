@@ -187,10 +187,11 @@ TEST(PlanText, WhatAPictureHasNoRoomToWriteIsNamed) {
         R"({"title": "Fall", "outputs": [{"type": "still", "file": "a.png", "at": 0, "size": [320, 180]}, {"type": "still", "file": "b.png", "at": 0}]})");
     Plan p = plan(scene);
     add_omitted_text(p, scene);
-    EXPECT_THAT(to_text(p),
-                HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10⁸ N m^−1.5, c = 0.7; "
-                          "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
-                          "  simulation from 0 s"));
+    EXPECT_THAT(
+        to_text(p),
+        HasSubstr("skipped\n  L = 1 m; R = 100 mm; e = 20 mm; first-order, 2 modes; K = 10⁸ N m^−1.5, c_r = 0.7; "
+                  "frictionless; colour scales on a.png: 320 × 180 is too small for them; increase \"size\"\n"
+                  "  simulation from 0 s"));
 }
 
 TEST(PlanText, EveryOutputAtOnce) {
