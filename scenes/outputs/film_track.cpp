@@ -11,42 +11,47 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr double kTogether = 0.5, kFilmShown = 2.5;  // [s] of the film
+constexpr double kTogether = 0.4, kDense = 0.1, kFilmShown = 2.5;  // [s] of the film
+constexpr int kMany = 5;                                           // dense impacts: chatter
 
 struct Group {
     std::size_t first = 0, last = 0;  // impacts, from 0
-    double from = 0;                  // of the film [s]
+    double from = 0, until = 0;       // first and last impact [s of the film]
     double force = 0;                 // [N]; 0: unknown
+    int seen = 1;                     // impacts in different frames
+    bool is_chatter() const { return seen >= kMany; }
 };
 
+// Impacts within kTogether of the first one, and denser ones for as long as they go on.
 std::vector<Group> groups_of(const render::FilmSetup& film) {
     std::vector<Group> out;
     const std::size_t frames = film.frames();
     std::size_t k = 0;
-    double latest = 0;
     for (std::size_t i = 0; i < film.impacts.size(); ++i) {
         const sim::Impact& impact = film.impacts[i];
         if (impact.t_start < film.time(0)) continue;
         while (k < frames && film.time(k) < impact.t_start) ++k;
         if (k == frames) break;
         const double at = static_cast<double>(k) / film.fps;
-        if (out.empty() || at - latest > kTogether) out.push_back({i, i, at, 0});
-        latest = at;
-        out.back().last = i;
-        out.back().force = std::max(out.back().force, impact.force_peak.value_or(0));
+        const bool together = !out.empty() && (at - out.back().from < kTogether || at - out.back().until <= kDense);
+        if (!together) out.push_back({.first = i, .from = at, .until = at});
+        Group& group = out.back();
+        if (at > group.until) ++group.seen;
+        group.last = i, group.until = at;
+        group.force = std::max(group.force, impact.force_peak.value_or(0));
     }
     return out;
 }
 
 std::string name_of(const Group& g, Lang lang) {
-    const bool one = g.first == g.last;
-    if (lang == Lang::zh)
-        return one ? fmt::format("第 {} 次冲击", g.first + 1) : fmt::format("第 {}–{} 次冲击", g.first + 1, g.last + 1);
-    return one ? fmt::format("Impact {}", g.first + 1) : fmt::format("Impacts {}–{}", g.first + 1, g.last + 1);
+    if (g.first == g.last) return phrase(lang, "Impact {}", "第 {} 次冲击", g.first + 1);
+    if (g.is_chatter()) return phrase(lang, "Chatter, impacts {}–{}", "连续冲击，第 {}–{} 次", g.first + 1, g.last + 1);
+    return phrase(lang, "Impacts {}–{}", "第 {}–{} 次冲击", g.first + 1, g.last + 1);
 }
 
 std::string text_of(const Group& g, const render::FilmSetup& film, Lang lang) {
-    std::string text = fmt::format("{} · t = {:.4f} s", name_of(g, lang), film.impacts[g.first].t_start);
+    std::string text = fmt::format("{} · t = {:.4f}", name_of(g, lang), film.impacts[g.first].t_start);
+    text += g.is_chatter() ? fmt::format(" … {:.4f} s", film.impacts[g.last].t_start) : " s";
     if (g.force > 0)
         text += fmt::format("{}{}", lang == Lang::zh ? " · 最大 " : " · up to ", render::quantity(g.force, "N"));
     return text;
@@ -66,8 +71,8 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
     const double end = static_cast<double>(film.frames()) / film.fps;
     for (std::size_t i = 0; i < groups.size(); ++i) {
         const double next = i + 1 < groups.size() ? groups[i + 1].from : end;
-        out.subtitles.push_back(
-            {groups[i].from, std::min(next, groups[i].from + kFilmShown), text_of(groups[i], film, lang)});
+        out.subtitles.push_back({groups[i].from, std::min(next, std::max(groups[i].until, groups[i].from + kFilmShown)),
+                                 text_of(groups[i], film, lang)});
         if (out.chapters.empty() && groups[i].from > 0)
             out.chapters.push_back({0, groups[i].from, lang == Lang::zh ? "开始" : "Start"});
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});

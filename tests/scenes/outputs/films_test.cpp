@@ -479,7 +479,7 @@ TEST(Films, HoldTheirLastPictureAtTheVeryEnd) {
     EXPECT_EQ(times_in(R"("poster": "last")").poster, 29);
 }
 
-// Two impacts within half a second of the film are one chapter; a caption is a subtitle, escaped where the format asks.
+// Two impacts within a short time of the film are one chapter; a caption is a subtitle, escaped where the format asks.
 TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
     render::FilmSetup film;
     film.fps = 10;
@@ -500,6 +500,29 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
               "00:00:03.000 --> 00:00:04.000\nImpact 3 · t = 3.0000 s\n\n");
     EXPECT_THAT(subtitle_file(film_track(film, Lang::zh).subtitles, Subtitles::srt),
                 ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次冲击"));
+}
+
+// A subtitle tells of impacts in a short time, unless it says that it is chatter.
+TEST(FilmTrack, TellsBouncesApartAndNamesChatter) {
+    render::FilmSetup film;
+    film.fps = 50;
+    for (int k = 0; k < 500; ++k) film.poses.emplace_back().t = k / 50.0;
+    const auto hit = [&](double t) { film.impacts.emplace_back().t_start = t; };
+    for (const double t : {1.0, 1.3, 1.45, 1.5, 1.9, 2.4}) hit(t);
+    for (int k = 0; k <= 80; ++k) hit(4 + 0.04 * k);  // until 7.2
+    hit(7.6);
+    const auto names = [&](Lang lang) {
+        std::vector<std::string> out;
+        for (const output::Chapter& each : film_track(film, lang).chapters) out.push_back(each.title);
+        return out;
+    };
+    EXPECT_THAT(names(Lang::en), ::testing::ElementsAre("Start", "Impacts 1–2", "Impacts 3–4", "Impact 5", "Impact 6",
+                                                        "Chatter, impacts 7–87", "Impact 88"));
+    EXPECT_EQ(names(Lang::zh)[5], "连续冲击，第 7–87 次");
+    const std::vector<Cue> cues = film_track(film, Lang::en).subtitles;
+    EXPECT_EQ(cues[4].from, 4);
+    EXPECT_NEAR(cues[4].to, 7.2, 0.02);
+    EXPECT_EQ(cues[4].text, "Chatter, impacts 7–87 · t = 4.0000 … 7.2000 s");
 }
 
 // A track of a film has one text at a time, and the language of the picture.
