@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """A browser (Chromium) shows the page that plays the motion: the beam has the direction that the still of the same instant shows, and the
-clock and the angle are those of the motion.
+clock and the angle are those of the motion. An arc marks the angle of the hub, an arrow the sense in which the cam turns.
 
 page.py PROGRAM
 
@@ -17,6 +17,7 @@ import tempfile
 
 INSTANTS = [0.1, 0.25, 0.49]
 WIDTH, HEIGHT = 960, 540
+MUTED = bytes.fromhex("666c78")
 POSES = 0.001  # largest error of a page's angles [rad]
 if not shutil.which("chromium") or not shutil.which("ffmpeg"):
     sys.exit(77)
@@ -29,10 +30,19 @@ def browser(folder, instant, *more):
     return subprocess.run(command, check=True, capture_output=True, text=True, timeout=120).stdout
 
 
+def pixels_of(picture):
+    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", picture, "-f", "rawvideo", "-pix_fmt", "rgb24", "-vf", f"crop={WIDTH}:{HEIGHT - 220}:0:70", "-"], check=True, capture_output=True).stdout
+    return [raw[i:i + 3] for i in range(0, len(raw), 3)]
+
+
+def marked(picture):
+    """Places of the pixels in the colour of arcs and letters."""
+    return {(i % WIDTH, i // WIDTH) for i, pixel in enumerate(pixels_of(picture)) if all(abs(a - b) < 12 for a, b in zip(pixel, MUTED))}
+
+
 def direction(picture):
     """Direction of the axis of the beam, counter-clockwise [rad]: the most frequent colour, beside the paper's, that is in many rows."""
-    raw = subprocess.run(["ffmpeg", "-v", "error", "-i", picture, "-f", "rawvideo", "-pix_fmt", "rgb24", "-vf", f"crop={WIDTH}:{HEIGHT - 220}:0:70", "-"], check=True, capture_output=True).stdout
-    pixels = [raw[i:i + 3] for i in range(0, len(raw), 3)]
+    pixels = pixels_of(picture)
     for color, count in collections.Counter(pixels).most_common(8)[1:]:
         places = [(i % WIDTH, -(i // WIDTH)) for i, pixel in enumerate(pixels) if pixel == color]
         if count >= 300 and len({y for _, y in places}) > 50:
@@ -65,3 +75,16 @@ with tempfile.TemporaryDirectory() as folder:
         stated = re.search(r"θ = ([-−]?[\d.]+) rad", document)
         if f"t = {instant:.3f} s" not in document or not stated or abs(float(stated[1].replace("−", "-")) - theta) > POSES + 0.0005:
             sys.exit(f"the page does not state t = {instant:.3f} s and θ = {theta:.3f} rad")
+    if len(marked(f"{folder}/page.png")) < 30:
+        sys.exit("the page does not mark the angle")
+    marks = {}
+    for speed in (-3, 0, 3):
+        subprocess.run([sys.argv[1], "render", "s.json", "-q", "--force", "-o", "s.html", "--set", f"cam={{\"speed\": {speed}}}"], cwd=folder, check=True)
+        browser(folder, 0, f"--screenshot={folder}/page.png")
+        marks[speed] = marked(f"{folder}/page.png")
+    arrow = {speed: marks[speed] - marks[0] for speed in (-3, 3)}
+    left = min(x for x, _ in arrow[3] | arrow[-3]) + 14
+    heads = {speed: sum(x < left for x, _ in places) for speed, places in arrow.items()}
+    print(heads)
+    if heads[3] <= heads[-3]:
+        sys.exit("the arrow of the cam's speed has no head, or not at its clockwise end")

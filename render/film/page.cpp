@@ -8,12 +8,14 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <initializer_list>
 #include <iterator>
 #include <numbers>
 #include <optional>
 
 #include "render/film/panel.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/plot/labels.hpp"
 #include "render/plot/user_text.hpp"
 
 namespace beamcam::render {
@@ -135,8 +137,10 @@ std::string impacts_json(const FilmContext& context) {
 std::string cam_json(const FilmContext& context) {
     const auto& cam = context.motion(0).problem.cam;
     if (!cam) return "null";
-    return fmt::format(R"({{"centre":[{:.9g},{:.9g}],"radius":{:.9g},"eccentricity":{:.9g},"trace":{}}})",
-                       cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, trace_json(context, cam->radius));
+    return fmt::format(
+        R"({{"centre":[{:.9g},{:.9g}],"radius":{:.9g},"eccentricity":{:.9g},"speed":{:.9g},"turning":{},"trace":{}}})",
+        cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, cam->speed,
+        json_text(" = " + turning_speed(cam->speed, context.setup->units.rpm)), trace_json(context, cam->radius));
 }
 
 std::string numbers_json(const std::vector<Instant>& kept) {
@@ -193,14 +197,24 @@ std::string html_page(const FilmSetup& setup) {
         problem.hub.radius, context.frame_force, setup.units.degrees, colors, cam_json(context), impacts_json(context),
         numbers_json(thinned_instants(std::move(all), length)));
     std::string page(player_html());
-    for (const auto& [mark, text] : {std::pair<std::string, std::string>{
-                                         "@TITLE@", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
-                                     {"@PAPER@", css(p.paper).substr(1, 7)},
-                                     {"@INK@", css(p.ink).substr(1, 7)},
-                                     {"@MUTED@", css(p.muted).substr(1, 7)},
-                                     {"@MOTION@", css(p.motion).substr(1, 7)},
-                                     {"@SCHEME@", setup.view.theme == Theme::dark ? "dark" : "light"},
-                                     {"@DATA@", data}})
+    const auto words = [&](const char* en, const char* zh) { return setup.view.lang == Lang::en ? en : zh; };
+    for (const auto& [mark, text] : std::initializer_list<std::pair<std::string, std::string>>{
+             {"@LANG@", words("en", "zh")},
+             {"@MECHANISM@", words("The mechanism", "机构")},
+             {"@INSTANT@", words("Instant", "时刻")},
+             {"@PLAY@", words("Play", "播放")},
+             {"@PAUSE@", words("Pause", "暂停")},
+             {"@SPACE@", words("Space", "空格键")},
+             {"@SPEED@", words("Speed", "速度")},
+             {"@ARROWS@", words("Up and Down", "上下方向键")},
+             {"@DEFLECTION@", words("deflection", "挠度")},
+             {"@TITLE@", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
+             {"@PAPER@", hex(p.paper)},
+             {"@INK@", hex(p.ink)},
+             {"@MUTED@", hex(p.muted)},
+             {"@MOTION@", hex(p.motion)},
+             {"@SCHEME@", setup.view.theme == Theme::dark ? "dark" : "light"},
+             {"@DATA@", data}})
         for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos; at += text.size())
             page.replace(at, mark.size(), text);
     return page;

@@ -78,7 +78,10 @@ void visit_still(SceneVisitor& v, PictureOutput& p) {
 // A page or a model.
 void visit_document(SceneVisitor& v, PictureOutput& p, const char* ending, const char* rate) {
     visit_file(v, p.file, {ending}, ending);
-    if (p.kind == PictureOutput::Kind::page) visit_theme(v, p.view);
+    if (p.kind == PictureOutput::Kind::page) {
+        visit_theme(v, p.view);
+        v.choice(written_if(p.view.lang != Lang::en, "lang"), p.view.lang, kLanguages, "Language of the words.");
+    }
     visit_exaggeration(v, p.view.exaggeration, "Factor of the deflection, as in films.");
     v.value("fps", frame_rate_format(p.span.fps), rate);
     v.value("from", bound_format(p.span.from, p.span.from_event), "First instant.");

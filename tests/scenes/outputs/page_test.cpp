@@ -149,6 +149,28 @@ TEST(Page, StandsAloneAndItsTitleIsText) {
     EXPECT_EQ(page.find("</script>"), page.rfind("</script>"));
 }
 
+TEST(Page, NamesTheSpeedOfTheCamInTheUnitsOfTheScene) {
+    render::FilmSetup setup = setup_until(0.05, 500);
+    setup.problem.cam->speed = 10;
+    EXPECT_EQ(data_of(render::html_page(setup))["cam"]["turning"], " = 10\u00A0rad/s");
+    setup.units.rpm = true;
+    EXPECT_EQ(data_of(render::html_page(setup))["cam"]["turning"], " = 95.5\u00A0rpm");
+}
+
+// No mark of player.html is left.
+TEST(Page, SpeaksTheLanguageOfTheScene) {
+    const testing::Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "page", "lang": "zh"}]})");
+    ASSERT_EQ(testing::shell(folder, "$BEAMCAM run s.json").code, 0);
+    const std::string page = testing::slurp(folder / "s.html");
+    EXPECT_THAT(page, HasSubstr("<html lang=\"zh\">"));
+    for (const char* words : {">播放</button>", "\"暂停\"", ">速度 ", "\"挠度 ×\""})
+        EXPECT_THAT(page, HasSubstr(words));
+    EXPECT_THAT(page, ::testing::Not(::testing::ContainsRegex("@[A-Z]+@")));
+    ASSERT_EQ(testing::shell(folder, "$BEAMCAM render s.json -o t.html --lang zh").code, 0);
+    EXPECT_EQ(page, testing::slurp(folder / "t.html"));
+}
+
 // A still motion is two instants.
 TEST(Page, WhatAStraightLineTellsIsLeftOut) {
     render::FilmSetup setup = setup_until(0.001, 1000);
