@@ -59,12 +59,14 @@ void MechanismLegend::place_names(Canvas& canvas, OccupancyGrid& room) {
                                       {4, 0.8},
                                       {2, 0.8, 1, true},
                                       {3, 0.8, 1, true},
+                                      {2, 0.8, 1, true, true},
                                       {1, 0.8, 1, false, true}};
     constexpr double kFree = 0.01, kApart = 0.1, kMost = 0.3;  // covered shares
     double least = entries().size() > 1 ? kMost : 1;
     for (const Form& form : kForms) {
         std::optional<Placed> here = placed(canvas, room, form);
         if (!here || here->covered > least || (form.apart && here->covered > kApart)) continue;
+        if (form.cut && !blocks_.empty() && least <= kApart) continue;  // rather cover a little than cut a name
         if (!blocks_.empty() && here->covered == least) continue;
         blocks_ = std::move(here->blocks), form_ = form, least = here->covered;
         if (least < kFree) break;
@@ -89,6 +91,8 @@ std::optional<MechanismLegend::Placed> MechanismLegend::placed(Canvas& canvas, O
     Placed out{{}, 0};
     const auto add = [&](Vec2 size) {
         const Box place = room.choose(places_along(area, size, Corner::top_left));
+        for (const Block& other : out.blocks)  // columns that are apart hide no name of each other
+            if (place.overlaps(other.box)) out.covered = 1;
         out.covered = std::max(out.covered, room.covered(place));
         room.cover(place.inset(-gap()), 1);
         return place;

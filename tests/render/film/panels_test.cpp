@@ -977,6 +977,23 @@ TEST(Comparisons, NameEachMotionOnce) {
     EXPECT_EQ(texts_of_heading(leaf(strip(ChannelKind::theta))), 3 + 2);  // … and their names
 }
 
+// Eight motions in a small picture, with names that all are long or short.
+FilmSetup eight(Comparison how, int width, int height, bool named_at_length) {
+    FilmSetup setup = compared(how);
+    setup.width = width, setup.height = height;
+    while (setup.others.size() < 7) setup.others.push_back(setup.others.front());
+    setup.label = named_at_length ? "a beam with damping 0" : "0";
+    for (std::size_t k = 0; k < setup.others.size(); ++k)
+        setup.others[k].label = (named_at_length ? "a beam with damping " : "") + std::to_string(k + 1);
+    return setup;
+}
+
+// A long name takes two lines before it is cut, although a little of the mechanism passes it.
+TEST(Comparisons, LongNamesInSmallPanelsTakeTwoLines) {
+    Film brief(eight(Comparison::panels, 480, 270, false)), full(eight(Comparison::panels, 480, 270, true));
+    EXPECT_EQ(full.geometry(20).texts.size(), brief.geometry(20).texts.size() + 8);
+}
+
 // Where readings with names have no room, a picture without mechanism shows the names.
 TEST(Comparisons, NamesComeBeforeReadings) {
     FilmSetup setup = compared(Comparison::panels);
