@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <set>
+#include <span>
 
 namespace beamcam::render {
 namespace {
@@ -97,7 +97,7 @@ double ImpactRings::age(const Ring& ring, int frame) const {
 void ImpactRings::draw(const MechanismScene& s) const {
     if (!s.at.problem().cam) return;
     const auto later = std::ranges::upper_bound(rings_, s.frame, {}, &Ring::frame);
-    for (const Ring& r : std::ranges::subrange(later - std::min(kMostRings, later - rings_.begin()), later)) {
+    for (const Ring& r : std::span(later - std::min(kMostRings, later - rings_.begin()), later)) {
         const double share = age(r, s.frame);
         if (share >= 1) continue;
         const Vec2 at =

@@ -97,7 +97,7 @@ std::vector<Instant> thinned_instants(std::vector<Instant> all, double length) {
 template <class Number>
 std::string base64(const std::vector<Number>& numbers) {
     gchar* text = g_base64_encode(reinterpret_cast<const guchar*>(numbers.data()), numbers.size() * sizeof(Number));
-    const std::string out = text;
+    std::string out = text;
     g_free(text);
     return out;
 }

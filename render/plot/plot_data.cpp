@@ -67,9 +67,10 @@ void Plot::draw_bands(Painter& on, const Interval& part) const {
              part.past ? b.color.value_or(pale(look(b.look).color, 0.72)) : b.faint);
     for (const Series& s : panel_->series) {
         if (!s.filled) continue;
-        std::vector<Vec2> edge = points(s.x, s.y, false, part), low = edge;
+        const std::vector<Vec2> edge = points(s.x, s.y, false, part);
+        std::vector<Vec2> low = edge;
         for (Vec2& p : low) p.y = box_.bottom() + shift_.y;
-        fill(std::move(edge), low, part.past ? color_of(s).faded(0.20) : s.faint.faded(0.35));
+        fill(edge, low, part.past ? color_of(s).faded(0.20) : s.faint.faded(0.35));
     }
 }
 

@@ -7,6 +7,7 @@
 
 #include "render/plot/ticks.hpp"
 #include "render/plot/user_text.hpp"
+#include "scenes/figures/caption.hpp"
 
 namespace beamcam::scenes {
 namespace {
