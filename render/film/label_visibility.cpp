@@ -40,4 +40,21 @@ void fade_about(LabelPlace& label, const std::vector<int>& met, const FilmContex
     }
 }
 
+double frames_visible(const Box& box, const MechanismCameras& cameras,
+                      const std::function<bool(const sim::Pose&)>& counts) {
+    constexpr int kSample = 60;
+    const MechanismView at = cameras.view(0);
+    const int frames = at.context.frames(), step = 1 + frames / kSample;
+    std::vector<int> met, counted;
+    for (int k = 0; k < frames; k += step) {
+        if (meets_body(box, {cameras, k})) met.push_back(k);
+        if (counts(at.context.pose(at.member, k))) counted.push_back(k);
+    }
+    LabelPlace label;
+    fade_about(label, met, at.context);
+    double visible = 0;
+    for (const int k : counted) visible += label.opacity_at(k);
+    return visible;
+}
+
 }  // namespace beamcam::render

@@ -1,6 +1,7 @@
 // When moving parts meet the place of a label, and its opacity, which fades around those frames.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -22,6 +23,9 @@ struct SeenFrame {
 // Covers the bodies and the arrow of the force.
 OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now, const ForceArrow* arrow = nullptr);
 bool meets_body(const Box& box, const SeenFrame& now);
+// Number of frames, by a sample, in which a label in this box is visible, of those with a pose that counts.
+double frames_visible(const Box& box, const MechanismCameras& cameras,
+                      const std::function<bool(const sim::Pose&)>& counts);
 // Hides the label in the frames `met`, and fades it before and after.
 void fade_about(LabelPlace& label, const std::vector<int>& met, const FilmContext& context);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "render/film/label_visibility.hpp"
 #include "render/film/mechanism_marks.hpp"
@@ -95,7 +96,7 @@ class LabelPlacer {
                 room.covered(box(out)) == 0)
                 return beside_arc(way, size, radius, room);
         }
-        return beside_arc(longest_visible(size, radius, widest), size, radius, room);
+        return beside_arc(longest_visible(beyond - o, size, radius, widest), size, radius, room);
     }
 
     // The label is beside its arrow; the arrow goes to the first side with space for both, or else to the direction
@@ -163,30 +164,25 @@ class LabelPlacer {
         return out;
     }
 
-    // Of the places beside the arc, the one that is beside what is drawn of it and visible longest, by a sample of the
-    // frames.
-    Vec2 longest_visible(Vec2 size, double radius, double widest) const {
-        constexpr int kPlaces = 24, kFrames = 60;
-        const int step = 1 + at.context.frames() / kFrames;
-        Vec2 best = down(side() * widest / 2) * radius;
-        double most = 0;
+    // Of the places beside the arc, `beyond` its start first, the one that is beside what is drawn of it and visible
+    // longest.
+    Vec2 longest_visible(Vec2 beyond, Vec2 size, double radius, double widest) const {
+        constexpr int kPlaces = 24;
+        std::vector<std::pair<double, Vec2>> places{{0, beyond}};
         for (int i = 0; i < kPlaces; ++i)
             for (const double off : {-17.0, 17.0}) {
                 const double angle = widest * (i + 0.5) / kPlaces;
-                const Vec2 way = down(side() * angle) * (radius + off * angle_letter(at));
-                const Box letter = about(at.px({0, 0}) + way, size);
-                if (!at.box.contains(letter)) continue;
-                std::vector<int> met, reached;
-                for (int k = 0; k < at.context.frames(); k += step) {
-                    if (meets_body(letter, {cameras, k})) met.push_back(k);
-                    if (side() * drawn_angle(at.context.pose(at.member, k)) >= angle) reached.push_back(k);
-                }
-                LabelPlace trial;
-                fade_about(trial, met, at.context);
-                double visible = 0;
-                for (const int k : reached) visible += trial.opacity_at(k);
-                if (visible > most) best = way, most = visible;
+                places.emplace_back(angle, down(side() * angle) * (radius + off * angle_letter(at)));
             }
+        Vec2 best = beyond;
+        double most = 0;
+        for (const auto& [angle, way] : places) {
+            const Box letter = about(at.px({0, 0}) + way, size);
+            if (!at.box.contains(letter)) continue;
+            const double visible = frames_visible(
+                letter, cameras, [&](const sim::Pose& pose) { return side() * drawn_angle(pose) >= angle; });
+            if (visible > most) best = way, most = visible;
+        }
         return best;
     }
 

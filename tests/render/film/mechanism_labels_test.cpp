@@ -224,6 +224,17 @@ TEST(MechanismLabels, TheAngleIsShownBesideACamAtTheHub) {
     }
 }
 
+// Where the beam sweeps nearly all directions, the letter is across the horizontal from it until the beam passes there.
+TEST(MechanismLabels, TheAngleOfABeamThatTurnsOverHasItsLetter) {
+    FilmSetup setup = led_rod(0.17, 5.9);
+    sim::Cam& cam = *setup.problem.cam;
+    cam.centre = {0.06, 0}, cam.radius = 0.015, cam.eccentricity = 0.005, cam.speed = 50;
+    for (sim::Pose& pose : setup.poses) pose.cam_centre = pose.disc_centre = cam.centre;
+    Film film(setup);
+    EXPECT_EQ(film.geometry(0).labels.size(), 2U);
+    EXPECT_EQ(film.geometry(film.frames() / 2).labels.size(), 2U);
+}
+
 // The arrow of a peak that is held stays where the beam was struck, and turns with the beam.
 TEST(ImpactRings, ThePeakStaysOnTheBeam) {
     FilmSetup setup = film_of(Style::flat);
