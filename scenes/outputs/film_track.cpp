@@ -52,7 +52,7 @@ std::string name_of(const Group& g, Lang lang) {
 
 std::string text_of(const Group& g, const render::FilmSetup& film, Lang lang) {
     std::string text = fmt::format("{} · t = {:.4f}", name_of(g, lang), film.impacts[g.first].t_start);
-    text += g.is_chatter() ? fmt::format(" … {:.4f} s", film.impacts[g.last].t_start) : " s";
+    text += g.last > g.first ? fmt::format(" … {:.4f} s", film.impacts[g.last].t_start) : " s";
     if (g.force > 0)
         text += fmt::format("{}{}", lang == Lang::zh ? " · 最大 " : " · up to ", render::quantity(g.force, "N"));
     return text;

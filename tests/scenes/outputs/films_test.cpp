@@ -495,7 +495,7 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
     EXPECT_EQ(track.chapters[1].to, 3);
     EXPECT_EQ(track.chapters[2].title, "Impact 3");
     EXPECT_EQ(subtitle_file(track.subtitles, Subtitles::vtt),
-              "WEBVTT\n\n00:00:01.000 --> 00:00:03.000\nImpacts 1–2 · t = 1.0000 s · up to 250\u00A0N\n\n"
+              "WEBVTT\n\n00:00:01.000 --> 00:00:03.000\nImpacts 1–2 · t = 1.0000 … 1.0500 s · up to 250\u00A0N\n\n"
               "00:00:02.000 --> 00:00:02.500\na &lt; b --&gt; c\n\n"
               "00:00:03.000 --> 00:00:04.000\nImpact 3 · t = 3.0000 s\n\n");
     EXPECT_THAT(subtitle_file(film_track(film, Lang::zh).subtitles, Subtitles::srt),
