@@ -165,6 +165,15 @@ std::string numbers_json(const std::vector<Instant>& kept) {
         base64(points));
 }
 
+// Radius of the arc of θ: clear of the disc, unless there is no room between it and the hub.
+double arc_radius(const sim::Problem& problem) {
+    const double usual = 0.14 * problem.beam.length,
+                 least = std::max(problem.hub.radius, 0.022 * problem.beam.length) * 2;
+    if (!problem.cam) return usual;
+    const double before_cam = 0.86 * (norm(problem.cam->centre) - problem.cam->radius - problem.cam->eccentricity);
+    return before_cam >= least ? std::min(usual, before_cam) : usual;
+}
+
 }  // namespace
 
 // "</script>" would end a script element.
@@ -191,11 +200,11 @@ std::string html_page(const FilmSetup& setup) {
         css(p.paper), css(p.ink), css(p.muted), css(p.faint), css(p.grid), css(p.motion), css(p.contact), css(p.steel),
         css(p.steel_edge), css(mix(p.paper, p.motion, 0.28)));
     const std::string data = fmt::format(
-        R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"force":{:.9g},)"
+        R"({{"title":{},"factor":{:.9g},"tolerance":{:.9g},"length":{:.9g},"thickness":{:.9g},"hub":{:.9g},"arc":{:.9g},"force":{:.9g},)"
         R"("degrees":{},"colors":{},"cam":{},"impacts":{},{}}})",
         json_text(plain_text(setup.title)), context.factor, kPageTolerance * length, length, thickness,
-        problem.hub.radius, context.frame_force, setup.units.degrees, colors, cam_json(context), impacts_json(context),
-        numbers_json(thinned_instants(std::move(all), length)));
+        problem.hub.radius, arc_radius(problem), context.frame_force, setup.units.degrees, colors, cam_json(context),
+        impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
     std::string page(player_html());
     const auto words = [&](const char* en, const char* zh) { return setup.view.lang == Lang::en ? en : zh; };
     for (const auto& [mark, text] : std::initializer_list<std::pair<std::string, std::string>>{
