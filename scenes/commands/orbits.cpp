@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <optional>
+#include <utility>
 
 #include "output/data/orbit_records.hpp"
 #include "output/files/atomic_file.hpp"
@@ -176,6 +177,18 @@ sim::OrbitRequest request_of(const OrbitsArguments& args, const sim::Problem& pr
     return request;
 }
 
+// The transient, then the motion that the search integrates, of a length that is not known before.
+sim::Progress search_progress(Progress& progress, double transient) {
+    if (transient > 0) progress.begin("transient", transient, "s");
+    return [&progress, transient, searching = false, before = 0.0, last = 0.0](double t) mutable {
+        if (!searching && t < transient) return progress.reach(t);
+        if (!std::exchange(searching, true)) progress.begin("search", std::nullopt, "s of motion");
+        if (t < last) before += last;
+        last = t;
+        return progress.reach(before + t);
+    };
+}
+
 // The orbits of the scene; with a range, the orbits at its start value and their branches.
 output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range) {
     sim::Family family;
@@ -190,9 +203,7 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
     const sim::OrbitRequest request = request_of(args, problem);
     Progress progress(run_options(args.common, "").progress);
-    progress.begin("transient", request.transient, "s");
-    table.orbits =
-        sim::find_orbits(problem, request, [&](double t) { return progress.reach(std::min(t, request.transient)); });
+    table.orbits = sim::find_orbits(problem, request, search_progress(progress, request.transient));
     if (range) {
         progress.begin("branches", std::nullopt, "points");
         double last = table.start;

@@ -47,17 +47,21 @@ TEST(OrbitsCommand, ABranchEndsWithTheRangeOfItsKey) {
         EXPECT_EQ(point["value"], end);
 }
 
-// Nobody knows before how many points the branches will have.
-TEST(OrbitsCommand, CountsThePointsOfBranchesWithoutATotal) {
+// Nobody knows before how much motion the search integrates, and how many points the branches will have.
+TEST(OrbitsCommand, CountsTheSearchAndThePointsOfBranchesWithoutATotal) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished done =
         shell(folder, "$BEAMCAM orbits s.json --over cam.speed=44:46 --transient 0 --progress json >/dev/null");
-    const std::string line = done.err.substr(done.err.rfind("{\"stage\":\"branches\""));
-    const nlohmann::json last = nlohmann::json::parse(line.substr(0, line.find('\n')));
-    EXPECT_GT(last["done"].get<int>(), 2);
-    EXPECT_TRUE(last["total"].is_null());
-    EXPECT_TRUE(last["left"].is_null());
+    for (const std::string stage : {"search", "branches"}) {
+        const std::size_t at = done.err.rfind("{\"stage\":\"" + stage + "\"");
+        ASSERT_NE(at, std::string::npos) << done.err;
+        const std::string line = done.err.substr(at);
+        const nlohmann::json last = nlohmann::json::parse(line.substr(0, line.find('\n')));
+        EXPECT_GT(last["done"].get<double>(), stage == "search" ? 0.1 : 2);
+        EXPECT_TRUE(last["total"].is_null());
+        EXPECT_TRUE(last["left"].is_null());
+    }
 }
 
 TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
