@@ -60,9 +60,13 @@ class LabelPlacer {
         const double letter = angle_letter(at), depth = at.look.depth * at.look.camera.scale;
         const double preferred = std::clamp(17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3),
                                             92 * at.marks, 150 * at.marks);
-        if (needs.before_cam >= least_arc()) return std::min({preferred, needs.before_cam, needs.arc_room});
-        const double beyond = std::max(preferred, needs.beyond_cam + 12 * u);
-        const double reach = 0.8 * (at.problem().hub.radius + at.problem().beam.length) * at.look.camera.scale;
+        const std::optional<sim::Cam>& cam = at.problem().cam;
+        if (!cam) return std::min(preferred, needs.arc_room);
+        const double scale = at.look.camera.scale, before = arc_before_cam(*cam) * scale;
+        if (before >= least_arc()) return std::min({preferred, before, needs.arc_room});
+        const double beyond =
+            std::max(preferred, (norm(cam->centre) + cam->radius + cam->eccentricity) * scale + 12 * u);
+        const double reach = 0.8 * (at.problem().hub.radius + at.problem().beam.length) * scale;
         return std::min(beyond <= reach ? beyond : preferred, needs.arc_room);
     }
 
@@ -262,6 +266,8 @@ class LabelPlacer {
 };
 
 }  // namespace
+
+double arc_before_cam(const sim::Cam& cam) { return 0.86 * (norm(cam.centre) - (cam.radius + cam.eccentricity)); }
 
 MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
                              SweptRegion& swept, SweptRegion& in_contact) {

@@ -3,7 +3,6 @@
 // without one near its arc, fades out while a part moves through it.
 #pragma once
 
-#include <limits>
 #include <numbers>
 #include <optional>
 #include <string>
@@ -11,6 +10,7 @@
 
 #include "render/draw/geometry.hpp"
 #include "render/plot/ticks.hpp"
+#include "sim/problem/problem.hpp"
 
 namespace beamcam::render {
 
@@ -43,10 +43,8 @@ struct MechanismLabels {
 };
 
 struct LabelNeeds {
-    Range angles;         // range of θ over the film, as drawn [rad]
-    double arc_room = 0;  // largest radius of the arc of θ that fits into the panel [px]
-    double before_cam = std::numeric_limits<double>::infinity();  // largest one between hub and cam [px]
-    double beyond_cam = 0;           // radius within which everything is that the disc sweeps [px]
+    Range angles;                    // range of θ over the film, as drawn [rad]
+    double arc_room = 0;             // largest radius of the arc of θ that fits into the panel [px]
     std::vector<ForceArrow> arrows;  // of every frame with a force
     std::vector<int> frames;         // … and these frames
 };
@@ -55,6 +53,9 @@ struct LabelNeeds {
 // which is all that the label of the force has to avoid.
 MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
                              SweptRegion& swept, SweptRegion& in_contact);
+
+// Largest radius of an arc about the hub's axis that stays before the disc at every angle of the cam [m].
+double arc_before_cam(const sim::Cam& cam);
 
 // Texts of the labels.
 std::string speed_label(const MechanismView& at);

@@ -53,8 +53,7 @@ static void add_measured(const MechanismView& at, const Pose& pose, const DrawnB
 }
 
 LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {
-    LabelNeeds needs;
-    needs.angles = {kInfinity, -kInfinity};
+    LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}, {}};
     Bounds seen;
     std::vector<Vec2> before;
     for (int k = 0; k < at_.context.frames(); ++k) {
@@ -78,12 +77,6 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         if (at_.member == 0) add_measured(at_, pose, drawn, swept);
         if (arrow) needs.arrows.push_back(*arrow), needs.frames.push_back(k);
         before = shape.face;
-        if (at_.problem().cam) {
-            const sim::Cam& cam = *at_.problem().cam;
-            const double away = norm(pose.cam_centre), swept_by_disc = cam.radius + cam.eccentricity;
-            needs.before_cam = std::min(needs.before_cam, 0.86 * (away - swept_by_disc) * at_.look.camera.scale);
-            needs.beyond_cam = std::max(needs.beyond_cam, (away + swept_by_disc) * at_.look.camera.scale);
-        }
         for (std::size_t i = 0; i < shape.face.size(); ++i) seen.add(shape.face[i]), seen.add(shape.back[i]);
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);

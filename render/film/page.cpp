@@ -13,6 +13,7 @@
 #include <numbers>
 #include <optional>
 
+#include "render/film/mechanism_labels.hpp"
 #include "render/film/panel.hpp"
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/labels.hpp"
@@ -170,7 +171,7 @@ double arc_radius(const sim::Problem& problem) {
     const double usual = 0.14 * problem.beam.length,
                  least = std::max(problem.hub.radius, 0.022 * problem.beam.length) * 2;
     if (!problem.cam) return usual;
-    const double before_cam = 0.86 * (norm(problem.cam->centre) - problem.cam->radius - problem.cam->eccentricity);
+    const double before_cam = arc_before_cam(*problem.cam);
     return before_cam >= least ? std::min(usual, before_cam) : usual;
 }
 

@@ -58,10 +58,10 @@ std::string point_text(const Swept& swept, std::uint64_t point, const ValueDigit
     const output::SweepAxis& axis = points.axis(0);
     const Measure measure = points.measure(0);
     const double value = points.data.place(point)[0] * measure.factor;
-    const std::string number = digits.decimals ? render::fixed(value, *digits.decimals)
-                                               : render::to_plain(beamcam::scenes::number(value, digits.significant));
+    const std::string written =
+        digits.decimals ? render::fixed(value, *digits.decimals) : render::to_plain(number(value, digits.significant));
     const std::string symbol = symbol_of(axis.name);  // markup of a bare name is no formula
-    std::string text = fmt::format("{} = {}{}", symbol.starts_with('$') ? symbol : axis.name, number,
+    std::string text = fmt::format("{} = {}{}", symbol.starts_with('$') ? symbol : axis.name, written,
                                    axis.unit == "1" ? "" : (measure.unit == "°" ? "" : "\u00A0") + measure.unit);
     text += phrase(lang, ": ", "：");
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);

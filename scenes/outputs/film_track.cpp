@@ -53,8 +53,7 @@ std::string name_of(const Group& g, Lang lang) {
 std::string text_of(const Group& g, const render::FilmSetup& film, Lang lang) {
     std::string text = fmt::format("{} · t = {:.4f}", name_of(g, lang), film.impacts[g.first].t_start);
     text += g.last > g.first ? fmt::format(" … {:.4f} s", film.impacts[g.last].t_start) : " s";
-    if (g.force > 0)
-        text += fmt::format("{}{}", lang == Lang::zh ? " · 最大 " : " · up to ", render::quantity(g.force, "N"));
+    if (g.force > 0) text += phrase(lang, " · up to {}", " · 最大 {}", render::quantity(g.force, "N"));
     return text;
 }
 
@@ -75,7 +74,7 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
         out.subtitles.push_back({groups[i].from, std::min(next, std::max(groups[i].until, groups[i].from + kFilmShown)),
                                  text_of(groups[i], film, lang)});
         if (out.chapters.empty() && groups[i].from > 0)
-            out.chapters.push_back({0, groups[i].from, lang == Lang::zh ? "开始" : "Start"});
+            out.chapters.push_back({0, groups[i].from, phrase(lang, "Start", "开始")});
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});
     }
     for (const render::Callout& c : film.callouts)

@@ -154,4 +154,16 @@ render::FilmSetup flat_film(const Synthetic& how, int width, int height) {
     return film;
 }
 
+render::FilmSetup led_rod(double from, double rate, double duration) {
+    render::FilmSetup film = flat_film({.duration = duration}, 1280, 720);
+    for (sim::Pose& pose : film.poses) {
+        pose.theta = from + rate * pose.t;
+        const double last = double(pose.centreline.size() - 1);
+        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+            pose.centreline[i] = sim::unit(pose.theta) * (film.problem.beam.length * double(i) / last);
+        pose.nearest.reset();
+    }
+    return film;
+}
+
 }  // namespace beamcam::test

@@ -22,5 +22,7 @@ struct Synthetic {
 sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, double t);
 render::FilmSetup synthetic_film(const Synthetic& how = {});
 render::FilmSetup flat_film(const Synthetic& how, int width, int height);  // the same in the flat style
+// A straight beam that turns about its hub from an angle on [rad, rad/s], without a contact, in 720p.
+render::FilmSetup led_rod(double from, double rate, double duration = 1);
 
 }  // namespace beamcam::test

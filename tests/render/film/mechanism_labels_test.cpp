@@ -165,19 +165,6 @@ TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
     }
 }
 
-// A rod that is led about its hub.
-FilmSetup led_rod(double from, double rate, double duration = 1) {
-    FilmSetup setup = test::flat_film({.duration = duration}, 1280, 720);
-    for (sim::Pose& pose : setup.poses) {
-        pose.theta = from + rate * pose.t;
-        const double last = double(pose.centreline.size() - 1);
-        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
-            pose.centreline[i] = sim::unit(pose.theta) * (setup.problem.beam.length * double(i) / last);
-        pose.nearest.reset();
-    }
-    return setup;
-}
-
 // The arrow of the cam's speed finds the only free direction, between those that are tried first.
 TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
     const FilmContext context(std::make_shared<const FilmSetup>(test::flat_film({.duration = 0.1}, 1280, 720)));
@@ -210,7 +197,7 @@ TEST(MechanismLabels, LeadersEndInTheViewOfANearCamera) {
 // The angle has its arc and letter, too, where the cam leaves no room between itself and the hub.
 TEST(MechanismLabels, TheAngleIsShownBesideACamAtTheHub) {
     for (const double centre : {0.06, 0.5}) {
-        FilmSetup setup = led_rod(1.2, -0.2);
+        FilmSetup setup = test::led_rod(1.2, -0.2);
         sim::Cam& cam = *setup.problem.cam;
         cam.centre = {centre, 0}, cam.radius = 0.8 * centre, cam.eccentricity = 0.15 * centre, cam.speed = 0;
         for (sim::Pose& pose : setup.poses) pose.cam_centre = pose.disc_centre = cam.centre;
@@ -226,7 +213,7 @@ TEST(MechanismLabels, TheAngleIsShownBesideACamAtTheHub) {
 
 // Where the beam sweeps nearly all directions, the letter is across the horizontal from it until the beam passes there.
 TEST(MechanismLabels, TheAngleOfABeamThatTurnsOverHasItsLetter) {
-    FilmSetup setup = led_rod(0.17, 5.9);
+    FilmSetup setup = test::led_rod(0.17, 5.9);
     sim::Cam& cam = *setup.problem.cam;
     cam.centre = {0.06, 0}, cam.radius = 0.015, cam.eccentricity = 0.005, cam.speed = 50;
     for (sim::Pose& pose : setup.poses) pose.cam_centre = pose.disc_centre = cam.centre;

@@ -185,12 +185,17 @@ TEST(Layers, ThePathOfTheTipHasAnOutline) {
     }
 }
 
+// Of a millisecond.
+sim::Impact brief_impact(double start, double force) {
+    sim::Impact impact;
+    impact.t_start = start, impact.t_end = start + 1e-3, impact.force_peak = force;
+    return impact;
+}
+
 // A contact shorter than two frames shows its peak force as long as its ring, 0.4 s.
 TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
     FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
-    sim::Impact impact;
-    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
-    setup.impacts = {impact};
+    setup.impacts = {brief_impact(0.3, 100)};
     FilmSetup lasting = setup;
     lasting.impacts[0].t_end = 0.34;  // three frames show it
     Film brief(setup), longer(lasting);
@@ -204,9 +209,7 @@ TEST(Peaks, AreHeldWhereAContactIsTooBriefForTheFrames) {
 TEST(Peaks, AreHeldThroughAFreeze) {
     FilmSetup setup = test::flat_film({.duration = 2}, 640, 360);
     setup.layout = LayoutNode{};
-    sim::Impact impact;
-    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
-    setup.impacts = {impact};
+    setup.impacts = {brief_impact(0.3, 100)};
     constexpr std::size_t kFirst = 24, kFrozen = 60;  // a second, longer than a ring
     setup.poses.insert(setup.poses.begin() + kFirst, kFrozen, setup.poses[kFirst]);
     setup.speeds.assign(setup.poses.size(), 1);
@@ -224,9 +227,7 @@ TEST(Peaks, AreHeldThroughAFreeze) {
 TEST(Peaks, AreHeldWhereAFreezeShowsTheTouch) {
     FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
     setup.layout = LayoutNode{};
-    sim::Impact impact;
-    impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
-    setup.impacts = {impact};
+    setup.impacts = {brief_impact(0.3, 100)};
     setup.poses[18].t = 0.3;
     setup.poses.insert(setup.poses.begin() + 18, 30, setup.poses[18]);
     Film held(setup);
@@ -239,9 +240,7 @@ TEST(Peaks, AreHeldWhereAFreezeShowsTheTouch) {
 TEST(Peaks, AreThoseOfTheWholeCollision) {
     FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
     setup.layout = LayoutNode{};
-    sim::Impact strong, weak;
-    strong.t_start = 0.3, strong.t_end = 0.301, strong.force_peak = 100;
-    weak.t_start = 0.34, weak.t_end = 0.341, weak.force_peak = 20;
+    const sim::Impact strong = brief_impact(0.3, 100), weak = brief_impact(0.34, 20);
     setup.impacts = {strong, weak};
     Film together(setup);
     setup.impacts[1].force_peak = 99;  // still smaller

@@ -89,22 +89,10 @@ void labels_keep_clear(const FilmSetup& setup, std::size_t expected, const std::
 TEST(Steadiness, LabelsKeepTheirPlacesClearOfTheBeam) {
     labels_keep_clear(film_of(Style::flat, {.duration = 2}), 3, "as it is");
     labels_keep_clear(film_of(Style::flat, {.duration = 2}, 10), 3, "exaggerated");
-    const auto turned = [&](double from, double rate) {  // a rod led about its hub
-        FilmSetup setup = film_of(Style::flat, {.duration = 1});
-        for (std::size_t k = 0; k < setup.poses.size(); ++k) {
-            sim::Pose& pose = setup.poses[k];
-            pose.theta = from + rate * pose.t;
-            const double last = double(pose.centreline.size() - 1);
-            for (std::size_t i = 0; i < pose.centreline.size(); ++i)
-                pose.centreline[i] = sim::unit(pose.theta) * (setup.problem.beam.length * double(i) / last);
-            pose.nearest.reset();
-        }
-        return setup;
-    };
-    labels_keep_clear(turned(1.2, -40), 2, "fast beam");  // the angle's letter has no free place: it fades
-    labels_keep_clear(turned(0.3, -0.1), 2, "small angle");
-    labels_keep_clear(turned(0.05, -0.1), 1, "an arc under the beam");
-    labels_keep_clear(turned(-0.2, 4), 2, "through the horizontal");  // here, too: the beam sweeps both sides
+    labels_keep_clear(test::led_rod(1.2, -40), 2, "fast beam");  // the angle's letter has no free place: it fades
+    labels_keep_clear(test::led_rod(0.3, -0.1), 2, "small angle");
+    labels_keep_clear(test::led_rod(0.05, -0.1), 1, "an arc under the beam");
+    labels_keep_clear(test::led_rod(-0.2, 4), 2, "through the horizontal");  // here, too: the beam sweeps both sides
     FilmSetup tall = film_of(Style::flat, {.duration = 2});
     tall.width = 1080, tall.height = 1920;
     tall.others = {tall, tall};
