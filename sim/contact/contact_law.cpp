@@ -62,4 +62,10 @@ double FrictionLaw::bristle_rate(FrictionState state, double normal, double slip
     return lags ? stiffness / damping * (sliding_bristle(state, normal) - z) : 0;
 }
 
+double FrictionLaw::margin(FrictionState state, double normal, double growth, double slip, double z) const {
+    if (state == FrictionState::stick) return limit * normal - std::fabs(force(state, normal, slip, z));
+    if (lags) return foot_speed(state, normal, slip, z);
+    return sign(state) * slip - kinetic * growth / stiffness;
+}
+
 }  // namespace beamcam::sim

@@ -63,6 +63,9 @@ struct FrictionLaw {
     double foot_speed(FrictionState state, double normal, double slip, double z) const {
         return sign(state) * (slip - bristle_rate(state, normal, slip, z));
     }
+    // Positive while the state of the bristle lasts: [N] of stick, [m/s] of sliding. `growth`: Ṅ [N/s], which counts
+    // where a bristle slides without lag.                                                               (S35), (S36)
+    double margin(FrictionState state, double normal, double growth, double slip, double z) const;
     // +1 or −1, the direction of sliding; −1 while sticking, too.
     static double sign(FrictionState state) { return state == FrictionState::slide_plus ? 1 : -1; }
 };

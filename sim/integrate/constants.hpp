@@ -69,8 +69,10 @@ inline constexpr int kMostCentres = 8;         // until the expansion contains t
 inline constexpr double kSettledFoot = 3e-3;   // of the length: corrections by less have converged
 
 // ---- events within a step ----
-inline constexpr double kOnKink = 1e-6;        // of an interval: a passing so early means that it starts on the kink
-inline constexpr int kMostEventHalvings = 16;  // then the ends decide: 10⁻⁵ of the interval
+inline constexpr double kOnKink = 1e-6;          // of an interval: a passing so early means that it starts on the kink
+inline constexpr int kMostEventHalvings = 16;    // then the ends decide: 10⁻⁵ of the interval
+inline constexpr double kMarginRounding = 1e-9;  // of the largest margin of friction in a step
+inline constexpr int kPartsBetweenNodes = 4;     // in which a polynomial of degree seven has no more than one extremum
 
 // ---- the end of a step in contact ----
 inline constexpr int kMostCuts = 8;            // of a step, to end it at an event

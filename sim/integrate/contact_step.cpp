@@ -9,36 +9,6 @@
 namespace beamcam::sim {
 namespace {
 
-// Solves the dense system a x = b of a step (columns of a in lanes over rows), b ← x; partial pivoting.
-bool solve_dense(std::array<Lanes, kNodes>& a, Lanes& b) {
-    int order[kNodes];
-    for (int k = 0; k < kNodes; ++k) order[k] = k;
-    for (int c = 0; c < kNodes; ++c) {
-        Lanes& column = a[static_cast<std::size_t>(c)];
-        int best = c;
-        for (int r = c + 1; r < kNodes; ++r)
-            if (std::fabs(column[order[r]]) > std::fabs(column[order[best]])) best = r;
-        std::swap(order[c], order[best]);
-        const int pivot = order[c];
-        if (!(std::fabs(column[pivot]) > 0)) return false;
-        Lanes factor = column / column[pivot];
-        for (int r = 0; r <= c; ++r) factor[order[r]] = 0;
-        for (int j = c + 1; j < kNodes; ++j) {
-            Lanes& other = a[static_cast<std::size_t>(j)];
-            other -= factor * other[pivot];
-        }
-        b -= factor * b[pivot];
-    }
-    Lanes x{};
-    for (int c = kNodes - 1; c >= 0; --c) {
-        const Lanes& column = a[static_cast<std::size_t>(c)];
-        x[c] = b[order[c]] / column[order[c]];
-        b -= x[c] * column;
-    }
-    b = x;
-    return true;
-}
-
 bool is_steady(const Lanes& force) {
     const double most = largest(force);
     return largest(most - force) < kSteadyForce * most;
@@ -53,10 +23,12 @@ ContactStep::ContactStep(NodalStep& step)
       law_(step.system.normal_law()),
       friction_(step.system.friction()),
       expansion_(step.system),
+      bristle_(friction_),
+      row_t_(step.n),
       hq_end_(expansion_.scratch()),
       hq_(expansion_.scratch()),
       coordinate_rows_(step.n + 1) {
-    load.rough = friction_.kinetic > 0;
+    load.rough = !friction_.none();
     load.jn.resize(step.n);
     load.jt.resize(step.n);
 }
@@ -87,12 +59,17 @@ void ContactStep::begin() {
         evaluate(s.t0, s.end.data(), start);
     }
     place_at_start();
-    double coordinates[kMaxSize] = {start.hub}, jt = 0;
-    for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(start, hq_end_.data(), i, false, coordinates[1 + i], jt);
-    if (form_.by_arrays())
-        std::copy_n(coordinates + 1, step_.n, row.begin());
-    else
-        product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinates, row.data());
+    double along_n[kMaxSize] = {start.hub}, along_t[kMaxSize] = {start.hub_t};
+    for (std::size_t i = 0; i < step_.n; ++i)
+        expansion_.rows(start, hq_end_.data(), i, friction_.bristle, along_n[1 + i], along_t[1 + i]);
+    const auto to_modes = [&](const double* coordinates, std::vector<double>& rows) {
+        if (form_.by_arrays())
+            std::copy_n(coordinates + 1, step_.n, rows.begin());
+        else
+            product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinates, rows.data());
+    };
+    to_modes(along_n, row);
+    if (friction_.bristle) to_modes(along_t, row_t_);
 }
 
 double ContactStep::solve(const StepTable& table) {
@@ -100,7 +77,7 @@ double ContactStep::solve(const StepTable& table) {
     const double h = table.h;
     s.begin(h, {});
     step_.place_hub(h);
-    linearize(table);
+    if (!linearize(table)) return kNoSolution;
     // The feet of the last attempt are the first guess, unless they left the expansion.
     for (int k = 0; k < kNodes; ++k)
         if (!(std::fabs(load.contact.dx[k]) <= expansion_.range())) place_at_start();
@@ -119,6 +96,8 @@ double ContactStep::solve(const StepTable& table) {
     step_.propagate(table);
     step_.propagate_rates(table);
     move(1);
+    if (friction_.bristle && !bristle_.settle(load.force, load.contact.slip, load.friction, s.bristle_rate))
+        return kNoSolution;
     step_.arrive(table);
     end.dx = load.contact.dx[kNodes - 1];
     state_ = step_.next;
@@ -148,10 +127,14 @@ void ContactStep::guess(const StepTable& table) {
     const Lanes tau = table.h * Collocation::get().c;
     for (int k = 0; k < kNodes; ++k)
         load.force[k] = law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
-    load.friction = Lanes{};
+    load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
     s.p_dot = load.force * start.hub - form_.gravity * form_.S * step_.cos + step_.torque;
+    if (friction_.bristle) {
+        for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.friction * (row_t_[i] / form_.mass);
+        s.p_dot += load.friction * start.hub_t;
+    }
     if (!form_.prescribed) step_.hub_from_load(table.h);
 }
 
@@ -174,14 +157,23 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     }
     force_rounding_ = kDepthRounding * form_.length * largest(by_depth);
     decays_ = largest(by_rate) * mobility_contact_;
-    std::array<Lanes, kNodes> matrix;
+    Lanes ahead;
+    if (friction_.bristle) {
+        Lanes gap, rate;
+        ahead = bristle_.ahead(load.force, load.friction, contact.slip, gap, rate);
+        residual -= by_depth * gap + by_rate * rate;
+        decays_ = std::max(decays_, bristle_.decays());
+    }
+    NodalMatrix matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
-        matrix[l] = by_depth * compliance_[l] + by_rate * compliance_rate_[l];
+        matrix[l] = by_depth * compliance_.value[l] + by_rate * compliance_.rate[l];
         matrix[l][static_cast<int>(l)] += 1;
     }
-    if (!solve_dense(matrix, residual)) return false;
+    if (!solve_dense(matrix, {&residual, 1})) return false;
     load.force += residual;
-    if (load.rough)
+    if (friction_.bristle)
+        load.friction += ahead + bristle_.follow(residual);
+    else if (load.rough)
         for (int k = 0; k < kNodes; ++k) load.friction[k] = friction_.coulomb(load.force[k], contact.slip[k]);
     return true;
 }
@@ -228,40 +220,41 @@ void ContactStep::move(double sign) {
     load.contact.slip += slip;
 }
 
-// −∂gap/∂force and −∂(gap rate)/∂force between the nodes, with the rows at the start, for Newton's method.
-void ContactStep::linearize(const StepTable& table) {
-    const Collocation& gauss = Collocation::get();
+// How the gap responds to nodal normal forces, with the rows at the start, for Newton's method. False: it is singular.
+bool ContactStep::linearize(const StepTable& table) {
     const double h = table.h;
-    const double hub = form_.prescribed ? 0 : start.hub * start.hub / form_.J;
-    for (std::size_t l = 0; l < kNodes; ++l) {
-        compliance_[l] = (hub * h * h) * gauss.integrate_twice[l];
-        compliance_rate_[l] = (hub * h) * gauss.integrate[l];
-    }
+    const auto compliance = [&](double hub, const std::vector<double>& a, const std::vector<double>& b) {
+        return NodalCompliance(table, form_.mass, form_.prescribed ? 0 : hub / form_.J, a, b);
+    };
+    compliance_ = compliance(start.hub * start.hub, row, row);
     double mobility2 = 0, kick2 = 0;
     for (std::size_t i = 0; i < step_.n; ++i) {
-        const double jn = row[i];
-        const StepTable::Row& response = table.rows[i];
-        const double c = jn * jn / form_.mass;
-        for (std::size_t l = 0; l < kNodes; ++l) {
-            compliance_[l] += c * response.q[l];
-            compliance_rate_[l] += c * response.v[l];
-        }
-        const double moved = jn / form_.mass * std::min(h, 1 / form_.oscillators[i].omega);
+        const double jn = row[i], reach = std::min(h, 1 / form_.oscillators[i].omega);
+        const double moved = jn / form_.mass * reach, moved_t = row_t_[i] / form_.mass * reach;
         mobility2 += moved * moved;
-        kick2 += c / form_.mass;
+        if (friction_.bristle) mobility2 += moved_t * moved_t;
+        kick2 += jn * jn / form_.mass / form_.mass;
     }
     Lanes turned{};  // by a unit force from the start on
-    for (const Lanes& rate : compliance_rate_) turned += rate;
+    for (const Lanes& rate : compliance_.rate) turned += rate;
     mobility_contact_ = largest(turned);
     mobility_modes_ = std::sqrt(mobility2);
     kick = std::sqrt(kick2);
-    mobility_hub_ = form_.prescribed ? 0 : std::fabs(start.hub) * h / form_.J;
+    const double arm = friction_.bristle ? std::hypot(start.hub, start.hub_t) : std::fabs(start.hub);
+    mobility_hub_ = form_.prescribed ? 0 : arm * h / form_.J;
+    if (!friction_.bristle) return true;
+    bristle_.begin(step_.system.phase().friction, step_.segment.bristle0, h);
+    return bristle_.eliminate(compliance(start.hub * start.hub_t, row, row_t_),
+                              compliance(start.hub_t * start.hub_t, row_t_, row_t_), compliance_);
 }
 
 double ContactStep::error(double h) {
     const double smooth = step_.forcing_error(h, &load);
     double force = quadrature_error(load.force, force_rounding_);
     if (load.rough) force = std::max(quadrature_error(load.friction, force_rounding_), force);
+    if (friction_.bristle)  // of the deflection at the end, by its force
+        force =
+            std::max(quadrature_error(friction_.stiffness * h * step_.segment.bristle_rate, force_rounding_), force);
     if (!std::isfinite(force)) return force;  // a maximum of several would hide it
     return kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
                                      force * mobility_hub_ / step_.scale_theta_dot});

@@ -1,8 +1,7 @@
 // A step of the exponential collocation in contact: the nodal forces by Newton's method. MODEL.md §12.
 #pragma once
 
-#include <array>
-
+#include "sim/integrate/bristle_step.hpp"
 #include "sim/integrate/nodal_step.hpp"
 
 namespace beamcam::sim {
@@ -26,6 +25,7 @@ class ContactStep {
         return law_.linearized(-at.gap, -at.gap_rate, approach);
     }
     void fill(TouchSamples& samples) const;
+    const BristleStep& bristle() const { return bristle_; }  // of the step just solved
 
     ContactKinematics<double> start, end;
     ContactLoad load;
@@ -38,7 +38,7 @@ class ContactStep {
     void guess(const StepTable& table);
     bool improve(const StepTable& table, int corrections);
     void place_contact(int corrections);
-    void linearize(const StepTable& table);
+    bool linearize(const StepTable& table);
     void move(double sign);
     double error(double h);
 
@@ -47,13 +47,15 @@ class ContactStep {
     const NormalLaw& law_;
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
+    BristleStep bristle_;
+    std::vector<double> row_t_;  // of a bristle: ∂(t·r)/∂q of the modes at the start
     double gap_offset_ = 0, centred_ = -1;
     double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
     Frame<Lanes> frame_;
     Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last
-    std::array<Lanes, kNodes> compliance_, compliance_rate_;
+    NodalCompliance compliance_;                   // of the gap, with the friction of a bristle
     std::vector<double> hq_end_, state_;
     std::vector<Lanes> hq_, coordinate_rows_;
 };

@@ -10,7 +10,14 @@
 namespace beamcam::sim {
 
 double ContactStepEnd::cut(double error, Ending& ending) {
-    const double end = event_at_nodes(step_.segment.h, ending);
+    double end = event_at_nodes(step_.segment.h, ending);
+    if (friction_.bristle) {
+        const double slips = FrictionMargin(step_, contact_).end(ending == Ending::open, false);
+        if (slips < end) {
+            ending = Ending::friction;
+            end = slips;
+        }
+    }
     // A step far beyond the release only shows how long the next one is.
     if (ending != Ending::open) error = solve_to(end, ending);
     // Repeated while the shorter step has an event that no node shows.
@@ -58,9 +65,18 @@ double ContactStepEnd::event_at_nodes(double h, Ending& ending) const {
     return h;
 }
 
-// When the first event between the nodes falls in the step just solved, and which: the gap opens, or the clamp of
-// the force begins or ends.                                                                            (S58)
+// When the first event between the nodes falls in the step just solved, and which.
 double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
+    const double first = force_event_between_nodes(ending, found);
+    if (!friction_.bristle) return first;
+    const double slips = FrictionMargin(step_, contact_).end(found == Ending::open, ending == Ending::friction);
+    if (!(slips < first)) return first;
+    found = Ending::friction;
+    return slips;
+}
+
+// The same of the normal force: the gap opens, or the clamp begins or ends.                             (S58)
+double ContactStepEnd::force_event_between_nodes(Ending ending, Ending& found) {
     const Collocation& gauss = Collocation::get();
     const ContactKinematics<Lanes>& nodes = contact_.load.contact;
     const double h = step_.segment.h, deep = kGapRounding * step_.form->length;
@@ -74,7 +90,7 @@ double ContactStepEnd::event_between_nodes(Ending ending, Ending& found) {
     for (int k = 0; k <= kNodes; ++k) {
         Guard b = k < kNodes ? Guard{h * gauss.c[k], -nodes.gap[k], -nodes.gap_rate[k]}
                              : Guard{h, -contact_.end.gap, -contact_.end.gap_rate};
-        if (k == kNodes && ending != Ending::open) b.value = std::max(b.value, 0.0);
+        if (k == kNodes && (ending == Ending::release || ending == Ending::clamp)) b.value = std::max(b.value, 0.0);
         Guard c = b;
         if (k == kNodes && ending == Ending::clamp) c.rate = level;
         double first = kNoSolution;
@@ -137,8 +153,7 @@ Ripple ContactStepEnd::unresolved(double span) {
     return ripple;
 }
 
-// Solves again, ended at the release or at the kink, until the end lies on it. The error, as of
-// ContactStep::solve.
+// Solves again, ended at the event, until the end lies on it. The error, as of ContactStep::solve.
 double ContactStepEnd::solve_to(double end, Ending ending) {
     double h = end, error = 0, closest = kNoSolution;
     for (int i = 0; i < kMostCuts; ++i) {
@@ -148,8 +163,13 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
         if (!(error <= 1)) return error;
         const double dt = to_event(h, ending);
         if (!std::isfinite(dt)) return kNoSolution;
-        if (std::fabs(dt) < kEndRounding * h + kLeastShift || std::fabs(dt) >= closest) return error;
+        if (std::fabs(dt) < kEndRounding * h + kLeastShift) return error;
+        if (std::fabs(dt) >= closest) return ending == Ending::friction ? kNoSolution : error;
         if (ending == Ending::clamp && std::fabs(dt) < kOnKink * h) return error;
+        if (ending == Ending::friction && std::fabs(dt) < kCarried * h) {
+            carry = dt;
+            return error;
+        }
         // So near that the force in between has no effect: the state is carried over.
         if (ending == Ending::release && std::fabs(dt) < kCarried * h &&
             law_.elastic(std::fabs(contact_.end.gap)) * std::fabs(dt) * contact_.kick <
@@ -165,6 +185,7 @@ double ContactStepEnd::solve_to(double end, Ending ending) {
 
 // From the end of a step of length h to the event, by its rate.
 double ContactStepEnd::to_event(double h, Ending ending) const {
+    if (ending == Ending::friction) return FrictionMargin(step_, contact_).to_zero();
     if (ending == Ending::release) return -contact_.end.gap / contact_.end.gap_rate;
     const double now = factor(contact_.end.gap_rate), before = factor(contact_.load.contact.gap_rate[kNodes - 1]);
     return -now * (h * (1 - Collocation::get().c[kNodes - 1])) / (now - before);

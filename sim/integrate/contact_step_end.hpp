@@ -1,9 +1,9 @@
-// The end of a step in contact: where the gap opens, or the clamp of the force begins or ends, at its nodes or between
-// them. MODEL.md §12, (S58).
+// The end of a step in contact: where the gap opens, the clamp of the force begins or ends, or a bristle begins to
+// stick or slide, at its nodes or between them. MODEL.md §12, (S58).
 #pragma once
 
-#include "sim/integrate/contact_step.hpp"
 #include "sim/integrate/event_search.hpp"
+#include "sim/integrate/friction_margin.hpp"
 
 namespace beamcam::sim {
 
@@ -11,10 +11,16 @@ class ContactStepEnd {
   public:
     using Ending = TouchSamples::Ending;
     ContactStepEnd(NodalStep& step, ContactStep& contact)
-        : step_(step), contact_(contact), law_(step.system.normal_law()), ripples_(step.n) {}
+        : step_(step),
+          contact_(contact),
+          law_(step.system.normal_law()),
+          friction_(step.system.friction()),
+          ripples_(step.n) {}
 
     // A touch begins, or a step ends on the kink of the clamp.
     void reset_side() { side_ = 1; }
+    // The state of a bristle does not last from the start of the step on.
+    bool friction_over() const { return friction_.bristle && FrictionMargin(step_, contact_).over_at_start(); }
     void accept(Ending ending) { side_ = ending == Ending::clamp ? -start_side_ : start_side_; }
     // Cuts the step just solved, of error `error`, at its first event by solving shorter ones. Returns the error of the
     // last.
@@ -25,6 +31,7 @@ class ContactStepEnd {
   private:
     double event_at_nodes(double h, Ending& ending) const;
     double event_between_nodes(Ending ending, Ending& found);
+    double force_event_between_nodes(Ending ending, Ending& found);
     double solve_to(double end, Ending ending);
     double to_event(double h, Ending ending) const;
     Guard penetration_at(double after);
@@ -34,6 +41,7 @@ class ContactStepEnd {
     NodalStep& step_;
     ContactStep& contact_;
     const NormalLaw& law_;
+    const FrictionLaw& friction_;
     StepTable table_;
     double side_ = 1, start_side_ = 1;       // of the kink of the clamp at the next start and the last: +1 pushes
     std::vector<double> scratch_, ripples_;  // ripples_: of the modes from `ripples_from_` on

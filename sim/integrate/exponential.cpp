@@ -106,7 +106,7 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (method_ && method_->contact_end && !(touching_ && t == t_)) method_->contact_end->reset_side();
         touching_ = phase.touching;
-        falling_back_ = !method_ || phase.held || (touching_ && (system_.has_bristle() || !method_->contact));
+        falling_back_ = !method_ || phase.held || (touching_ && !method_->contact);
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
             ++counters.handed_over;
@@ -282,13 +282,14 @@ class Exponential final : public Integrator {
         if (s.h < crawl_) ++crawls_;
         method_->step.finish(&method_->contact->load);
         s.samples.ending = ending;
+        s.samples.friction_over = method_->contact_end->friction_over();
         method_->contact->fill(s.samples);
         t_ = s.t1;
         if (const double carry = std::exchange(method_->contact_end->carry, 0.0); carry != 0) {
             shorten(t_ + carry);
             constexpr int kLast = TouchSamples::kCount - 1;
             s.samples.t[kLast] = t_;
-            s.samples.gap[kLast] = s.samples.force[kLast] = 0;
+            if (ending == TouchSamples::Ending::release) s.samples.gap[kLast] = s.samples.force[kLast] = 0;
         }
     }
 

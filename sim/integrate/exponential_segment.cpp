@@ -33,6 +33,10 @@ void ExponentialSegment::each_number(Visit&& visit) {
     if (ledger_changes) lanes(rate);
     flag(touching);
     if (!touching) return;
+    if (has_bristle()) {
+        number(bristle0);
+        lanes({&bristle_rate, 1});
+    }
     for (auto* all : {&samples.t, &samples.gap, &samples.gap_rate, &samples.force, &samples.x}) numbers(*all);
     double ending = static_cast<int>(samples.ending);
     number(ending);
@@ -249,13 +253,11 @@ void ExponentialSegment::evaluate(double t, bool ledger, double* y) const {
         y[0] = theta0 + h * integral(hub().turn, s);
         rates[0] = theta_dot_at(p0 + h * integral(hub().momentum, s), y + 1);
     }
-    for (std::size_t k = 2 * (n_ + 1); k < controlled_; ++k) y[k] = end[k];
     std::copy_n(ledger0, kLedgerSize, y + controlled_);
-    if (ledger) {
-        Lanes weights;
-        Collocation::get().weights_to(s, weights);
-        ledger_at(t, s, weights, y);
-    }
+    Lanes weights;
+    if (ledger || has_bristle()) Collocation::get().weights_to(s, weights);
+    if (has_bristle()) y[2 * (n_ + 1)] = touching ? bristle0 + h * sum(weights * bristle_rate) : end[2 * (n_ + 1)];
+    if (ledger) ledger_at(t, s, weights, y);
     form_->to_coordinates(y);
 }
 

@@ -30,6 +30,7 @@ class ExponentialSegment final : public StoredSegment {
     void begin(double length, const FastVibrations& fast) {
         h = length;
         left_out = fast;
+        bristle_rate = Lanes{};
         changed();
     }
     // To be called whenever the numbers change.
@@ -48,6 +49,8 @@ class ExponentialSegment final : public StoredSegment {
     std::vector<Lanes> q, v, f;  // at the nodes: q, q̇, forcing per mass without that of `left_out`
     FastVibrations left_out;
     Lanes theta_dot{}, p_dot{};  // Θ̇ and ṗ at the nodes
+    double bristle0 = 0;         // z at t0, if the state has it
+    Lanes bristle_rate{};        // ż at the nodes
     double ledger0[kLedgerSize] = {};
     Lanes rate[kLedgerSize] = {};  // of the ledger at the nodes, without the parts that `ledger_at` adds
     bool ledger_changes = false;   // in this step
@@ -60,6 +63,7 @@ class ExponentialSegment final : public StoredSegment {
     void ledger_at(double t, double s, const Lanes& weights, double* y) const;
     // The part of the drive's work that has a closed form, at t.
     double drive_boundary(double t, const double* y) const;
+    bool has_bristle() const { return controlled_ > 2 * (n_ + 1); }
     bool resolved(std::size_t mode) const;
     // The part of q̇ of a mode that the nodes resolve: all, one of two decays, or none.
     Lanes resolved_rate(std::size_t mode) const;

@@ -35,9 +35,10 @@ struct MotionBounds {
 // The contact at the start of a step, at its nodes and at its end, in this order.
 struct TouchSamples {
     static constexpr int kCount = 10;
-    enum class Ending { open, release, clamp };  // why the step ends where it does
+    enum class Ending { open, release, clamp, friction };  // why the step ends where it does
     double t[kCount], gap[kCount], gap_rate[kCount], force[kCount], x[kCount];
     Ending ending = Ending::open;
+    bool friction_over = false;  // the state of the bristle ends at the start of the step; not stored
 };
 
 // Bounds of each mode, and of the hub, within a step; and their values at its nodes.
@@ -89,8 +90,7 @@ class Segment {
     virtual const MotionBounds* bounds() const { return nullptr; }
     // Null where the step does not propagate modes.
     virtual const ModalBounds* modal_bounds() const { return nullptr; }
-    // Null but for steps that solve for the contact force at nodes. No event of the normal force lies inside such a
-    // step.
+    // Null but for steps that solve for the contact force at nodes. No event of the forces lies inside such a step.
     virtual const TouchSamples* touch() const { return nullptr; }
     double t0 = 0, t1 = 0;
 };

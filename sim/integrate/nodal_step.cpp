@@ -53,6 +53,7 @@ void NodalStep::begin(double t) {
     std::copy_n(y + 1, n, s.q0.begin());
     std::copy_n(y + 2 + n, n, s.v0.begin());
     std::copy_n(s.end.data() + system.controlled, kLedgerSize, s.ledger0);
+    if (s.has_bristle()) s.bristle0 = s.end[2 * (n + 1)];
     s.theta0 = y[0];
     theta_dot0 = y[1 + n];
     // Θ̇ = p/(J + qᵀBq) inverted.
@@ -85,6 +86,7 @@ void NodalStep::arrive(const StepTable& table) {
         next[2 + n + i] = row.end_vq * s.q0[i] + row.end_vv * s.v0[i] + sum(row.end_v * s.f[i]);
     }
     turn_fast_back(table);
+    if (s.has_bristle()) next[2 * (n + 1)] = s.bristle0 + h * sum(gauss.b * s.bristle_rate);
     if (form->prescribed) {
         const HubMotion hub = system.drive().motion(s.t0 + h);
         next[0] = hub.angle;

@@ -59,9 +59,10 @@ void ChannelEvaluator::set_energies(const Energies& energies) {
     energies_known_ = true;
 }
 
-void ChannelEvaluator::set_gap(double gap) {
+void ChannelEvaluator::set_gap(double gap, double force) {
     ContactState c;
     c.gap = gap;
+    c.force = force;
     set_balance_with(c);
 }
 

@@ -120,7 +120,8 @@ void Recorder::record_balance(const SegmentInterval& s) {
         const double t = share < 1 ? s.from + share * (s.to - s.from) : s.to;
         s.segment->value(t, y_.data());
         evaluator_.set(t, y_.data());
-        if (samples && t == s.segment->t1) evaluator_.set_gap(samples->gap[TouchSamples::kCount - 1]);
+        constexpr int kLast = TouchSamples::kCount - 1;
+        if (samples && t == s.segment->t1) evaluator_.set_gap(samples->gap[kLast], samples->force[kLast]);
         note_balance();
     }
 }

@@ -231,7 +231,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
             place_sample(s, channel.kind, k, sampled);
             if (touch && probing_ && needs_gap(channel.kind)) {
                 evaluator_.set(t, y_.data());
-                evaluator_.set_gap(touch->gap[k]);
+                evaluator_.set_gap(touch->gap[k], touch->force[k]);
                 values[k] = evaluator_.value(channel);
             } else {
                 if (touch && polynomial_) sampled.states[k].contact = polynomial_contacts_[k];

@@ -69,14 +69,10 @@ ContactGuards::Guards ContactGuards::evaluate(const Segment& segment, double t) 
     Guards w{c.side, {t, -c.gap, -c.gap_rate}, c.factor, 1};
     const FrictionLaw& friction = probe_.system.friction();
     if (!friction.bristle) return w;
-    if (state_.phase.friction == FrictionState::stick) {
-        w.friction = friction.limit * c.force - std::fabs(c.friction);
-    } else if (friction.lags) {
-        w.friction = friction.foot_speed(state_.phase.friction, c.force, c.slip,
-                                         probe_.state()[2 * probe_.system.coordinates()]);
-    } else {
-        w.friction = sliding_guard(segment, t, c.slip);
-    }
+    const FrictionState state = state_.phase.friction;
+    const double z = probe_.state()[2 * probe_.system.coordinates()];
+    const double growth = state == FrictionState::stick || friction.lags ? 0 : force_growth(segment, t);
+    w.friction = friction.margin(state, c.force, growth, c.slip, z);
     return w;
 }
 
@@ -86,18 +82,16 @@ void ContactGuards::check_side(const Guards& now) {
     if (now.side != 0) state_.side = now.side;
 }
 
-// Speed of a sliding bristle's foot in the direction of sliding, s v_t − μṄ/k (S36).
-double ContactGuards::sliding_guard(const Segment& segment, double t, double slip) {
-    const FrictionLaw& friction = probe_.system.friction();
+// Ṅ [N/s].
+double ContactGuards::force_growth(const Segment& segment, double t) {
     const double step = kForceDifference * (segment.t1 - segment.t0);
     const double early = std::max(segment.t0, t - step), late = std::min(segment.t1, t + step);
-    const double growth =
-        (probe_.contact(segment, late, false).force - probe_.contact(segment, early, false).force) / (late - early);
-    return FrictionLaw::sign(state_.phase.friction) * slip - friction.kinetic * growth / friction.stiffness;
+    return (probe_.contact(segment, late, false).force - probe_.contact(segment, early, false).force) / (late - early);
 }
 
 Event ContactGuards::first_event(const Segment& segment) {
     if (const TouchSamples* samples = segment.touch()) {
+        if (samples->friction_over && may_change_friction()) return {EventKind::friction, segment.t0};
         switch (samples->ending) {
             case TouchSamples::Ending::open:
                 return {};
@@ -105,6 +99,8 @@ Event ContactGuards::first_event(const Segment& segment) {
                 return {EventKind::release, segment.t1};
             case TouchSamples::Ending::clamp:
                 return {EventKind::clamp, segment.t1};
+            case TouchSamples::Ending::friction:
+                return {EventKind::friction, segment.t1};
         }
     }
     const int count = std::max(probe_.pieces(segment), probe_.pieces_by_travel(segment, probe_.range(segment)));

@@ -29,7 +29,7 @@ class ContactGuards {
     Guards evaluate(const Segment& segment, double t);
     // Throws if the disc's centre has changed sides since the touch.
     void check_side(const Guards& now);
-    double sliding_guard(const Segment& segment, double t, double slip);
+    double force_growth(const Segment& segment, double t);
     std::optional<double> clamp_event(const Segment& segment, const Guards& a, const Guards& b);
     bool may_change_friction();
 

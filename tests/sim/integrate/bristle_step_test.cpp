@@ -1,0 +1,235 @@
+// Stick-slip friction in steps of the collocation: the elimination of the bristle against the complete equations, its
+// deflection against closed forms, and whole motions against the Runge–Kutta method.
+#include "sim/integrate/bristle_step.hpp"
+
+#include <Eigen/LU>
+#include <cmath>
+#include <ostream>
+
+#include "sim/run/run.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim::testing {
+namespace {
+
+Lanes random_lanes(Dice& dice) {
+    Lanes out;
+    for (int k = 0; k < kNodes; ++k) out[k] = dice.about_zero(1);
+    return out;
+}
+
+NodalMatrix random_matrix(Dice& dice) {
+    NodalMatrix out;
+    for (Lanes& column : out) column = random_lanes(dice);
+    return out;
+}
+
+FrictionLaw bristle_law(double damping, bool lags = false) {
+    FrictionLaw law;
+    law.kinetic = law.limit = 0.4;
+    law.bristle = true;
+    law.stiffness = 0.7;
+    law.damping = damping;
+    law.lags = lags;
+    return law;
+}
+
+// Newton's equations of a linear normal force N = −aδ − bδ̇ and of the bristle, all together.
+TEST(BristleStep, EliminationSolvesTheCompleteEquations) {
+    Dice dice(3);
+    for (const FrictionState state : {FrictionState::stick, FrictionState::slide_plus, FrictionState::slide_minus}) {
+        const FrictionLaw law = bristle_law(0.3);
+        const double a = 0.8, b = 0.2;
+        const NodalCompliance across{random_matrix(dice), random_matrix(dice)},
+            along{random_matrix(dice), random_matrix(dice)}, normal{random_matrix(dice), random_matrix(dice)};
+        const Lanes force = random_lanes(dice), friction = random_lanes(dice), slip = random_lanes(dice),
+                    residual = random_lanes(dice);
+        BristleStep bristle(law);
+        bristle.begin(state, 0.1, 0.5);
+        NodalCompliance with_friction = normal;
+        ASSERT_TRUE(bristle.eliminate(across, along, with_friction));
+        Lanes gap, rate;
+        const Lanes ahead = bristle.ahead(force, friction, slip, gap, rate);
+        NodalMatrix matrix;
+        for (std::size_t l = 0; l < kNodes; ++l) {
+            matrix[l] = a * with_friction.value[l] + b * with_friction.rate[l];
+            matrix[l][static_cast<int>(l)] += 1;
+        }
+        Lanes change = residual - (a * gap + b * rate);
+        ASSERT_TRUE(solve_dense(matrix, {&change, 1}));
+        const Lanes friction_change = ahead + bristle.follow(change);
+
+        Lanes now;  // friction of the bristle at this slip and normal force
+        Lanes bristle_rate;
+        ASSERT_TRUE(bristle.settle(force, slip, now, bristle_rate));
+        const bool sticks = state == FrictionState::stick;
+        const double ratio = sticks ? 0 : FrictionLaw::sign(state) * law.kinetic;
+        const Lanes first = change + (a * (normal.value * change) + b * (normal.rate * change)) +
+                            (a * (across.value * friction_change) + b * (across.rate * friction_change));
+        Lanes second = friction_change + ratio * change;
+        if (sticks)
+            second += law.stiffness * (across.value * change + along.value * friction_change) +
+                      law.damping * (across.rate * change + along.rate * friction_change);
+        for (int k = 0; k < kNodes; ++k) {
+            EXPECT_NEAR(first[k], residual[k], 1e-11) << k;
+            EXPECT_NEAR(second[k], now[k] - friction[k], 1e-11) << k;
+        }
+    }
+}
+
+TEST(BristleStep, StoresTheWorkOfStick) {
+    Dice dice(5);
+    const FrictionLaw law = bristle_law(0);
+    BristleStep bristle(law);
+    const double h = 0.5, z0 = 0.1;
+    bristle.begin(FrictionState::stick, z0, h);
+    const Lanes slip = random_lanes(dice);
+    Lanes friction, rate;
+    ASSERT_TRUE(bristle.settle(random_lanes(dice), slip, friction, rate));
+    const Lanes& b = Collocation::get().b;
+    const double z1 = z0 + h * sum(b * rate);
+    EXPECT_NEAR(-h * sum(b * friction * slip), 0.5 * law.stiffness * (z1 * z1 - z0 * z0), 1e-15);
+}
+
+TEST(BristleStep, ALaggingBristleDecaysToTheSlidingForce) {
+    const FrictionLaw law = bristle_law(0.3, true);
+    BristleStep bristle(law);
+    const double h = 0.8, z0 = 0.1, normal = 2, r = law.stiffness / law.damping;
+    bristle.begin(FrictionState::slide_plus, z0, h);
+    Lanes friction, rate;
+    ASSERT_TRUE(bristle.settle(Lanes{} + normal, Lanes{}, friction, rate));
+    const double limit = law.kinetic * normal / law.stiffness;
+    EXPECT_NEAR(z0 + h * sum(Collocation::get().b * rate), limit + (z0 - limit) * std::exp(-r * h), 1e-14);
+    for (int k = 0; k < kNodes; ++k) {
+        EXPECT_EQ(friction[k], -law.kinetic * normal);
+        const double decay = std::exp(-r * h * Collocation::get().c[k]);
+        EXPECT_NEAR(bristle.deflection()[k], limit + (z0 - limit) * decay, 1e-8);
+    }
+}
+
+// ---- motions -------------------------------------------------------------------------------------
+
+// The changes of the friction's state. Those closer than `kOneInstant` count as one.
+class FrictionChanges final : public MotionObserver {
+  public:
+    struct Change {
+        double t;
+        FrictionState state;
+    };
+    double end() const override { return 0; }
+    void resume(double t, const std::vector<double>&, const Phase& phase) override {
+        if (!phase.touching) return;
+        while (!all.empty() && t - all.back().t < kOneInstant) all.pop_back();
+        if (all.empty() || all.back().state != phase.friction) all.push_back({t, phase.friction});
+    }
+    void segment(const SegmentInterval&) override {}
+    void touch(double, const std::vector<double>&, const ContactState&) override {}
+    void release(double, const std::vector<double>&, const ContactState&) override {}
+    bool done() const override { return false; }
+    std::vector<Change> all;
+
+  private:
+    static constexpr double kOneInstant = 1e-9;
+};
+
+struct Motion {
+    Result result;
+    std::vector<FrictionChanges::Change> changes;
+};
+
+Motion motion(const Problem& p, const std::vector<double>& times) {
+    FrictionChanges changes;
+    Request request;
+    request.tables.push_back({times,
+                              {channel("theta"), channel("theta_dot"), channel("tip_deflection"),
+                               channel("friction_force"), channel("energy_contact"), channel("loss_friction")}});
+    RunOptions options;
+    options.observer = &changes;
+    Run run(p, {&request, 1}, {}, options);
+    Motion out{run.integrate().front(), {}};
+    out.changes = changes.all;
+    return out;
+}
+
+struct Case {
+    const char* name;
+    StickSlipFriction friction;
+    double offset = 0.0184;
+    int steps = 1500;
+    void (*change)(Problem&) = [](Problem&) {};
+};
+
+void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
+
+class StickSlipMotion : public ::testing::TestWithParam<Case> {};
+
+// A collision with a fixed cam: the contact sticks, slips and is dragged back.
+TEST_P(StickSlipMotion, IsThatOfTheRungeKuttaMethod) {
+    const Case& c = GetParam();
+    Problem p;
+    p.beam.modes = 4;
+    p.cam->speed = 0;
+    p.contact.offset = c.offset;
+    p.contact.friction = c.friction;
+    c.change(p);
+    ASSERT_TRUE(validate(p).empty());
+    const double end = 0.45;
+    std::vector<double> times;
+    for (double t = 0.25; t < end; t += 1.37e-4) times.push_back(t);
+    set_tolerance(p, 1e-8);
+    const Motion fast = motion(p, times);
+    p.solver.method = Method::rk8;
+    set_tolerance(p, 1e-12);
+    const Motion slow = motion(p, times);
+
+    ASSERT_EQ(fast.result.steps_by_method.size(), 1u) << "not all steps are of the collocation";
+    EXPECT_LT(fast.result.counters.steps, c.steps);
+    ASSERT_EQ(fast.result.impacts.size(), slow.result.impacts.size());
+    EXPECT_GE(slow.result.impacts.size(), 1u);
+    EXPECT_GE(slow.changes.size(), 4u);
+    ASSERT_EQ(fast.changes.size(), slow.changes.size());
+    for (std::size_t k = 0; k < slow.changes.size(); ++k) {
+        EXPECT_EQ(fast.changes[k].state, slow.changes[k].state) << k;
+        EXPECT_NEAR(fast.changes[k].t, slow.changes[k].t, 1e-8) << k;
+    }
+    for (std::size_t i = 0; i < fast.result.tables[0].values.size(); ++i) {
+        const std::vector<double>&a = fast.result.tables[0].values[i], &b = slow.result.tables[0].values[i];
+        double size = 0;
+        for (const double value : b) size = std::max(size, std::fabs(value));
+        for (std::size_t row = 0; row < times.size(); ++row)
+            ASSERT_NEAR(a[row], b[row], 1e-6 * size) << i << " at " << times[row];
+    }
+    EXPECT_LT(fast.result.energy_residual_max, 1e-8 * fast.result.energy_scale);
+}
+
+void second_order(Problem& p) { p.beam.model = ModelKind::second_order; }
+void exact(Problem& p) { p.beam.model = ModelKind::exact; }
+void clamped(Problem& p) { p.beam.basis = Basis::cantilever; }
+void hub(Problem& p) { p.hub = {0.1, 0.02, HarmonicTorque{0.2, 3, 0}}; }
+
+INSTANTIATE_TEST_SUITE_P(All, StickSlipMotion,
+                         ::testing::Values(Case{"Plain", {0.3, {}, {}, {}}}, Case{"NoOffset", {0.3, {}, {}, {}}, 0},
+                                           Case{"StaticLarger", {0.2, 0.3, {}, {}}}, Case{"Soft", {0.3, {}, 1e4, {}}},
+                                           Case{"Stiff", {0.3, {}, 1e8, {}}}, Case{"Dashpot", {0.3, 0.4, 1e5, 1e-3}},
+                                           Case{"Lags", {0.3, 0.4, 1e5, 5}},
+                                           Case{"SecondOrder", {0.3, {}, {}, {}}, 0.0184, 1500, second_order},
+                                           Case{"Exact", {0.3, {}, {}, {}}, 0.0184, 1500, exact},
+                                           Case{"Clamped", {0.3, {}, {}, {}}, 0.0184, 1500, clamped},
+                                           Case{"OnAHub", {0.3, 0.4, {}, {}}, 0.0184, 1500, hub}),
+                         [](const auto& given) { return given.param.name; });
+
+TEST(StickSlip, TakesStepsThatDoNotFollowTheHighestMode) {
+    const auto steps = [](int modes, const Friction& friction) {
+        Problem p;
+        p.beam.modes = modes;
+        p.contact.offset.reset();
+        p.contact.friction = friction;
+        return static_cast<double>(run(p, 0.5).counters.steps);
+    };
+    const StickSlipFriction bristle{0.2, {}, {}, {}};
+    EXPECT_LT(steps(30, bristle), 5 * steps(4, bristle));  // whose highest frequency is a sixtieth
+    EXPECT_LT(steps(30, bristle), 1.5 * steps(30, CoulombFriction{}));
+}
+
+}  // namespace
+}  // namespace beamcam::sim::testing
