@@ -34,9 +34,12 @@ ContactStep::ContactStep(NodalStep& step)
 }
 
 void ContactStep::begin_touch(const ContactState& c) {
-    BEAMCAM_ASSERT(!c.at_end && step_.system.phase().approach > 0);
-    approach = step_.system.phase().approach;
-    gap_offset_ = step_.system.phase().gap_offset;
+    const Phase& phase = step_.system.phase();
+    BEAMCAM_ASSERT(!c.at_end && (phase.held || phase.approach > 0));
+    held_ = phase.held;
+    held_end_ = c.force;
+    approach = phase.approach;
+    gap_offset_ = phase.gap_offset;
     expansion_.centre(c.x);
     start = {};
     start.dx = c.x - expansion_.at();
@@ -50,6 +53,7 @@ void ContactStep::evaluate(double t, const double* state, ContactKinematics<doub
 }
 
 void ContactStep::begin() {
+    held_start_ = held_end_;
     const ExponentialSegment& s = step_.segment;
     evaluate(s.t0, s.end.data(), start);
     expansion_.centre(expansion_.at() + start.dx);
@@ -87,7 +91,7 @@ double ContactStep::solve(const StepTable& table) {
     const int most = form_.by_arrays() ? kMostNewton : kMostNewtonCoupled;
     for (int sweep = 0; sweep < most && status == FixedPoint::Status::going; ++sweep) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
-        if (decays_ > (is_steady(load.force) ? kSteadyDecay : kFastDecay))
+        if (held_ || decays_ > (is_steady(load.force) ? kSteadyDecay : kFastDecay))
             iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
         status = iteration.add(step_.update_forcing(table, &load));
     }
@@ -126,7 +130,7 @@ void ContactStep::guess(const StepTable& table) {
     }
     const Lanes tau = table.h * Collocation::get().c;
     for (int k = 0; k < kNodes; ++k)
-        load.force[k] = law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+        load.force[k] = held_ ? held_start_ : law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
     load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
@@ -150,13 +154,13 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     const ContactKinematics<Lanes>& contact = load.contact;
     Lanes residual, by_depth, by_rate;
     for (int k = 0; k < kNodes; ++k) {
-        const ForceAndSlopes at = law_.linearized(-contact.gap[k], -contact.gap_rate[k], approach);
-        residual[k] = at.force - load.force[k];
+        const ForceAndSlopes at = normal_residual(k);
+        residual[k] = at.force;
         by_depth[k] = at.by_depth;
         by_rate[k] = at.by_rate;
     }
-    force_rounding_ = kDepthRounding * form_.length * largest(by_depth);
-    decays_ = largest(by_rate) * mobility_contact_;
+    force_rounding_ = held_ ? 0 : kDepthRounding * form_.length * largest(by_depth);
+    decays_ = held_ ? 0 : largest(by_rate) * mobility_contact_;
     Lanes ahead;
     if (friction_.bristle) {
         Lanes gap, rate;
@@ -167,7 +171,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     NodalMatrix matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
         matrix[l] = by_depth * compliance_.value[l] + by_rate * compliance_.rate[l];
-        matrix[l][static_cast<int>(l)] += 1;
+        if (!held_) matrix[l][static_cast<int>(l)] += 1;
     }
     if (!solve_dense(matrix, {&residual, 1})) return false;
     load.force += residual;
@@ -176,6 +180,19 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     else if (load.rough)
         for (int k = 0; k < kNodes; ++k) load.friction[k] = friction_.coulomb(load.force[k], contact.slip[k]);
     return true;
+}
+
+// What the force at a node lacks to that of its law, and the slopes of the law; in sustained contact, what the gap rate
+// lacks to that of the constraint: ġ + κg stays as at the start, where it is the error of the expansion.
+ForceAndSlopes ContactStep::normal_residual(int k) const {
+    const double depth = -load.contact.gap[k], rate = -load.contact.gap_rate[k];
+    if (held_) {
+        const double decay = step_.system.baumgarte_rate();
+        return {rate + start.gap_rate + decay * (depth + start.gap), decay, 1};
+    }
+    ForceAndSlopes at = law_.linearized(depth, rate, approach);
+    at.force -= load.force[k];
+    return at;
 }
 
 // The contact at the nodes and its rows, of the modes.
@@ -240,6 +257,7 @@ bool ContactStep::linearize(const StepTable& table) {
     mobility_contact_ = largest(turned);
     mobility_modes_ = std::sqrt(mobility2);
     kick = std::sqrt(kick2);
+    yields_ = kick2 * form_.mass + (form_.prescribed ? 0 : start.hub * start.hub / form_.J);
     const double arm = friction_.bristle ? std::hypot(start.hub, start.hub_t) : std::fabs(start.hub);
     mobility_hub_ = form_.prescribed ? 0 : arm * h / form_.J;
     if (!friction_.bristle) return true;
@@ -256,8 +274,14 @@ double ContactStep::error(double h) {
         force =
             std::max(quadrature_error(friction_.stiffness * h * step_.segment.bristle_rate, force_rounding_), force);
     if (!std::isfinite(force)) return force;  // a maximum of several would hide it
-    return kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
-                                     force * mobility_hub_ / step_.scale_theta_dot});
+    const double of_force = kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
+                                                      force * mobility_hub_ / step_.scale_theta_dot});
+    if (!held_) return of_force;
+    // The impulse by which `hold_end` will put the end on the constraint.
+    const double off = end.gap_rate - start.gap_rate + step_.system.baumgarte_rate() * (end.gap - start.gap);
+    const double impulse = std::fabs(off) / yields_;
+    const double hub = form_.prescribed ? 0 : impulse * std::fabs(start.hub) / form_.J;
+    return std::max({of_force, impulse * kick / step_.scale_modes, hub / step_.scale_theta_dot});
 }
 
 bool ContactStep::deep() const {
@@ -265,6 +289,12 @@ bool ContactStep::deep() const {
     bool beyond = end.gap < deepest;
     for (int k = 0; k < kNodes; ++k) beyond = beyond || load.contact.gap[k] < deepest;
     return beyond;
+}
+
+void ContactStep::hold_end() {
+    if (!held_) return;
+    ExponentialSegment& s = step_.segment;
+    held_end_ = step_.system.hold(s.t1, s.end.data()).force;
 }
 
 void ContactStep::fill(TouchSamples& samples) const {
@@ -275,10 +305,10 @@ void ContactStep::fill(TouchSamples& samples) const {
         samples.force[k] = normal_force;
         samples.x[k] = expansion_.at() + dx;
     };
-    put(0, step_.segment.t0, start.gap, start.gap_rate, force(start).force, start.dx);
+    put(0, step_.segment.t0, start.gap, start.gap_rate, held_ ? held_start_ : force(start).force, start.dx);
     const ContactKinematics<Lanes>& c = load.contact;
     for (int k = 0; k < kNodes; ++k) put(k + 1, step_.time[k], c.gap[k], c.gap_rate[k], load.force[k], c.dx[k]);
-    put(kNodes + 1, step_.segment.t1, end.gap, end.gap_rate, force(end).force, end.dx);
+    put(kNodes + 1, step_.segment.t1, end.gap, end.gap_rate, held_ ? held_end_ : force(end).force, end.dx);
 }
 
 }  // namespace beamcam::sim

@@ -1,4 +1,5 @@
-// A step of the exponential collocation in contact: the nodal forces by Newton's method. MODEL.md §12.
+// A step of the exponential collocation in contact: the nodal forces by Newton's method, such that they obey the law of
+// the force, or in sustained impulsive contact its constraint (S45). MODEL.md §12.
 #pragma once
 
 #include "sim/integrate/bristle_step.hpp"
@@ -24,6 +25,8 @@ class ContactStep {
     ForceAndSlopes force(const ContactKinematics<double>& at) const {
         return law_.linearized(-at.gap, -at.gap_rate, approach);
     }
+    // After an accepted step of sustained contact: puts its end on the constraint.
+    void hold_end();
     void fill(TouchSamples& samples) const;
     const BristleStep& bristle() const { return bristle_; }  // of the step just solved
 
@@ -37,6 +40,7 @@ class ContactStep {
     void place_at_start();
     void guess(const StepTable& table);
     bool improve(const StepTable& table, int corrections);
+    ForceAndSlopes normal_residual(int k) const;
     void place_contact(int corrections);
     bool linearize(const StepTable& table);
     void move(double sign);
@@ -49,10 +53,13 @@ class ContactStep {
     ContactExpansion expansion_;
     BristleStep bristle_;
     std::vector<double> row_t_;  // of a bristle: ∂(t·r)/∂q of the modes at the start
+    bool held_ = false;                     // sustained impulsive contact
+    double held_start_ = 0, held_end_ = 0;  // its force at the start and the end of the step [N]
     double gap_offset_ = 0, centred_ = -1;
     double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]
     double mobility_modes_ = 0, mobility_hub_ = 0, mobility_contact_ = 0;
+    double yields_ = 0;  // of the gap rate per impulse [1/kg]
     Frame<Lanes> frame_;
     Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last
     NodalCompliance compliance_;                   // of the gap, with the friction of a bristle

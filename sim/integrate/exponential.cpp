@@ -106,7 +106,7 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (method_ && method_->contact_end && !(touching_ && t == t_)) method_->contact_end->reset_side();
         touching_ = phase.touching;
-        falling_back_ = !method_ || phase.held || (touching_ && !method_->contact);
+        falling_back_ = !method_ || (touching_ && !method_->contact);
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
             ++counters.handed_over;
@@ -248,7 +248,7 @@ class Exponential final : public Integrator {
             if (std::isfinite(error)) {
                 if (method_->contact->deep()) return false;
                 TouchSamples::Ending ending = TouchSamples::Ending::open;
-                error = method_->contact_end->cut(error, ending);
+                if (!system_.phase().held) error = method_->contact_end->cut(error, ending);
                 if (error <= 1) {
                     if (ending == TouchSamples::Ending::open && !last && !rejected && error < kLongerTouch)
                         touch_level_ = std::min(touch_level_ + (error < kMuchLongerTouch ? 2 : 1), kHighestLevel);
@@ -281,6 +281,7 @@ class Exponential final : public Integrator {
         first_step_ = s.h;
         if (s.h < crawl_) ++crawls_;
         method_->step.finish(&method_->contact->load);
+        method_->contact->hold_end();
         s.samples.ending = ending;
         s.samples.friction_over = method_->contact_end->friction_over();
         method_->contact->fill(s.samples);
