@@ -12,11 +12,6 @@ namespace {
 constexpr double kRing = 0.4;             // lifetime of a ring, freezes not counted [s]
 constexpr std::ptrdiff_t kMostRings = 6;  // at once
 
-struct ShownImpact {
-    int frame = 0;       // the first frame that shows it
-    bool brief = false;  // it is shorter than two frames
-};
-
 std::vector<double> frame_times(const FilmContext& context, int member) {
     std::vector<double> out;
     for (int k = 0; k < context.frames(); ++k) out.push_back(context.at(member, k));
@@ -30,13 +25,23 @@ std::vector<int> moved_frames(const std::vector<double>& times) {
     return out;
 }
 
-// None of an impact before the first frame or after the last one.
-std::optional<ShownImpact> shown_impact(const std::vector<double>& times, const sim::Impact& impact) {
-    const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
-    if (first == times.end() || (first == times.begin() && *first > impact.t_start)) return std::nullopt;
-    const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
-    const bool one_instant = first == after || *first == *(after - 1);
-    return ShownImpact{static_cast<int>(first - times.begin()), times.size() > 1 && one_instant};
+struct ShownImpact {
+    const sim::Impact& impact;
+    int frame = 0;       // the first frame that shows it
+    bool brief = false;  // it is shorter than two frames
+};
+
+// Without those before the first frame and after the last one.
+std::vector<ShownImpact> shown_impacts(const Motion& motion, const std::vector<double>& times) {
+    std::vector<ShownImpact> out;
+    for (const sim::Impact& impact : motion.impacts) {
+        const auto first = std::lower_bound(times.begin(), times.end(), impact.t_start);
+        if (first == times.end() || (first == times.begin() && *first > impact.t_start)) continue;
+        const auto after = std::upper_bound(first, times.end(), impact.t_end.value_or(times.back()));
+        const bool one_instant = first == after || *first == *(after - 1);
+        out.push_back({impact, static_cast<int>(first - times.begin()), times.size() > 1 && one_instant});
+    }
+    return out;
 }
 
 // The station of the line that is nearest to a place relative to the beam's length.
@@ -50,15 +55,12 @@ double largest_held_peak(const FilmContext& context, const PanelSlot& slot) {
     if (slot.spec.kind != PanelKind::mechanism || is_small(slot.box, context.unit)) return 0;
     if (!context.setup->view.show.labels) return 0;
     const int member = std::min(slot.spec.member, context.members() - 1);
-    const std::vector<double> times = frame_times(context, member);
     std::map<int, double> strongest;  // contact of each collision
     std::set<int> held;               // collisions
-    for (const sim::Impact& impact : context.motion(member).impacts) {
-        const auto shown = shown_impact(times, impact);
-        if (!shown) continue;
+    for (const auto& [impact, frame, brief] : shown_impacts(context.motion(member), frame_times(context, member))) {
         double& force = strongest[impact.collision];
         force = std::max(force, impact.force_peak.value_or(0));
-        if (shown->brief) held.insert(impact.collision);
+        if (brief) held.insert(impact.collision);
     }
     double out = 0;
     for (const int collision : held) out = std::max(out, strongest[collision]);
@@ -70,21 +72,19 @@ void ImpactRings::find(const MechanismView& at) {
     labelled_ = at.labelled();
     const std::vector<double> times = frame_times(at.context, at.member);
     moved_ = moved_frames(times);
-    for (const sim::Impact& impact : at.motion().impacts) {
-        const auto shown = shown_impact(times, impact);
-        if (!shown) continue;
-        const sim::Pose pose = at.context.pose(at.member, shown->frame);
+    for (const auto& [impact, frame, brief] : shown_impacts(at.motion(), times)) {
+        const sim::Pose pose = at.context.pose(at.member, frame);
         const DrawnBeam b = at.drawn(at.member, pose);
         if (!b.contact) continue;
         const Vec2 n = b.contact->normal;
         const double place = std::clamp(impact.x / at.problem().beam.length, 0.0, 1.0);
         const Vec2 left = b.left[station(b, place)];
-        rings_.push_back({shown->frame,
+        rings_.push_back({frame,
                           std::atan2(n.y, n.x) - pose.cam_angle,
                           place,
                           {cross(n, left), dot(n, left)},
                           impact.force_peak.value_or(0),
-                          shown->brief,
+                          brief,
                           impact.collision});
     }
 }

@@ -178,8 +178,12 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
     return out;
 }
 
-// One row for each column of a strip of a collision; fewer if there are many collisions.
-std::vector<double> rows_of_collisions(const sim::Result& motion, double from, double to) {
+// The charts of whole collisions want a row for each column and a short margin; a page wants the force of each impact.
+enum class Contacts { collisions, impacts };
+
+// Rows that resolve contacts; fewer of each if there are many.
+std::vector<double> rows_of(Contacts which, const sim::Result& motion, double from, double to) {
+    const bool whole = which == Contacts::collisions;
     struct Span {
         double low, high;
     };
@@ -187,30 +191,19 @@ std::vector<double> rows_of_collisions(const sim::Result& motion, double from, d
     std::optional<int> last;
     for (const sim::Impact& i : motion.impacts) {
         if (i.t_start > to) break;
-        if (last != i.collision) spans.push_back({i.t_start, i.t_start});
+        if (!whole || last != i.collision) spans.push_back({i.t_start, i.t_start});
         last = i.collision;
         spans.back().high = std::max(spans.back().high, std::min(i.t_end.value_or(to), to));
     }
     std::vector<double> out;
-    const double count = std::clamp(kFinePoints / std::max(1.0, double(spans.size())), 4.0, 600.0);
+    const double count = std::clamp(kFinePoints / std::max(1.0, double(spans.size())), 4.0, whole ? 600.0 : 1000.0);
     for (const Span& s : spans) {
-        if (s.high < from) continue;
-        const double length = std::clamp(s.high - s.low, 1e-4, kLongestCollision), before = 0.15 * length;
+        const double length = std::clamp(s.high - s.low, whole ? 1e-4 : 0.0, kLongestCollision),
+                     margin = whole ? 0.15 * length : 0;
+        if (s.high < from || length == 0) continue;
         for (const double t :
-             rows(std::max(from, s.low - before), std::min(to, s.low + length + before), count / (length + 2 * before)))
+             rows(std::max(from, s.low - margin), std::min(to, s.low + length + margin), count / (length + 2 * margin)))
             out.push_back(t);
-    }
-    return out;
-}
-
-// Rows that resolve the force of impacts; fewer if there are many impacts.
-std::vector<double> rows_of_impacts(const sim::Result& motion, double from, double to) {
-    std::vector<double> out;
-    const int count = std::clamp(int(kFinePoints / std::max(1.0, double(motion.impacts.size()))), 4, 1000);
-    for (const sim::Impact& i : motion.impacts) {
-        const double low = std::max(from, i.t_start),
-                     high = std::min({to, i.t_end.value_or(to), low + kLongestCollision});
-        for (int k = 0; low < high && k <= count; ++k) out.push_back(std::lerp(low, high, double(k) / count));
     }
     return out;
 }
@@ -270,14 +263,14 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
         merge(out.chart, fine);
         merge(out.trace, fine);
     }
-    if (collisions) merge(out.chart, rows_of_collisions(motion, span.from, to));
+    if (collisions) merge(out.chart, rows_of(Contacts::collisions, motion, span.from, to));
     out.survey = surveyed(span.from, to);
     return out;
 }
 
 FilmTimes page_times(const FrameSpan& span, double end_time, const sim::Result& motion) {
     FilmTimes out = film_times(span, end_time, motion);
-    merge(out.frames, rows_of_impacts(motion, span.from, span.to.value_or(end_time)));
+    merge(out.frames, rows_of(Contacts::impacts, motion, span.from, span.to.value_or(end_time)));
     return out;
 }
 
@@ -292,7 +285,7 @@ FilmTimes still_times(const Instant& at, const sim::Result& motion, double until
     // The collision that a still shows may be milliseconds long.
     merge(out.chart, rows(std::max(0.0, t - kLatest), t, kLatestRate));
     out.trace = out.chart;
-    if (collisions) merge(out.chart, rows_of_collisions(motion, 0, std::max(t, ahead)));
+    if (collisions) merge(out.chart, rows_of(Contacts::collisions, motion, 0, std::max(t, ahead)));
     out.survey = surveyed(0, std::max(t, until));
     return out;
 }

@@ -87,10 +87,9 @@ double ChannelEvaluator::value_of_coordinates(Channel channel, double t, const d
 }
 
 double ChannelEvaluator::value(Channel channel) {
+    if (is_of_coordinates(channel)) return value_of_coordinates(channel, t_, y_.data());
     if (needs_cam(channel.kind)) return system_.has_cam() ? value_with_cam(channel.kind) : kNan;
     switch (channel.kind) {
-        case ChannelKind::t:
-            return t_;
         case ChannelKind::theta:
             return model().hub_angle();
         case ChannelKind::theta_dot:
@@ -98,8 +97,6 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::tip_deflection:
         case ChannelKind::tip_rate:
             return tip(channel.kind);
-        case ChannelKind::q:
-            return channel.index < system_.coordinates() ? y_[static_cast<std::size_t>(channel.index)] : kNan;
         case ChannelKind::energy_kinetic:
             return energies().kinetic;
         case ChannelKind::energy_potential:

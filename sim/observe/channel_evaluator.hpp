@@ -18,7 +18,7 @@ class ChannelEvaluator {
     void set_start_energy(double total) { start_total_ = total; }
     void set(double t, const double* y);
     double value(Channel channel);
-    // The same bits without `set`, for channels that depend on the time and the coordinates, the first components of y.
+    // Needs no `set`: of channels that depend on the time and the coordinates, the first components of y, alone.
     bool is_of_coordinates(Channel channel) const;
     double value_of_coordinates(Channel channel, double t, const double* y);
     Pose pose(int stations);
