@@ -92,7 +92,7 @@ Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<st
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
-        const double at = points.data.place(k)[0];
+        const double at = points.value(k);
         if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent), added(1, cloud, k);
         if (!has_section(kind_of(p))) continue;
         for (std::size_t i = column; i < p.samples.size(); i += width)
@@ -194,17 +194,7 @@ GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, cons
     });
     if (whole_.panels.size() < 3) places_.pop_back();  // no exponent is known
     for (std::size_t i = 0; i < places_.size(); ++i) places_[i].resize(whole_.panels[i].clouds.size());
-    const Measure measure = points.measure(0);  // the unit of `point_text`
-    factor_ = measure.factor;
-    const auto convert = [&](std::vector<double>& values) {
-        for (double& each : values) each *= factor_;
-    };
-    for (Panel& each : whole_.panels) {
-        each.x.label = axis_label(symbol_of(points.axis(0).name), measure.unit);
-        *each.x.from *= factor_, *each.x.to *= factor_;
-        for (figure::Cloud& cloud : each.clouds) convert(cloud.x);
-        for (figure::Cells& cells : each.cells) convert(cells.x);
-    }
+    factor_ = points.factor(0);
     Panel& samples = whole_.panels.front();
     if (samples.legend == Legend::box) samples.legend = Legend::above;  // in the plot it would move as the plot fills
     const std::vector<std::optional<std::size_t>> cells = strip_cells(points);

@@ -38,7 +38,7 @@ std::optional<int> decimals_of(std::vector<double> values) {
 ValueDigits value_digits(const Swept& swept, std::vector<double> shown, Lang lang) {
     constexpr int kMost = 6;
     const SweptPoints points(swept, lang);
-    const double factor = points.measure(0).factor;
+    const double factor = points.factor(0);
     for (double& each : shown) each *= factor;
     ValueDigits out;
     if (points.scale(0) == render::Scale::linear) out.decimals = decimals_of(shown);
@@ -56,13 +56,12 @@ std::string point_text(const Swept& swept, std::uint64_t point, const ValueDigit
     const SweptPoints points(swept, lang);
     const output::StoredPoint p = points.data.read(point);
     const output::SweepAxis& axis = points.axis(0);
-    const Measure measure = points.measure(0);
-    const double value = points.data.place(point)[0] * measure.factor;
+    const double value = points.value(point);
     const std::string written =
         digits.decimals ? render::fixed(value, *digits.decimals) : render::to_plain(number(value, digits.significant));
     const std::string symbol = symbol_of(axis.name);  // markup of a bare name is no formula
     std::string text = fmt::format("{} = {}{}", symbol.starts_with('$') ? symbol : axis.name, written,
-                                   axis.unit == "1" ? "" : (measure.unit == "°" ? "" : "\u00A0") + measure.unit);
+                                   axis.unit == "1" ? "" : (axis.unit == "°" ? "" : "\u00A0") + axis.unit);
     text += phrase(lang, ": ", "：");
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
     if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);

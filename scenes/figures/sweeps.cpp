@@ -29,7 +29,7 @@ std::string span_text(const sim::CamSpan& span, Lang lang) {
 
 std::string axes_text(const SweptPoints& points) {
     std::string text;
-    for (const output::SweepAxis& axis : points.data.axes)
+    for (const output::SweepAxis& axis : points.axes())
         text +=
             phrase(points.lang, "{} = {:.6g} … {:.6g}{} in {} values; ", "{} = {:.6g} … {:.6g}{}，共 {} 值；",
                    symbol_of(axis.name), *std::ranges::min_element(axis.values), *std::ranges::max_element(axis.values),
@@ -144,8 +144,7 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
                         .name = y};
     if (has_many_values(points)) {
         const auto [least, most] = std::ranges::minmax(points.axis(0).values);
-        panel.color_bar = figure::ColorBar{
-            .label = axis_label(symbol_of(points.axis(0).name), points.axis(0).unit), .from = least, .to = most};
+        panel.color_bar = figure::ColorBar{.label = label_of(points.axis(0)), .from = least, .to = most};
     }
     return {.panels = {std::move(panel)}, .aspect = 0.9};
 }

@@ -41,13 +41,17 @@ constexpr std::string_view kApproach = "v_n_before";
 }  // namespace
 
 SweptPoints::SweptPoints(const Swept& swept, Lang how)
-    : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {}
-
-Measure SweptPoints::measure(std::size_t i) const {
-    const output::SweepAxis& axis = this->axis(i);
-    if (const double factor = scene.units.factor(axis.unit); factor != 1) return {factor, scene.units.unit(axis.unit)};
-    return scale(i) == render::Scale::linear ? measure_of(axis.unit, largest_magnitude(axis.values))
-                                             : Measure{1, axis.unit};
+    : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {
+    for (std::size_t i = 0; i < data.axes.size(); ++i) {
+        output::SweepAxis axis = data.axes[i];
+        Measure measure{scene.units.factor(axis.unit), scene.units.unit(axis.unit)};
+        if (measure.factor == 1 && scale(i) == render::Scale::linear)
+            measure = measure_of(axis.unit, largest_magnitude(axis.values));
+        axis.unit = measure.unit;
+        for (double& each : axis.values) each *= measure.factor;
+        axes_.push_back(std::move(axis));
+        factors_.push_back(measure.factor);
+    }
 }
 
 render::Scale SweptPoints::scale(std::size_t i) const {

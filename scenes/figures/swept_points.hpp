@@ -18,12 +18,14 @@ namespace beamcam::scenes {
 class SweptPoints {
   public:
     SweptPoints(const Swept& swept, Lang how);
-    const output::SweepAxis& axis(std::size_t i) const { return data.axes.at(i); }
+    // The axes as diagrams draw them: in the scene's unit of angles and speeds, else with a prefix if it is linear.
+    const std::vector<output::SweepAxis>& axes() const { return axes_; }
+    const output::SweepAxis& axis(std::size_t i) const { return axes_.at(i); }
+    double factor(std::size_t i) const { return factors_.at(i); }  // from the key's SI unit to that of the axis
+    double value(std::uint64_t point) const { return factor(0) * data.place(point)[0]; }  // on the first axis
     std::uint64_t seeds() const { return starts_.size(); }
     SeedKind seed(std::uint64_t point) const { return starts_[point % starts_.size()]; }
     render::Scale scale(std::size_t i) const;
-    // Of the values of an axis in films: the scene's unit of angles and speeds, else with a prefix if it is linear.
-    Measure measure(std::size_t i) const;
     // Of the samples; throws PictureError.
     std::size_t column(const std::string& name) const;
     bool of_impacts() const { return scene.sweep->sampling.kind == sim::SampleKind::impacts; }
@@ -34,6 +36,8 @@ class SweptPoints {
 
   private:
     std::vector<SeedKind> starts_;
+    std::vector<output::SweepAxis> axes_;
+    std::vector<double> factors_;
 };
 
 inline sim::AttractorClass kind_of(const output::StoredPoint& p) { return static_cast<sim::AttractorClass>(p.kind); }

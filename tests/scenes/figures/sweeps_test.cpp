@@ -161,7 +161,23 @@ TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
     EXPECT_THAT(text(decades + "4001", 3333), StartsWith("$ω$ = 21.53\u00A0rad/s"));
 }
 
-// Films have the units in which the scene gives angles and speeds.
+// Diagrams have the units in which the scene gives angles and speeds, and so have their captions.
+TEST(Diagram, HasTheUnitsOfTheScene) {
+    const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": ["300 rpm", "400 rpm"]}]})");
+    const auto one = diagram("bifurcation", speeds, data(speeds, {AttractorClass::periodic}), "");
+    EXPECT_EQ(one.panels[0].x.label, "$ω$ / rpm");
+    EXPECT_NEAR(one.panels[0].clouds[0].x.back(), 400, 1e-9);
+    EXPECT_THAT(one.caption, HasSubstr("300 … 400 rpm"));
+    const SweepGrid both = grid(R"({"over": [{"key": "cam.speed", "values": ["300 rpm", "400 rpm"]},
+                                             {"key": "cam.eccentricity", "values": ["1 mm", "2 mm"]}]})");
+    const auto two = diagram("map", both, data(both, {AttractorClass::periodic}), "");
+    EXPECT_EQ(two.panels[0].y.label, "$e$ / mm");
+    EXPECT_NEAR(two.panels[0].cells[0].y.back(), 2.5, 1e-9);
+    const auto plane = diagram("impact-map", speeds, data(speeds, {AttractorClass::periodic}), "");
+    EXPECT_THAT(plane.panels[0].clouds[1].label, HasSubstr("400 rpm"));
+}
+
+// In films too, and so have the texts of points.
 TEST(GrowingDiagram, HasTheUnitsOfTheScene) {
     const auto named = [](const std::string& over, const std::string& label, const std::string& value) {
         const SweepGrid keys = grid(R"({"over": [{)" + over + "}]}");
