@@ -45,37 +45,6 @@ void ContactStep::begin_touch(const ContactState& c) {
     start.dx = c.x - expansion_.at();
 }
 
-void ContactStep::evaluate(double t, const double* state, ContactKinematics<double>& touch) {
-    const CamPose pose = step_.system.cam(t);
-    const Frame<double> frame{std::sin(state[0]), std::cos(state[0]), state[1 + step_.n], pose.disc.x,
-                              pose.disc.y,        pose.velocity.x,    pose.velocity.y};
-    expansion_.evaluate(state + 1, state + 2 + step_.n, frame, gap_offset_, hq_end_.data(), touch, kFootCorrections);
-}
-
-void ContactStep::begin() {
-    held_start_ = held_end_;
-    const ExponentialSegment& s = step_.segment;
-    evaluate(s.t0, s.end.data(), start);
-    expansion_.centre(expansion_.at() + start.dx);
-    if (expansion_.at() != centred_) {
-        centred_ = expansion_.at();
-        start.dx = 0;
-        evaluate(s.t0, s.end.data(), start);
-    }
-    place_at_start();
-    double along_n[kMaxSize] = {start.hub}, along_t[kMaxSize] = {start.hub_t};
-    for (std::size_t i = 0; i < step_.n; ++i)
-        expansion_.rows(start, hq_end_.data(), i, friction_.bristle, along_n[1 + i], along_t[1 + i]);
-    const auto to_modes = [&](const double* coordinates, std::vector<double>& rows) {
-        if (form_.by_arrays())
-            std::copy_n(coordinates + 1, step_.n, rows.begin());
-        else
-            product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinates, rows.data());
-    };
-    to_modes(along_n, row);
-    if (friction_.bristle) to_modes(along_t, row_t_);
-}
-
 double ContactStep::solve(const StepTable& table) {
     ExponentialSegment& s = step_.segment;
     const double h = table.h;
@@ -113,11 +82,6 @@ double ContactStep::solve(const StepTable& table) {
     return error(h);
 }
 
-void ContactStep::place_at_start() {
-    load.contact = {};
-    load.contact.dx = Lanes{} + start.dx;
-}
-
 // The force by extrapolation of the penetration and its rate at the start.
 void ContactStep::guess(const StepTable& table) {
     ExponentialSegment& s = step_.segment;
@@ -130,7 +94,8 @@ void ContactStep::guess(const StepTable& table) {
     }
     const Lanes tau = table.h * Collocation::get().c;
     for (int k = 0; k < kNodes; ++k)
-        load.force[k] = held_ ? held_start_ : law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+        load.force[k] =
+            held_ ? held_start_ : law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
     load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
@@ -193,48 +158,6 @@ ForceAndSlopes ContactStep::normal_residual(int k) const {
     ForceAndSlopes at = law_.linearized(depth, rate, approach);
     at.force -= load.force[k];
     return at;
-}
-
-// The contact at the nodes and its rows, of the modes.
-void ContactStep::place_contact(int corrections) {
-    frame_.sin = step_.sin;
-    frame_.cos = step_.cos;
-    frame_.theta_dot = step_.frame_rate();
-    ContactKinematics<Lanes>& contact = load.contact;
-    expansion_.evaluate(step_.deflection(), step_.deflection_rate(), frame_, gap_offset_, hq_.data(), contact,
-                        corrections);
-    expansion_.normal_rows(contact, hq_.data(), load.jn.data());
-    if (load.rough)
-        for (std::size_t i = 0; i < step_.n; ++i) expansion_.rows(contact, hq_.data(), i, true, load.jn[i], load.jt[i]);
-    if (form_.by_arrays()) return;
-    const auto to_modes = [&](const Lanes& hub, std::vector<Lanes>& rows) {
-        coordinate_rows_[0] = hub;
-        std::ranges::copy(rows, coordinate_rows_.begin() + 1);
-        product(step_.n, step_.n + 1, form_.mode_rows.data(), coordinate_rows_.data(), rows.data());
-    };
-    to_modes(contact.hub, load.jn);
-    if (load.rough) to_modes(contact.hub_t, load.jt);
-}
-
-// Subtracts the contribution of the present state from the gap and its rates (sign −1), or adds it (+1): around the
-// last change of the state, this moves the contact with it. The ledger takes the work of the force at these rates.
-void ContactStep::move(double sign) {
-    const ExponentialSegment& s = step_.segment;
-    Lanes gap{}, rate{}, slip{};
-    if (sign > 0) {
-        const Lanes turn = step_.theta - contact_theta_, faster = s.theta_dot - contact_theta_dot_;
-        gap = load.contact.hub * turn;
-        rate = load.contact.hub * faster;
-        slip = load.contact.hub_t * faster;
-    }
-    for (std::size_t i = 0; i < step_.n; ++i) {
-        gap += sign * load.jn[i] * s.q[i];
-        rate += sign * load.jn[i] * s.v[i];
-        if (load.rough) slip += sign * load.jt[i] * s.v[i];
-    }
-    load.contact.gap += gap;
-    load.contact.gap_rate += rate;
-    load.contact.slip += slip;
 }
 
 // How the gap responds to nodal normal forces, with the rows at the start, for Newton's method. False: it is singular.

@@ -52,7 +52,7 @@ class ContactStep {
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
     BristleStep bristle_;
-    std::vector<double> row_t_;  // of a bristle: ∂(t·r)/∂q of the modes at the start
+    std::vector<double> row_t_;             // of a bristle: ∂(t·r)/∂q of the modes at the start
     bool held_ = false;                     // sustained impulsive contact
     double held_start_ = 0, held_end_ = 0;  // its force at the start and the end of the step [N]
     double gap_offset_ = 0, centred_ = -1;
