@@ -46,7 +46,7 @@ const Energies& ChannelEvaluator::energies() {
 void ChannelEvaluator::set_contact(const ContactState& contact) {
     contact_ = contact;
     contact_known_ = true;
-    forces_known_ = !system_.phase().touching || system_.friction().kinetic == 0;
+    forces_known_ = !system_.phase().touching || system_.friction().none();
 }
 
 void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) {

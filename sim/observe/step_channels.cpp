@@ -83,7 +83,8 @@ void StepChannels::set_phase(const Phase& phase) {
 
 void StepChannels::begin(const SegmentInterval& s) {
     const Phase& phase = evaluator_.system().phase();
-    probing_ = !phase.touching || !(phase.held || evaluator_.system().has_bristle());
+    probing_ = !(phase.touching && phase.held);
+    bristled_ = phase.touching && evaluator_.system().has_bristle();
     if (bounded_from_ != s.from || bounded_to_ != s.to) bound(s);
     bounded_from_ = s.from;
     bounded_to_ = s.to;
@@ -151,14 +152,15 @@ bool StepChannels::is_linear(ChannelKind kind) {
     return is_of_hub(kind) && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
-// Geometry and forces, without a bristle: the probe costs less than a search of the whole beam.
+// Geometry and forces, except in sustained contact: the probe costs less than a search of the whole beam.
 void StepChannels::probe_contact(double t) {
     ContactState c = probe_.evaluate(t, y_.data(), false);
     const System& system = evaluator_.system();
     const Phase& phase = system.phase();
     if (phase.touching) {
         c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
-        c.friction = system.friction().force(phase.friction, c.force, c.slip, 0);
+        const double z = bristled_ ? y_[2 * static_cast<std::size_t>(system.coordinates())] : 0;
+        c.friction = system.friction().force(phase.friction, c.force, c.slip, z);
     }
     evaluator_.set_contact(c);
 }

@@ -45,8 +45,9 @@ class StepChannels {
     bool rounding_only(ChannelKind kind) { return kind == ChannelKind::gap && system().phase().held; }
     // The channel depends on the state of a bristle, or on a contact that the law does not describe.
     bool unlike_law(ChannelKind kind) const {
-        return !probing_ && (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
-                             kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction);
+        return (!probing_ || bristled_) &&
+               (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
+                kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction);
     }
 
     double value(const SegmentInterval& s, Channel channel, double t);
@@ -87,6 +88,7 @@ class StepChannels {
     std::vector<double> y_;
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
+    bool bristled_ = false;                       // it has a bristle
     double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };
 
