@@ -13,14 +13,11 @@ namespace beamcam::scenes {
 namespace {
 
 constexpr double kTogether = 0.4, kDense = 0.1, kFilmShown = 2.5;  // [s] of the film
-constexpr int kMany = 5;                                           // dense impacts: chatter
 
 struct Group {
     std::size_t first = 0, last = 0;  // impacts, from 0
     double from = 0, until = 0;       // first and last impact [s of the film]
     double force = 0;                 // [N]; 0: unknown
-    int seen = 1;                     // impacts in different frames
-    bool is_chatter() const { return seen >= kMany; }
 };
 
 // Impacts within kTogether of the first one, and denser ones for as long as they go on.
@@ -37,7 +34,6 @@ std::vector<Group> groups_of(const render::FilmSetup& film) {
         const bool together = !out.empty() && (at - out.back().from < kTogether || at - out.back().until <= kDense);
         if (!together) out.push_back({.first = i, .from = at, .until = at});
         Group& group = out.back();
-        if (at > group.until) ++group.seen;
         group.last = i, group.until = at;
         group.force = std::max(group.force, impact.force_peak.value_or(0));
     }
@@ -46,7 +42,6 @@ std::vector<Group> groups_of(const render::FilmSetup& film) {
 
 std::string name_of(const Group& g, Lang lang) {
     if (g.first == g.last) return phrase(lang, "Impact {}", "第 {} 次冲击", g.first + 1);
-    if (g.is_chatter()) return phrase(lang, "Chatter, impacts {}–{}", "连续冲击，第 {}–{} 次", g.first + 1, g.last + 1);
     return phrase(lang, "Impacts {}–{}", "第 {}–{} 次冲击", g.first + 1, g.last + 1);
 }
 

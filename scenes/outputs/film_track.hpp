@@ -18,7 +18,7 @@ struct FilmTrack {
     std::vector<Cue> subtitles;
     std::vector<output::Chapter> chapters;  // none without impacts
 };
-// Impacts within 0.4 s of film time share one subtitle, and those that follow within 0.1 s; five or more are chatter.
+// Impacts within 0.4 s of film time share one subtitle, and those that follow within 0.1 s.
 FilmTrack film_track(const render::FilmSetup& film, Lang lang);
 
 // The same texts one after the other, for a track of a film: texts at the same time are lines of one.

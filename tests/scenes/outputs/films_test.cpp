@@ -502,8 +502,9 @@ TEST(Films, TellOfImpactsInSubtitlesAndChapters) {
                 ::testing::StartsWith("1\n00:00:01,000 --> 00:00:03,000\n第 1–2 次冲击"));
 }
 
-// A subtitle tells of impacts in a short time, unless it says that it is chatter.
-TEST(FilmTrack, TellsBouncesApartAndNamesChatter) {
+// A subtitle tells of impacts in a short time, or of dense ones until they end; it does not call them chatter, which is
+// known only of bounces that end in sustained contact.
+TEST(FilmTrack, TellsBouncesApartUnlessTheyAreDense) {
     render::FilmSetup film;
     film.fps = 50;
     for (int k = 0; k < 500; ++k) film.poses.emplace_back().t = k / 50.0;
@@ -517,12 +518,12 @@ TEST(FilmTrack, TellsBouncesApartAndNamesChatter) {
         return out;
     };
     EXPECT_THAT(names(Lang::en), ::testing::ElementsAre("Start", "Impacts 1–2", "Impacts 3–4", "Impact 5", "Impact 6",
-                                                        "Chatter, impacts 7–87", "Impact 88"));
-    EXPECT_EQ(names(Lang::zh)[5], "连续冲击，第 7–87 次");
+                                                        "Impacts 7–87", "Impact 88"));
+    EXPECT_EQ(names(Lang::zh)[5], "第 7–87 次冲击");
     const std::vector<Cue> cues = film_track(film, Lang::en).subtitles;
     EXPECT_EQ(cues[4].from, 4);
     EXPECT_NEAR(cues[4].to, 7.2, 0.02);
-    EXPECT_EQ(cues[4].text, "Chatter, impacts 7–87 · t = 4.0000 … 7.2000 s");
+    EXPECT_EQ(cues[4].text, "Impacts 7–87 · t = 4.0000 … 7.2000 s");
 }
 
 // A track of a film has one text at a time, and the language of the picture.
