@@ -76,16 +76,33 @@ const Node* written_value(const Node& scene, const std::string& key) {
     return at;
 }
 
-// The units of the first of these keys that is a text with a unit.
+// The objects "set" of the motions that outputs compare.
+static std::vector<const Node*> compared_sets(const Node& scene) {
+    std::vector<const Node*> out;
+    const Member* outputs = scene.find("outputs");
+    for (std::size_t i = 0; outputs && i < outputs->value.items.size(); ++i) {
+        const Member* compare = outputs->value.items[i].find("compare");
+        for (std::size_t k = 0; compare && k < compare->value.items.size(); ++k)
+            if (const Member* set = compare->value.items[k].find("set")) out.push_back(&set->value);
+    }
+    return out;
+}
+
+// The units of the first of these keys that is a text with a unit, in the scene or else in its comparisons.
 void infer_units(ObjectReader& r, render::Units& units) {
+    if (!r.node()) return;
+    const std::vector<const Node*> sets = compared_sets(*r.node());
     const auto first_ends_in = [&](std::initializer_list<const char*> keys,
                                    std::initializer_list<std::string_view> names) {
+        const auto states_unit = [](const Node* at) { return at && at->kind == Node::Kind::string; };
+        const Node* stated = nullptr;
         for (const char* key : keys)
-            if (const Node* at = r.node() ? written_value(*r.node(), key) : nullptr;
-                at && at->kind == Node::Kind::string)
-                return std::ranges::any_of(names,
-                                           [&](auto name) { return std::string_view(at->text).ends_with(name); });
-        return false;
+            if (const Node* at = written_value(*r.node(), key); !stated && states_unit(at)) stated = at;
+        for (const Node* set : sets)
+            for (const char* key : keys)
+                if (const Member* at = set->find(key); !stated && at && states_unit(&at->value)) stated = &at->value;
+        return stated &&
+               std::ranges::any_of(names, [&](auto name) { return std::string_view(stated->text).ends_with(name); });
     };
     units.degrees = first_ends_in({"initial.angle", "cam.phase"}, {"deg", "°"});
     units.rpm = first_ends_in({"cam.speed", "hub.drive.speed", "initial.angular_velocity"}, {"rpm"});

@@ -171,6 +171,11 @@ TEST(Reader, PicturesHaveTheUnitsOfTheScene) {
     EXPECT_EQ(units(speed + R"("from": "300 rpm", "to": "400 rpm", "count": 3}]}})"), (render::Units{.rpm = true}));
     EXPECT_EQ(units(speed + R"("values": ["300 rpm"]}]}})"), (render::Units{.rpm = true}));
     EXPECT_EQ(units(speed + R"("values": [30]}]}})"), render::Units{});
+    // A scene without units takes those of the motions that it compares.
+    const std::string compared =
+        R"("outputs": [{"type": "video", "file": "a.mp4", "compare": [{}, {"set": {"cam.speed": "60 rpm"}}]}]})";
+    EXPECT_EQ(units("{" + compared), (render::Units{.rpm = true}));
+    EXPECT_EQ(units(R"({"cam": {"speed": "2 rad/s"}, )" + compared), render::Units{});
     const std::string written = to_json(*read(R"({"initial": {"angle": "60 deg"}})").scene);
     EXPECT_EQ(units(written), (render::Units{true, false}));
 }
