@@ -48,7 +48,8 @@ struct Dot {
     double x = 0, y = 0;
     Color color = {}, faint = {};  // faint: in the future
 };
-// A tick below the x axis at an instant of the past, in one of the lanes below each other.
+// A tick below the x axis at an instant of the past, in one of the lanes below each other, which are one if they are
+// many.
 struct EventTick {
     double x = 0;
     Color color = {};

@@ -11,6 +11,8 @@ namespace beamcam::render::figure {
 namespace {
 constexpr double kPastLine = 2.2, kFutureLine = 2;  // of films: widths, and radii of dots [design px]
 constexpr double kPastDot = 2.6, kFutureDot = 2.2;
+constexpr double kTickInLane = 0.8;  // height of a tick in one of several lanes
+constexpr double kLowestTick = 4;    // [design px]
 }  // namespace
 
 Color color_of(const Series& s) { return s.color.value_or(look(s.look).color); }
@@ -108,11 +110,13 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
     if (!part.past) return;
     for (const EventTick& event : panel_->events) {
         if (!within(event.x)) continue;
-        // Between axis and numbers, clear of the curves. The lanes share the room.
+        // Between axis and numbers, clear of the curves. Lanes that would be too low share one.
         const double x = along_x(event.x) + shift_.x, room = numbers_below() - on.cap_height(style_->numbers) - 3.5 * u;
-        const double tall = std::min(10 * u, room / event.lanes),
-                     top = box_.bottom() + shift_.y + 1.5 * u + tall * event.lane;
-        on.line({x, top}, {x, top + (event.lanes == 1 ? tall : 0.8 * tall)}, {event.color, 1.8 * u, {}, Cap::butt});
+        const bool apart = kTickInLane * room / event.lanes >= kLowestTick * u;
+        const double lane = std::min(10 * u, apart ? room / event.lanes : room),
+                     top = box_.bottom() + shift_.y + 1.5 * u + (apart ? lane * event.lane : 0);
+        on.line({x, top}, {x, top + (event.lanes == 1 || !apart ? lane : kTickInLane * lane)},
+                {event.color, 1.8 * u, {}, Cap::butt});
     }
 }
 

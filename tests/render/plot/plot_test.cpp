@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "render/draw/canvas.hpp"
+#include "render/plot/chart.hpp"
 
 namespace beamcam::render::figure {
 namespace {
@@ -80,12 +81,38 @@ TEST(Plot, TicksOfEventsAreBetweenTheAxisAndItsNumbers) {
                 plot.draw_data(canvas, {});
                 numbers = kBox.bottom() + plot.numbers_below() - canvas.cap_height(film.numbers);
             }
+            int tall = 0;  // rows with a tick
             for (int y = 0; y < image.height; ++y) {
                 const auto row = image.pixels.begin() + std::ptrdiff_t(y) * image.width;
                 const bool empty = std::all_of(row, row + image.width, [](std::uint32_t pixel) { return pixel == 0; });
+                tall += !empty;
                 EXPECT_TRUE(empty || (y >= kBox.bottom() && y + 1 <= numbers)) << y << ", " << lanes << " lanes";
             }
+            EXPECT_GE(tall, 6 * unit) << lanes << " lanes";
         }
+}
+
+// Of several motions, those without a force have no reading.
+TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideOthers) {
+    ChartContent content;
+    content.set_time({0, 1}, 1, "t");
+    content.set_values({0, 100}, "F", "N");
+    content.reading_unit = "N";
+    content.panel.series.resize(2);
+    const Fonts fonts;
+    const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 0.5, 9), fonts);
+    const auto readings = [&](std::vector<double> values) {
+        Image image(300, 160);
+        Canvas canvas(image, fonts);
+        std::vector<Box> texts;
+        canvas.record = &texts;
+        chart.draw_moving(canvas, 0.5, values);
+        return texts.size();
+    };
+    EXPECT_EQ(readings({3, 5}), 2u);
+    EXPECT_EQ(readings({0, 5}), 1u);
+    EXPECT_EQ(readings({0, 0}), 0u);
+    EXPECT_EQ(readings({0}), 1u);  // of one motion it keeps its place
 }
 
 // A window moves the curves and its numbers, and no number is before the first instant of the film.
