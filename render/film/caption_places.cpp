@@ -22,9 +22,8 @@ CaptionPlaces::CaptionPlaces(const MechanismScene& scene) : s(scene), u(scene.at
     style_ = {.size = 22 * u, .color = s.at.palette.ink, .weight = Weight::medium, .max_width = 0.45 * box.w};
     const MechanismLabels& placed = *s.at.labels;
     for (const auto* label : {&placed.speed, &placed.angle})
-        if (*label) labels_.push_back(s.at.label_box(**label, s.view));
-    if (placed.force)
-        labels_.push_back(s.at.label_box(force_place(s), s.view, s.arrow ? s.arrow->foot : placed.force->base));
+        if (*label) labels_.push_back(s.label_box(**label, (*label)->base));
+    if (placed.force) labels_.push_back(s.label_box(*placed.force, s.arrow ? s.arrow->foot : placed.force->base));
 }
 
 Caption CaptionPlaces::caption_of(const Callout& callout, Vec2 at) const {

@@ -26,7 +26,18 @@ bool meets_body(const Box& box, const SeenFrame& now);
 // Number of frames, by a sample, in which a label in this box is visible, of those with a pose that counts.
 double frames_visible(const Box& box, const MechanismCameras& cameras,
                       const std::function<bool(const sim::Pose&)>& counts);
+// The place of a label at a frame.
+struct WantedPlace {
+    Vec2 base;  // the point beside which it is drawn [px]
+    Box box;
+    std::vector<Box> owner = {};  // over which the edge of the view must not push it [px]
+};
+// Shifts the label of a moving camera in each frame: to the place that is wanted, none while its owner is out of view,
+// or else to the nearest free one. Where that is far, it is hidden.
+void shift_clear(LabelPlace& label, const MechanismCameras& cameras,
+                 const std::function<std::optional<WantedPlace>(const SeenFrame&)>& wanted);
+inline constexpr double kLabelFade = 0.2;  // duration of fading a label without a free place [s]
 // Hides the label in the frames `met`, and fades it before and after.
-void fade_about(LabelPlace& label, const std::vector<int>& met, const FilmContext& context);
+void fade_about(LabelPlace& label, const std::vector<int>& met, const FilmContext& context, double lasts = kLabelFade);
 
 }  // namespace beamcam::render

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <utility>
 
@@ -33,16 +34,6 @@ double label_size(const MechanismView& at) { return std::max(21 * at.unit, at.co
 
 double angle_letter(const MechanismView& at) { return std::max({at.marks, at.context.tick / 21, kReadable / 21}); }
 
-std::string speed_label(const MechanismView& at) {
-    return "$ω$\u2009=\u2009" +
-           turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->speed_decimals);
-}
-
-std::string force_label(const MechanismView& at, const ForceArrow& arrow) {
-    const std::string peak_of = arrow.is_peak ? at.context.translate("peak") + "\u00A0" : std::string();
-    return peak_of + "$F$\u2009=\u2009" + reading(arrow.force, "N");
-}
-
 // ---- places ------------------------------------------------------------------------------------
 
 namespace {
@@ -55,7 +46,8 @@ class LabelPlacer {
     }
 
     // Radius at which the letter fits beside the arc, limited by the panel. An arc that has no room between hub and cam
-    // is beyond the cam or, if the beam is too short for that, behind the disc.
+    // is beyond the cam or, if the beam is too short for that, behind the disc; so is that of the solid view, whose
+    // bearing takes that room.
     double arc_radius() const {
         const double letter = angle_letter(at), depth = at.look.depth * at.look.camera.scale;
         const double preferred = std::clamp(17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3),
@@ -63,9 +55,10 @@ class LabelPlacer {
         const std::optional<sim::Cam>& cam = at.problem().cam;
         if (!cam) return std::min(preferred, needs.arc_room);
         const double scale = at.look.camera.scale, before = arc_before_cam(*cam) * scale;
-        if (before >= least_arc()) return std::min({preferred, before, needs.arc_room});
+        if (before >= least_arc() && !view) return std::min({preferred, before, needs.arc_room});
+        const double aside = view ? 2 * kDiscDepth * at.wide + 40 * letter : 12 * u;  // of the disc and the letter
         const double beyond =
-            std::max(preferred, (norm(cam->centre) + cam->radius + cam->eccentricity) * scale + 12 * u);
+            std::max(preferred, (norm(cam->centre) + cam->radius + cam->eccentricity) * scale + aside);
         const double reach = 0.8 * (at.problem().hub.radius + at.problem().beam.length) * scale;
         return std::min(beyond <= reach ? beyond : preferred, needs.arc_room);
     }
@@ -75,7 +68,7 @@ class LabelPlacer {
         std::vector<Vec2> out;
         const double from = std::min(needs.angles.low, 0.0), to = std::max(needs.angles.high, 0.0);
         for (int i = 0; i <= 64 && radius >= least_arc(); ++i)
-            out.push_back(at.px({0, 0}) + down(from + (to - from) * i / 64) * radius);
+            out.push_back(on(at.px({0, 0}) + down(from + (to - from) * i / 64) * radius));
         return out;
     }
 
@@ -92,8 +85,8 @@ class LabelPlacer {
                    beyond = o + Vec2{radius, side() * 16 * letter};
         for (const Vec2 middle : {inside, beyond}) {
             if (middle == inside && radius <= at.hub() + 34 * letter) continue;
-            const LabelPlace out = place(room, about(middle, size), o, 3 * u);
-            const Vec2 way = at.px(out.base) + out.offset - o;
+            const LabelPlace out = place(room, about(on(middle), size), o, 3 * u);
+            const Vec2 way = at.px(out.base) + out.offset - (on(middle) - on(o)) + (middle - o) - o;
             const double turned = side() * std::atan2(-way.y, way.x);
             const double far = middle == inside ? std::abs(norm(way) - radius) : norm(way - Vec2{radius, 0});
             if (far <= kFarthestLetter * letter && turned >= -kLowestLetter && turned <= least_angle() &&
@@ -115,24 +108,28 @@ class LabelPlacer {
         for (std::size_t i = 0; i < ways.size() && (i < usual_ways || least > kShadows); ++i) {
             const double each = ways[i];
             double cost = room.covered(speed_box(each, width));
-            for_each_arrow_box(each, [&](const Box& box) { cost += room.covered(box); });
+            for (const Box& box : arrow_boxes(each)) cost += room.covered(box);
             if (cost < least) least = cost, way = each;
         }
         OccupancyGrid taken = room;
-        for_each_arrow_box(way, [&](const Box& box) { taken.cover(box.inset(-3 * u), 1); });
+        for (const Box& box : arrow_boxes(way)) taken.cover(box.inset(-3 * u), 1);
         const double edge = speed_radius(at) - speed_gap(at);
         LabelPlace out = place(taken, speed_box(way, width), axis() + down(way) * edge);
-        fade(out, taken);
+        fade(out, taken, [this, way](const SeenFrame& now, Vec2) { return arrow_boxes(way, now.at, now.by()); });
         return out;
     }
 
     Box box(const LabelPlace& label) const { return at.label_box(label, usual()); }
 
-    template <class Visit>
-    void for_each_arrow_box(double way, const Visit& visit) const {
-        if (at.problem().cam->speed == 0) return;
+    std::vector<Box> arrow_boxes(double way) const { return arrow_boxes(way, at, usual()); }
+    static std::vector<Box> arrow_boxes(double way, const MechanismView& at, const Perspective* by) {
+        std::vector<Box> out;
+        const sim::Cam& cam = *at.problem().cam;
         const double radius = speed_radius(at), half = speed_span(at) / 2;
-        for (int i = -2; i <= 2; ++i) visit(about(on(axis() + down(way + half * i / 2) * radius), Vec2{8, 8} * u));
+        for (int i = -2; i <= 2 && cam.speed != 0; ++i)
+            out.push_back(
+                about(at.seen(at.px(cam.centre) + down(way + half * i / 2) * radius, by), Vec2{8, 8} * at.unit));
+        return out;
     }
 
     // Beside the tip of the longest arrow, clear of the beam.
@@ -148,9 +145,9 @@ class LabelPlacer {
         const Vec2 size{width, label_size(at) * 4 / 3};
         LabelPlace out = place(room, beside_tip(at, usual(), most, size), at.px(most.foot));
         if (cameras.move())
-            pin(out);
+            keep_beside_tip(out);
         else
-            fade(out, room);
+            fade(out, room, {});
         return out;
     }
 
@@ -164,7 +161,7 @@ class LabelPlacer {
     LabelPlace beside_arc(Vec2 way, Vec2 size, double radius, const OccupancyGrid& room) const {
         const Vec2 on_arc = way * (radius / norm(way));
         LabelPlace out{at.look.camera.to_world(at.px({0, 0}) + on_arc), way - on_arc, size, {}, {}};
-        fade(out, room);
+        fade(out, room, [this](const SeenFrame&, Vec2 base) { return std::vector{about(base, Vec2{6, 6} * u)}; });
         return out;
     }
 
@@ -220,42 +217,46 @@ class LabelPlacer {
         return {on_base, found.centre() - on(at.px(on_base)), {preferred.w, preferred.h}, {}, {}};
     }
 
-    // The label is hidden in frames in which a moving part is in its place.
-    void fade(LabelPlace& label, const OccupancyGrid& room) const {
-        if (!cameras.move() && room.covered(box(label)) == 0) return;
+    // What the label belongs to, as seen; `base`: of the label.
+    using Owner = std::function<std::vector<Box>(const SeenFrame& now, Vec2 base)>;
+
+    // The label is hidden in frames in which a moving part is in its place, before a moving camera if there is no
+    // other.
+    void fade(LabelPlace& label, const OccupancyGrid& room, const Owner& owner) const {
+        if (cameras.move())
+            return shift_clear(label, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
+                const Vec2 base = now.at.seen(now.at.px(label.base), now.by());
+                if (!now.at.shows(base)) return std::nullopt;
+                return WantedPlace{base, about(base + label.offset, label.size), owner(now, base)};
+            });
+        if (room.covered(box(label)) == 0) return;
         std::vector<int> met;
-        for (int k = 0; k < at.context.frames(); ++k) {
-            const SeenFrame now(cameras, k);
-            if (meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);
-        }
+        for (int k = 0; k < at.context.frames(); ++k)
+            if (const SeenFrame now(cameras, k); meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);
         fade_about(label, met, at.context);
     }
 
-    // Before a moving camera the label keeps a place in the picture as long as a force is shown.
-    void pin(LabelPlace& label) const {
+    // Before a moving camera the label is beside the tip of the largest arrow of its contact, beyond the beam.
+    void keep_beside_tip(LabelPlace& label) const {
         const double most_apart = kSameEpisode * at.context.setup->fps;
-        label.pinned.resize(static_cast<std::size_t>(at.context.frames()));
-        std::vector<int> met;
+        std::vector<double> largest(needs.arrows.size());
         for (std::size_t first = 0, end; first < needs.arrows.size(); first = end) {
             end = first + 1;
             while (end < needs.arrows.size() && needs.frames[end] - needs.frames[end - 1] <= most_apart) ++end;
-            const Box place = pinned_place(label.size, first, end);
-            for (std::size_t i = first; i < end; ++i) {
-                label.pinned[static_cast<std::size_t>(needs.frames[i])] = place.centre();
-                if (meets_body(place, SeenFrame(cameras, needs.frames[i]))) met.push_back(needs.frames[i]);
-            }
+            const auto all = std::ranges::subrange(needs.arrows.begin() + std::ptrdiff_t(first),
+                                                   needs.arrows.begin() + std::ptrdiff_t(end));
+            const double most = std::ranges::max_element(all, {}, &ForceArrow::force)->force;
+            std::fill(largest.begin() + std::ptrdiff_t(first), largest.begin() + std::ptrdiff_t(end), most);
         }
-        fade_about(label, met, at.context);
-    }
-
-    // The place nearest to the first of these arrows that no body meets while they are shown.
-    Box pinned_place(Vec2 size, std::size_t first, std::size_t end) const {
-        OccupancyGrid room(at.label_area(), 4 * u);
-        for (std::size_t i = first; i < end; ++i)
-            room = with_bodies(std::move(room), SeenFrame(cameras, needs.frames[i]), &needs.arrows[i]);
-        const SeenFrame now(cameras, needs.frames[first]);
-        const Box beside = beside_tip(now.at, now.by(), needs.arrows[first], size);
-        return room.nearest_free(beside.inset(-4 * u)).inset(4 * u);
+        shift_clear(label, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
+            const auto found = std::ranges::lower_bound(needs.frames, now.frame);
+            if (found == needs.frames.end() || *found != now.frame) return std::nullopt;
+            const auto i = static_cast<std::size_t>(found - needs.frames.begin());
+            ForceArrow arrow = needs.arrows[i];
+            const Vec2 foot = now.at.seen(now.at.px(arrow.foot), now.by());
+            arrow.force = largest[i];
+            return WantedPlace{foot, beside_tip(now.at, now.by(), arrow, label.size)};
+        });
     }
 
     const MechanismView& at;
@@ -280,16 +281,15 @@ MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& ca
     const auto take = [&](const LabelPlace& label) {
         for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.box(label), kText);
     };
-    if (at.context.setup->view.style != Style::solid)
-        for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.arc(out.arc_radius), 1);
+    for (SweptRegion* each : {&swept, &in_contact}) each->room.cover(placer.arc(out.arc_radius), 1);
     if (at.problem().cam) {
         out.speed =
             placer.speed(swept.room, canvas.measure(speed_label(at), {.size = label_size(at)}).w, out.speed_way);
         take(*out.speed);
         for (SweptRegion* each : {&swept, &in_contact})
-            placer.for_each_arrow_box(out.speed_way, [&](const Box& box) { each->room.cover(box, 1); });
+            for (const Box& box : placer.arrow_boxes(out.speed_way)) each->room.cover(box, 1);
     }
-    if (at.context.setup->view.style != Style::solid) out.angle = placer.angle(swept.room, out.arc_radius);
+    out.angle = placer.angle(swept.room, out.arc_radius);
     if (out.angle) take(*out.angle);
     if (!needs.arrows.empty()) {
         out.force = placer.force(in_contact.room, canvas);

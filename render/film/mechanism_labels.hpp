@@ -29,9 +29,12 @@ struct LabelPlace {
     Vec2 base;                   // the point beside which it is placed [m]
     Vec2 offset, size;           // of its middle from the base as seen, whatever the zoom [px]
     std::vector<float> opacity;  // of each frame; empty: always 1
-    std::vector<Vec2> pinned;    // of each frame: its middle in the picture; empty: beside the base [px]
+    std::vector<Vec2> shifts;    // of each frame, from that offset, before a moving camera; empty: none [px]
 
     double opacity_at(int frame) const { return opacity.empty() ? 1 : opacity[static_cast<std::size_t>(frame)]; }
+    Vec2 offset_at(int frame) const {
+        return shifts.empty() ? offset : offset + shifts[static_cast<std::size_t>(frame)];
+    }
 };
 
 struct MechanismLabels {

@@ -11,23 +11,24 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFarLabel = 60, kFarLetter = 26;  // distance from which a label has a leader line [design px]
+constexpr double kFarLetter = 26;       // distance from which θ has a leader line [design px]
+constexpr double kLongestLeader = 200;  // before a moving camera [design px]
 
-// Draws the leader line of a label whose owner is far.
-void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base,
-                 double far = kFarLabel) {
-    const Box box = s.at.label_box(label, s.view, base);
+}  // namespace
+
+void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base, double far) {
+    const Box box = s.label_box(label, base);
     const Vec2 edge{std::clamp(owner.x, box.x, box.right()), std::clamp(owner.y, box.y, box.bottom())};
     const double way = norm(owner - edge), opacity = label.opacity_at(s.frame);
     if (opacity <= 0 || !s.at.shows(s.px(base)) || way <= far * s.at.unit) return;
+    if (s.at.moved && way > kLongestLeader * s.at.unit) return;
     const Vec2 gap = (owner - edge) * (6 * s.at.unit / way);
     s.canvas.line(edge + gap, owner - gap, {color.faded(0.6 * opacity), 1.2 * s.at.unit});
 }
 
-// A moving camera shows labels whose base is in view.
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base) {
     const double opacity = label.opacity_at(s.frame);
-    const Box box = s.at.label_box(label, s.view, base);
+    const Box box = s.label_box(label, base);
     if (opacity <= 0 || !s.at.shows(s.px(base))) return;
     style.color = style.color.faded(opacity);
     // In the solid view a halo over soft shadows would glow; a near camera needs it.
@@ -37,7 +38,10 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
     if (s.labels) s.labels->push_back(box);
 }
 
-}  // namespace
+std::string speed_label(const MechanismView& at) {
+    return "$ω$\u2009=\u2009" +
+           turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->speed_decimals);
+}
 
 double speed_radius(const MechanismView& at) {
     const sim::Cam& cam = *at.problem().cam;
@@ -47,15 +51,6 @@ double speed_radius(const MechanismView& at) {
 double speed_gap(const MechanismView& at) { return 20 * at.unit; }
 
 double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit / speed_radius(at)); }
-
-// In proportion to the force, peaks that are held included.
-double arrow_length(const MechanismView& at, const ForceArrow& arrow) {
-    return force_arrow_length(std::min(1.0, arrow.force / at.context.arrow_scale), at.small, at.marks);
-}
-
-TextStyle force_style(const MechanismView& at) {
-    return {.size = 22.0 / 21 * label_size(at), .color = at.palette.contact, .weight = Weight::medium};
-}
 
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
 
@@ -74,13 +69,39 @@ std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, doubl
     return out;
 }
 
+// End of the arc of θ: in the solid view, where it is drawn over the beam, at the edge of that [rad].
+static double visible_angle(const MechanismScene& s, double radius) {
+    const double angle = drawn_angle(s.pose);
+    if (!s.view) return angle;
+    const double edge = (angle > 0 ? -s.beam.low : s.beam.high) * s.at.look.camera.scale;
+    const double hidden = std::asin(std::clamp(edge / radius, 0.0, 1.0));
+    return angle > 0 ? std::max(0.0, angle - hidden) : std::min(0.0, angle + hidden);
+}
+
+// A line [px] crosses the arc of θ.
+static bool crosses_angle_arc(const MechanismScene& s, Vec2 from, Vec2 to) {
+    constexpr int kPieces = 24;
+    const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
+    const Vec2 o = s.at.px({0, 0});
+    const auto apart = [](Vec2 a, Vec2 b, Vec2 p, Vec2 q) { return cross(b - a, p - a) * cross(b - a, q - a) > 0; };
+    for (int i = 0; i < kPieces; ++i) {
+        const Vec2 a = s.on(o + down(angle * i / kPieces) * radius),
+                   b = s.on(o + down(angle * (i + 1) / kPieces) * radius);
+        if (!apart(a, b, from, to) && !apart(from, to, a, b)) return true;
+    }
+    return false;
+}
+
 void draw_angle_arc(const MechanismScene& s) {
     if (!s.at.labelled()) return;
     const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
     if (radius < s.at.hub() + 22 * s.at.marks) return;
     const Vec2 o = s.at.px({0, 0});
     if (std::abs(angle) >= kLeastArc) {
-        s.arc(o, radius, 0, angle);
+        if (s.view)  // which shows no horizontal
+            s.canvas.line(s.on(o + Vec2{radius - 12 * s.at.unit, 0}), s.on(o + Vec2{radius + 26 * s.at.unit, 0}),
+                          {s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
+        s.arc(o, radius, 0, visible_angle(s, radius));
         s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     }
     if (!s.at.labels->angle) return;
@@ -115,7 +136,9 @@ void draw_cam_speed(const MechanismScene& s) {
         s.canvas.arrow(tip - way, tip, {s.at.palette.muted, 2.6 * s.at.unit}, {head});
     }
     const LabelPlace& label = *s.at.labels->speed;
-    draw_leader(s, label, s.at.palette.muted, s.on(axis + down(middle) * radius), label.base);
+    const Vec2 arrow = s.on(axis + down(middle) * radius);
+    if (!crosses_angle_arc(s, arrow, s.label_box(label, label.base).centre()))
+        draw_leader(s, label, s.at.palette.muted, arrow, label.base);
     draw_label(s, label, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted}, label.base);
 }
 
@@ -160,12 +183,13 @@ void draw_disc_letters(const MechanismScene& s) {
     // A halo covers the outlines of other discs; it must not cover the pin.
     if (s.at.ghosts) style.halo = s.at.palette.steel;
     const auto put = [&](const char* name, Vec2 at) {
-        const Vec2 middle = s.on(at);
+        const Vec2 middle = s.at.seen(at, s.view, kDiscDepth);
         if (s.at.moved && !s.at.box.inset(12 * letter).contains({middle.x, middle.y, 0, 0}))
             return;  // cut off by the edge of the panel
         s.canvas.text(middle + Vec2{0, 7 * letter}, name, style);
     };
-    const double beyond = 4 * s.at.marks + (s.at.ghosts ? 21 : 16) * letter;
+    const double dot = s.view ? std::max(d.dot, 4 * s.at.marks) : 4 * s.at.marks;
+    const double beyond = dot + (s.at.ghosts ? 21 : 16) * letter;
     if (beyond + 13 * letter > norm(d.mark - d.centre) - d.mark_radius) {  // B would touch the mark
         put("$B$", d.centre - across * (13 * letter));
         put("$C$", d.axis + across * (d.bore + 12 * letter));
@@ -234,50 +258,6 @@ void draw_beam_trace(const MechanismScene& s, const Trace& trace) {
         s.canvas.move_to(at(static_cast<double>(i) - 1.2));
         s.canvas.line_to(at(static_cast<double>(i) + 2.2));
     });
-}
-
-std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
-                                         const std::optional<ForceArrow>& peak) {
-    if (peak || !shows_force(pose, beam)) return peak;
-    return ForceArrow{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
-}
-
-static bool names_force(const MechanismScene& s, Vec2 foot) {
-    return s.at.labelled() && s.at.shows(foot) && s.at.labels->force;
-}
-
-LabelPlace force_place(const MechanismScene& s) {
-    LabelPlace label = *s.at.labels->force;
-    if (s.arrow && !label.pinned.empty())
-        label.offset = label.pinned[static_cast<std::size_t>(s.frame)] - s.px(s.arrow->foot);
-    return label;
-}
-
-static Vec2 tip_of(const MechanismView& at, const Perspective* view, const ForceArrow& arrow) {
-    return at.seen(at.px(arrow.foot) + Vec2{arrow.normal.x, -arrow.normal.y} * arrow_length(at, arrow), view);
-}
-
-Vec2 visible_end(const MechanismView& at, const Perspective* view, const ForceArrow& arrow) {
-    const Vec2 tip = tip_of(at, view, arrow);
-    return at.shows(tip) ? tip : at.seen(at.px(arrow.foot), view);
-}
-
-void draw_force_leader(const MechanismScene& s) {
-    if (!s.arrow || !names_force(s, s.px(s.arrow->foot))) return;
-    draw_leader(s, force_place(s), s.at.palette.contact, visible_end(s.at, s.view, *s.arrow), s.arrow->foot);
-}
-
-void draw_force(const MechanismScene& s) {
-    if (!s.arrow) return;
-    const ForceArrow& arrow = *s.arrow;
-    const Vec2 foot = s.px(arrow.foot), tip = tip_of(s.at, s.view, arrow);
-    s.canvas.circle(foot, 5 * s.at.marks);
-    s.canvas.fill(s.at.palette.contact);
-    // A force too small for an arrow is shown by the dot and the number.
-    const double length = arrow_length(s.at, arrow);
-    if (length > 7 * s.at.marks)
-        s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (names_force(s, foot)) draw_label(s, force_place(s), force_label(s.at, arrow), force_style(s.at), arrow.foot);
 }
 
 }  // namespace beamcam::render

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "render/film/mechanism_view.hpp"
@@ -11,6 +12,13 @@
 namespace beamcam::render {
 
 inline constexpr double kReadable = 9;  // smallest size of letters in any picture [px]
+
+// Draws a label; a moving camera shows it if its base is in view.
+void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base);
+// Draws the leader line of a label whose owner is far [px].
+inline constexpr double kFarLabel = 60;  // [design px]
+void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base,
+                 double far = kFarLabel);
 
 inline constexpr double kLeastArc = 0.02;  // smaller angles have no arc [rad]
 // Hub angle as its arc shows it, without whole turns [rad].
@@ -30,9 +38,8 @@ TextStyle force_style(const MechanismView& at);
 // The force to draw: `peak` of a contact that just ended, or else the current force.
 std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam& beam,
                                          const std::optional<ForceArrow>& peak);
-LabelPlace force_place(const MechanismScene& s);  // of the label of the force at this frame
-// Where the leader of its label ends: the tip or, if a near camera does not show that, the foot [px].
-Vec2 visible_end(const MechanismView& at, const Perspective* view, const ForceArrow& arrow);
+// The arrow's tip as seen; before a moving camera it ends inside the view if its foot is there [px].
+Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArrow& arrow);
 void draw_force_leader(const MechanismScene& s);
 void draw_force(const MechanismScene& s);
 // A colour for each bin around the disc, alpha 0 if it was never touched.

@@ -159,11 +159,14 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (!s.view) {
         draw_angle_arc(s);
         draw_base_line(s);
+        draw_cam_speed(s);
     }
-    if (!s.view) draw_cam_speed(s);
     draw_tip_path(s);  // over the halos of letters, which would interrupt it
     bodies();
-    if (s.view) draw_cam_speed(s);  // in the plane of the front of the beam: the mount must not hide it
+    if (s.view) {  // in the plane of the front of the beam: the mount must not hide them
+        draw_angle_arc(s);
+        draw_cam_speed(s);
+    }
     if (!s.view && one) canvas.uncased([&] { draw_beam_trace(s, threads.trace); });
     if (at.ghosts) draw_ghost_outlines(s);
     if (at.member == 0) draw_measured_beams(s);
@@ -225,7 +228,9 @@ void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
 bool MechanismPanel::animates_while_paused(int frame) const {
     if (cameras_.move_at(frame)) return true;
     for (const auto* label : {&labels_.angle, &labels_.speed, &labels_.force})
-        if (*label && (*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1)) return true;
+        if (*label && ((*label)->opacity_at(frame) != (*label)->opacity_at(frame - 1) ||
+                       !((*label)->offset_at(frame) == (*label)->offset_at(frame - 1))))
+            return true;
     return false;
 }
 

@@ -45,10 +45,10 @@ MechanismView MechanismView::with_camera(const CameraFrame& frame_camera) const 
     return out;
 }
 
-Vec2 MechanismView::seen(Vec2 flat, const Perspective* view) const {
+Vec2 MechanismView::seen(Vec2 flat, const Perspective* view, double depth) const {
     if (!view) return flat;
     const Vec2 middle = box.centre();
-    return view->to_pixels({flat.x - middle.x, middle.y - flat.y, 0.5 * wide});
+    return view->to_pixels({flat.x - middle.x, middle.y - flat.y, depth * wide});
 }
 
 DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
@@ -63,15 +63,19 @@ Box MechanismView::label_area() const {
     return {all.x, all.y, all.w, all.h - bar};
 }
 
-Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base) const {
-    const Vec2 middle = seen(px(moved ? base.value_or(label.base) : label.base), view) + label.offset;
-    Box place{middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
-    if (moved) {
-        const Box within = label_area();
-        place.x = std::max(within.x, std::min(place.x, within.right() - place.w));
-        place.y = std::max(within.y, std::min(place.y, within.bottom() - place.h));
-    }
-    return place;
+Box MechanismView::label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base,
+                             std::optional<int> frame) const {
+    const Vec2 middle = seen(px(moved ? base.value_or(label.base) : label.base), view) +
+                        (frame ? label.offset_at(*frame) : label.offset);
+    const Box place{middle.x - label.size.x / 2, middle.y - label.size.y / 2, label.size.x, label.size.y};
+    return moved ? inside_view(place) : place;
+}
+
+Box MechanismView::inside_view(Box label) const {
+    const Box within = label_area();
+    label.x = std::max(within.x, std::min(label.x, within.right() - label.w));
+    label.y = std::max(within.y, std::min(label.y, within.bottom() - label.h));
+    return label;
 }
 
 void MechanismScene::arc(Vec2 centre, double radius, double from, double to) const {

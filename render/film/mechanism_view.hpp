@@ -39,15 +39,18 @@ struct MechanismView {
     const Motion& motion() const { return context.motion(member); }
     const sim::Problem& problem() const { return motion().problem; }
     Vec2 px(Vec2 world) const { return look.camera.to_pixels(world); }
-    // Projects a point of the plane of motion [px of the flat view]; unchanged if `view` is null.
-    Vec2 seen(Vec2 flat, const Perspective* view) const;
+    // Projects a point [px of the flat view] at this depth before the plane of motion, relative to the width of the
+    // beam, whose front is at 0.5; unchanged if `view` is null.
+    Vec2 seen(Vec2 flat, const Perspective* view, double depth = 0.5) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, context.pose(whose, frame)); }
     // Where a moving camera shows labels: above the scale bar, which the solid view has not.
     Box label_area() const;
     // Box of a label in this view. It keeps its distance in pixels from its base or, with a moving camera, from `base`
-    // [m]; a moving camera keeps it inside the view.
-    Box label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base = {}) const;
+    // [m]; a moving camera shifts it in each `frame`, and keeps it inside the view.
+    Box label_box(const LabelPlace& label, const Perspective* view, std::optional<Vec2> base = {},
+                  std::optional<int> frame = {}) const;
+    Box inside_view(Box label) const;
 
   private:
     void place_camera();
@@ -67,6 +70,7 @@ struct MechanismScene {
 
     Vec2 on(Vec2 flat) const { return at.seen(flat, view); }
     Vec2 px(Vec2 world) const { return on(at.px(world)); }
+    Box label_box(const LabelPlace& label, Vec2 base) const { return at.label_box(label, view, base, frame); }
     void arc(Vec2 flat_centre, double radius, double from, double to) const;
 };
 

@@ -137,7 +137,7 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
         const DiscShape& d = *shape.disc;
         const double thick = kDiscDepth * wide, chamfer = std::min(3 * unit, 0.05 * d.radius);
         cylinder(up(d.axis), 0.8 * d.bore, -kMountDepth * wide, thick + 6 * unit, 1.5 * unit, palette.pin);
-        cylinder(up(d.centre), std::min(4 * unit, 0.06 * d.radius), thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
+        cylinder(up(d.centre), d.dot, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.6));
         cylinder(up(d.mark), d.mark_radius, thick, thick + 0.6, 0, mix(metal, rgb(0), 0.45));
         bodies.cylinder({up(d.centre), d.radius, -thick, thick, rim.empty() ? sides(d.radius) : kMostSides, chamfer,
                          up(d.axis), d.bore},

@@ -19,6 +19,7 @@ DiscShape disc_shape(const sim::Problem& problem, const sim::Pose& pose, const C
     const double marks = mark_unit(problem, camera, unit);
     disc.bore = std::min({0.16 * disc.radius, 12 * marks, 0.6 * (cam.radius - cam.eccentricity) * camera.scale});
     disc.mark_radius = std::min(5.5 * marks, 0.09 * disc.radius);
+    disc.dot = std::min(4 * unit, 0.06 * disc.radius);
     const Vec2 ray = sim::unit(pose.cam_angle);
     const double out = disc.radius - std::min(24 * marks, 0.24 * disc.radius);
     disc.mark = disc.centre + Vec2{ray.x, -ray.y} * out;

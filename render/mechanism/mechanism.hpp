@@ -20,6 +20,7 @@ struct DiscShape {
     double angle = 0;   // of the mark, counter-clockwise [rad]
     Vec2 mark;          // centre of the drilled mark near the rim, on the ray C→B [px]
     double mark_radius = 0;
+    double dot = 0;  // radius of the dot at B in the solid view, which grows with the zoom [px]
     bool operator==(const DiscShape&) const = default;
 };
 

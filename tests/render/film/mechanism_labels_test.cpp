@@ -101,7 +101,7 @@ TEST(MechanismLabels, AreClearOfBodiesSeenFromAnySide) {
             setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
             const Labelled seen = labels_of(setup, 3);
             EXPECT_EQ(seen.over_beam, 0) << yaw << ", " << pitch;
-            EXPECT_EQ(seen.places.size(), 2U) << yaw << ", " << pitch;  // the speed and the force
+            EXPECT_EQ(seen.places.size(), 3U) << yaw << ", " << pitch;  // the angle, the speed and the force
         }
 }
 
@@ -181,17 +181,46 @@ TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
     }
 }
 
-// The leader of a force whose arrow leaves the view of a near camera ends where the arrow does not.
-TEST(MechanismLabels, LeadersEndInTheViewOfANearCamera) {
+// A near camera shows the whole arrow of a force whose foot is in its view, and a shorter one at the edge.
+TEST(MechanismLabels, ArrowsEndInTheViewOfANearCamera) {
     FilmSetup setup = film_of(Style::flat);
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
     MechanismView at(context, *context.places.first(PanelKind::mechanism));
     ForceArrow arrow{{0.5, 0.2}, {0, 1}, context.arrow_scale};
-    EXPECT_GT(norm(visible_end(at, nullptr, arrow) - at.px(arrow.foot)), 20);
+    EXPECT_GT(norm(arrow_tip(at, nullptr, arrow) - at.px(arrow.foot)), 20);
     CameraFrame near{at.look.camera, 1, 0, 0};
     near.camera.origin = near.camera.origin + Vec2{0, at.box.y + 10 - at.px(arrow.foot).y};  // its foot is at the edge
     const MechanismView above = at.with_camera(near);
-    EXPECT_EQ(visible_end(above, nullptr, arrow), above.px(arrow.foot));
+    const Vec2 tip = arrow_tip(above, nullptr, arrow), foot = above.px(arrow.foot);
+    EXPECT_TRUE(above.shows(tip));
+    EXPECT_GT(norm(tip - foot), 5);
+    EXPECT_LT(norm(tip - foot), 10);
+}
+
+// A camera that moves during a contact takes the label of the force along, at the same distance beyond the beam.
+TEST(MechanismLabels, TheForceStaysNearItsArrowWhileTheCameraMoves) {
+    FilmSetup setup = test::flat_film({.duration = 2}, 1280, 720);
+    setup.impacts.clear();
+    setup.layout = LayoutNode{};
+    setup.view.shot = {.zoom = 3, .follow = {Anchor::Kind::contact, {}}};
+    double first = 1e9, last = 0;  // frames with a force
+    for (std::size_t k = 0; k < setup.poses.size(); ++k)
+        if (setup.poses[k].nearest->force > 0) first = std::min(first, double(k)), last = double(k);
+    setup.moves = {{last, last - first, Ease::linear, setup.view.shot}};
+    setup.moves[0].shot.follow = {Anchor::Kind::hub, {}};
+    Film film(setup);
+    int forces = 0;
+    for (int k = 0; k < film.frames(); ++k) {
+        if (!(setup.poses[std::size_t(k)].nearest->force > 0)) continue;
+        const FrameGeometry g = film.geometry(k);
+        const Vec2 foot = g.camera.to_pixels(g.beam.contact->on_disc);
+        const double beam = (g.beam.high - g.beam.low) * g.camera.scale, arrow = 150 * g.layout.unit;
+        double nearest = 1e9;
+        for (const Box& label : g.labels) nearest = std::min(nearest, norm(label.centre() - foot));
+        EXPECT_LT(nearest, std::max(beam, arrow) + 150 * g.layout.unit) << k;
+        ++forces;
+    }
+    EXPECT_GT(forces, 5);
 }
 
 // The angle has its arc and letter, too, where the cam leaves no room between itself and the hub.
