@@ -21,6 +21,9 @@ inline constexpr double kShortestTouchEver = 1e-12;                       // [s]
 // ---- errors ----
 // Steps in contact are kept to a share of the tolerance: impacts multiply errors, and at order sixteen it costs little.
 inline constexpr double kContactShare = 64;
+// So are those of sustained contact, but to a larger one: undamped vibration of this size, which its own errors excite,
+// would otherwise limit the steps.
+inline constexpr double kHeldShare = 4;
 inline constexpr double kShareOfIteration = 0.02;      // of the tolerance, for the rest of the iteration
 inline constexpr double kLeastDecay = 1.0 / 30;        // of Legendre coefficients: the smoothest forcing assumed
 inline constexpr double kLeastQuadratureDecay = 1e-5;  // the same for the quadrature, the fourth power of a decay

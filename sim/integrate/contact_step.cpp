@@ -197,8 +197,9 @@ double ContactStep::error(double h) {
         force =
             std::max(quadrature_error(friction_.stiffness * h * step_.segment.bristle_rate, force_rounding_), force);
     if (!std::isfinite(force)) return force;  // a maximum of several would hide it
-    const double of_force = kContactShare * std::max({smooth, force * mobility_modes_ / step_.scale_modes,
-                                                      force * mobility_hub_ / step_.scale_theta_dot});
+    const double of_force =
+        (held_ ? kHeldShare : kContactShare) *
+        std::max({smooth, force * mobility_modes_ / step_.scale_modes, force * mobility_hub_ / step_.scale_theta_dot});
     if (!held_) return of_force;
     // The impulse by which `hold_end` will put the end on the constraint.
     const double off = end.gap_rate - start.gap_rate + step_.system.baumgarte_rate() * (end.gap - start.gap);

@@ -14,14 +14,14 @@ struct Case {
 
 void PrintTo(const Case& c, std::ostream* out) { *out << c.name; }
 
-// A beam that does not rebound and then follows the cam.
+// A beam that rests on the cam, and vibrates as it follows it.
 Problem following(const Case& c) {
     Problem p;
     p.beam.modes = 3;
     p.cam->speed = 1;
     p.contact.model = ContactModel::restitution;
     p.contact.restitution = 0;
-    p.initial.angle = 0.4;
+    p.initial.shape = InitialShape::resting;
     c.change(p);
     return p;
 }
@@ -44,9 +44,8 @@ TEST_P(HeldMotion, IsThatOfTheRungeKuttaMethod) {
     const Result slow = simulate(p, {&request, 1}).front();
 
     ASSERT_EQ(fast.steps_by_method.size(), 1u) << "not all steps are of the collocation";
-    double held = 0;
-    for (const Impact& impact : fast.impacts) held += impact.duration.value_or(0);
-    EXPECT_GT(held, 0.1);
+    ASSERT_EQ(fast.impacts.size(), 1u);
+    EXPECT_EQ(fast.impacts[0].t_end, slow.impacts[0].t_end);
     for (std::size_t i = 0; i < fast.tables[0].values.size(); ++i) {
         const std::vector<double>&a = fast.tables[0].values[i], &b = slow.tables[0].values[i];
         double size = 1e-9;
@@ -75,7 +74,6 @@ INSTANTIATE_TEST_SUITE_P(All, HeldMotion,
 // Without Baumgarte's terms and the correction of the rate at the end of each step the gap would drift.
 TEST(HeldMotion, StaysOnTheCam) {
     Problem p = following({"", damped});
-    p.initial.angle = 0.3;
     EXPECT_GT(extremum(p, "gap", 5).min, -1e-11);
 }
 
