@@ -108,9 +108,10 @@ class System final : public Ode {
     // Impulsive contact: the response of the contact point to impulses, and the jump of ξ̇ and of the energy balance.
     Compliance compliance(double t, const double* y, const ContactState& c);
     void apply_impact(double t, double* y, const ContactState& c, const ImpactResult& impact);
-    // Sustained contact: changes ξ̇ by the impulse of the contact after which ġ = −κg (S45). Returns the contact before
-    // it.
-    ContactState hold(double t, double* y);
+    // ġ + κg, which decays at the rate κ in sustained contact (S45) [m/s].
+    double off_constraint(const ContactState& c) const { return c.gap_rate + baumgarte_rate_ * c.gap; }
+    // Sustained contact: changes ξ̇ by the impulse of the contact that makes that `off`. Returns the contact before it.
+    ContactState hold(double t, double off, double* y);
     // Lower bound of the time from touch to maximum penetration [s]: the undamped impact of the contact point's own
     // effective mass.
     double touch_time(double t, const double* y, const ContactState& c, double approach);

@@ -26,15 +26,14 @@ Compliance System::compliance(double t, const double* y, const ContactState& c) 
     return out;
 }
 
-ContactState System::hold(double t, double* y) {
+ContactState System::hold(double t, double off, double* y) {
     double jn[kMaxSize], jt[kMaxSize], jump[kMaxSize], per_impulse = 0;
     const ContactState c = contact(t, y, false);
     contact_rows(c, jn, jt);
     std::copy_n(jn, n_, jump);
     respond(jump);
     for (int i = 0; i < n_; ++i) per_impulse += jn[i] * jump[i];
-    const double off = c.gap_rate + baumgarte_rate_ * c.gap;
-    for (int i = 0; i < n_; ++i) y[n_ + i] -= off / per_impulse * jump[i];
+    for (int i = 0; i < n_; ++i) y[n_ + i] -= (off_constraint(c) - off) / per_impulse * jump[i];
     return c;
 }
 

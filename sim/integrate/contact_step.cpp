@@ -37,7 +37,7 @@ void ContactStep::begin_touch(const ContactState& c) {
     const Phase& phase = step_.system.phase();
     BEAMCAM_ASSERT(!c.at_end && (phase.held || phase.approach > 0));
     held_ = phase.held;
-    held_end_ = c.force;
+    held_end_ = {c.force, step_.system.off_constraint(c)};
     approach = phase.approach;
     gap_offset_ = phase.gap_offset;
     expansion_.centre(c.x);
@@ -95,7 +95,7 @@ void ContactStep::guess(const StepTable& table) {
     const Lanes tau = table.h * Collocation::get().c;
     for (int k = 0; k < kNodes; ++k)
         load.force[k] =
-            held_ ? held_start_ : law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+            held_ ? held_start_.force : law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
     load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
@@ -147,13 +147,14 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     return true;
 }
 
-// What the force at a node lacks to that of its law, and the slopes of the law; in sustained contact, what the gap rate
-// lacks to that of the constraint: ġ + κg stays as at the start, where it is the error of the expansion.
+// What the force at a node lacks to that of its law, and the slopes of the law; in sustained contact, what ġ + κg lacks
+// to its start decayed at the rate κ.
 ForceAndSlopes ContactStep::normal_residual(int k) const {
     const double depth = -load.contact.gap[k], rate = -load.contact.gap_rate[k];
     if (held_) {
         const double decay = step_.system.baumgarte_rate();
-        return {rate + start.gap_rate + decay * (depth + start.gap), decay, 1};
+        const double left = std::exp(-decay * (step_.time[k] - step_.segment.t0));
+        return {rate + decay * depth + left * (start.gap_rate + decay * start.gap), decay, 1};
     }
     ForceAndSlopes at = law_.linearized(depth, rate, approach);
     at.force -= load.force[k];
@@ -202,7 +203,8 @@ double ContactStep::error(double h) {
         std::max({smooth, force * mobility_modes_ / step_.scale_modes, force * mobility_hub_ / step_.scale_theta_dot});
     if (!held_) return of_force;
     // The impulse by which `hold_end` will put the end on the constraint.
-    const double off = end.gap_rate - start.gap_rate + step_.system.baumgarte_rate() * (end.gap - start.gap);
+    const double decay = step_.system.baumgarte_rate();
+    const double off = end.gap_rate + decay * end.gap - std::exp(-decay * h) * (start.gap_rate + decay * start.gap);
     const double impulse = std::fabs(off) / yields_;
     const double hub = form_.prescribed ? 0 : impulse * std::fabs(start.hub) / form_.J;
     return std::max({of_force, impulse * kick / step_.scale_modes, hub / step_.scale_theta_dot});
@@ -218,7 +220,8 @@ bool ContactStep::deep() const {
 void ContactStep::hold_end() {
     if (!held_) return;
     ExponentialSegment& s = step_.segment;
-    held_end_ = step_.system.hold(s.t1, s.end.data()).force;
+    held_end_.off = held_start_.off * std::exp(-step_.system.baumgarte_rate() * s.h);
+    held_end_.force = step_.system.hold(s.t1, held_end_.off, s.end.data()).force;
 }
 
 void ContactStep::fill(TouchSamples& samples) const {
@@ -229,10 +232,10 @@ void ContactStep::fill(TouchSamples& samples) const {
         samples.force[k] = normal_force;
         samples.x[k] = expansion_.at() + dx;
     };
-    put(0, step_.segment.t0, start.gap, start.gap_rate, held_ ? held_start_ : force(start).force, start.dx);
+    put(0, step_.segment.t0, start.gap, start.gap_rate, held_ ? held_start_.force : force(start).force, start.dx);
     const ContactKinematics<Lanes>& c = load.contact;
     for (int k = 0; k < kNodes; ++k) put(k + 1, step_.time[k], c.gap[k], c.gap_rate[k], load.force[k], c.dx[k]);
-    put(kNodes + 1, step_.segment.t1, end.gap, end.gap_rate, held_ ? held_end_ : force(end).force, end.dx);
+    put(kNodes + 1, step_.segment.t1, end.gap, end.gap_rate, held_ ? held_end_.force : force(end).force, end.dx);
 }
 
 }  // namespace beamcam::sim

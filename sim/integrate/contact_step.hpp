@@ -52,9 +52,12 @@ class ContactStep {
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
     BristleStep bristle_;
-    std::vector<double> row_t_;             // of a bristle: ∂(t·r)/∂q of the modes at the start
-    bool held_ = false;                     // sustained impulsive contact
-    double held_start_ = 0, held_end_ = 0;  // its force at the start and the end of the step [N]
+    std::vector<double> row_t_;  // of a bristle: ∂(t·r)/∂q of the modes at the start
+    bool held_ = false;          // sustained impulsive contact
+    struct Held {
+        double force = 0;  // [N]
+        double off = 0;    // ġ + κg, by which a state is off the constraint (S45) [m/s]
+    } held_start_, held_end_;
     double gap_offset_ = 0, centred_ = -1;
     double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]
