@@ -106,7 +106,9 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (method_ && method_->contact_end && !(touching_ && t == t_)) method_->contact_end->reset_side();
         touching_ = phase.touching;
-        falling_back_ = !method_ || (touching_ && !method_->contact);
+        // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback.
+        const bool follows = phase.held && method_ && method_->step.n == 0;
+        falling_back_ = !method_ || follows || (touching_ && !method_->contact);
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
             ++counters.handed_over;
