@@ -4,7 +4,7 @@
 
 #include "tests/sim/support.hpp"
 
-namespace beamcam::sim::testing {
+namespace beamcam::sim::testing::held_motion {
 namespace {
 
 struct Case {
@@ -87,4 +87,4 @@ TEST(HeldMotion, TakesStepsThatDoNotFollowTheHighestMode) {
 }
 
 }  // namespace
-}  // namespace beamcam::sim::testing
+}  // namespace beamcam::sim::testing::held_motion
