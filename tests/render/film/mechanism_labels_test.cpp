@@ -87,7 +87,7 @@ Labelled labels_of(const FilmSetup& setup, int step) {
     return out;
 }
 
-FilmSetup film_of(Style style) {
+FilmSetup film_in(Style style) {
     FilmSetup setup = test::synthetic_film({.duration = 1});
     setup.width = 1280, setup.height = 720;
     setup.view.style = style;
@@ -97,7 +97,7 @@ FilmSetup film_of(Style style) {
 TEST(MechanismLabels, AreClearOfBodiesSeenFromAnySide) {
     for (const double yaw : {-1.1, 0.42, 1.1})
         for (const double pitch : {-0.4, 0.9}) {
-            FilmSetup setup = film_of(Style::solid);
+            FilmSetup setup = film_in(Style::solid);
             setup.view.shot.yaw = yaw, setup.view.shot.pitch = pitch;
             const Labelled seen = labels_of(setup, 3);
             EXPECT_EQ(seen.over_beam, 0) << yaw << ", " << pitch;
@@ -106,7 +106,7 @@ TEST(MechanismLabels, AreClearOfBodiesSeenFromAnySide) {
 }
 
 TEST(MechanismLabels, AreClearOfBodiesWhileTheViewSwings) {
-    FilmSetup setup = film_of(Style::solid);
+    FilmSetup setup = film_in(Style::solid);
     setup.view.swing = 0.4;
     const Labelled seen = labels_of(setup, 3);
     EXPECT_EQ(seen.over_beam, 0);
@@ -117,7 +117,7 @@ TEST(MechanismLabels, AreClearOfBodiesBeforeANearCamera) {
     for (const Style style : {Style::flat, Style::solid})
         for (const Anchor::Kind follow : {Anchor::Kind::tip, Anchor::Kind::contact})
             for (const double zoom : {2.0, 6.0}) {
-                FilmSetup setup = film_of(style);
+                FilmSetup setup = film_in(style);
                 setup.view.shot.zoom = zoom, setup.view.shot.follow.kind = follow;
                 EXPECT_EQ(labels_of(setup, 3).over_beam, 0) << int(style) << ", " << int(follow) << ", " << zoom;
             }
@@ -125,7 +125,7 @@ TEST(MechanismLabels, AreClearOfBodiesBeforeANearCamera) {
 
 // A camera that has not moved yet shows labels where a fixed one does, at the lower edge, too.
 TEST(MechanismLabels, HaveTheirPlacesBeforeTheCameraMoves) {
-    FilmSetup setup = film_of(Style::solid);
+    FilmSetup setup = film_in(Style::solid);
     setup.width = 960, setup.height = 540;
     const std::vector<Box> fixed = Film(setup).geometry(0).labels;
     setup.moves = {{40, 20, Ease::smooth, setup.view.shot}};
@@ -139,7 +139,7 @@ TEST(MechanismLabels, HaveTheirPlacesBeforeTheCameraMoves) {
 // Captions keep their places while the beam passes them.
 TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
     for (const Style style : {Style::flat, Style::solid}) {
-        FilmSetup setup = film_of(style);
+        FilmSetup setup = film_in(style);
         setup.layout = LayoutNode{};
         Film plain(setup);
         for (const Vec2 at : {Vec2{0.5, 0.3}, {0.7, 0.35}, {0.8, 0.1}})
@@ -183,7 +183,7 @@ TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
 
 // A near camera shows the whole arrow of a force whose foot is in its view, and a shorter one at the edge.
 TEST(MechanismLabels, ArrowsEndInTheViewOfANearCamera) {
-    FilmSetup setup = film_of(Style::flat);
+    FilmSetup setup = film_in(Style::flat);
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
     MechanismView at(context, *context.places.first(PanelKind::mechanism));
     ForceArrow arrow{{0.5, 0.2}, {0, 1}, context.arrow_scale};
@@ -253,7 +253,7 @@ TEST(MechanismLabels, TheAngleOfABeamThatTurnsOverHasItsLetter) {
 
 // The arrow of a peak that is held stays where the beam was struck, and turns with the beam.
 TEST(ImpactRings, ThePeakStaysOnTheBeam) {
-    FilmSetup setup = film_of(Style::flat);
+    FilmSetup setup = film_in(Style::flat);
     sim::Impact impact;
     impact.t_start = 0.3, impact.t_end = 0.301, impact.force_peak = 100;
     impact.x = 0.25 * setup.problem.beam.length;
@@ -277,7 +277,7 @@ TEST(ImpactRings, ThePeakStaysOnTheBeam) {
 
 // Peaks above all forces of the frames have arrows in proportion, too; the largest one has the longest arrow.
 TEST(ImpactRings, ArrowsOfPeaksAreInProportionToTheirForces) {
-    FilmSetup setup = film_of(Style::flat);
+    FilmSetup setup = film_in(Style::flat);
     const double frames = FilmContext(std::make_shared<const FilmSetup>(setup)).frame_force;
     ASSERT_GT(frames, 0);
     sim::Impact strong, weak;
