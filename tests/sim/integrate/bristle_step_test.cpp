@@ -145,7 +145,8 @@ Motion motion(const Problem& p, const std::vector<double>& times) {
                                channel("friction_force"), channel("energy_contact"), channel("loss_friction")}});
     RunOptions options;
     options.observer = &changes;
-    Run run(p, {&request, 1}, {}, options);
+    const Progress silent;  // `run` refers to it
+    Run run(p, {&request, 1}, silent, options);
     Motion out{run.integrate().front(), {}};
     out.changes = changes.all;
     return out;
