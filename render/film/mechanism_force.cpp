@@ -40,7 +40,13 @@ Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArro
     const auto leaves = [&](Vec2 p) { return at.moved && !inside.contains({p.x, p.y, 0, 0}); };
     if (!leaves(end(1)) || leaves(end(0))) return end(1);
     double fits = 0, too_long = 1;
-    while (too_long - fits > 1e-3) (leaves(end((fits + too_long) / 2)) ? too_long : fits) = (fits + too_long) / 2;
+    while (too_long - fits > 1e-3) {
+        const double share = (fits + too_long) / 2;
+        if (leaves(end(share)))
+            too_long = share;
+        else
+            fits = share;
+    }
     return end(fits);
 }
 

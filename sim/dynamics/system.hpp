@@ -59,6 +59,7 @@ class System final : public Ode {
     bool has_cam() const { return problem_.cam.has_value(); }
     bool has_bristle() const { return friction_.bristle; }
     int coordinates() const { return n_; }
+    double bristle(const double* y) const { return friction_.bristle ? y[2 * n_] : 0; }  // its deflection z [m]
     CamPose cam(double t) const { return cam_pose(*problem_.cam, t); }
     Model& model() { return *model_; }
     const DriveLaw& drive() const { return drive_; }
@@ -109,7 +110,7 @@ class System final : public Ode {
     Compliance compliance(double t, const double* y, const ContactState& c);
     void apply_impact(double t, double* y, const ContactState& c, const ImpactResult& impact);
     // ġ + κg, which decays at the rate κ in sustained contact (S45) [m/s].
-    double off_constraint(const ContactState& c) const { return c.gap_rate + baumgarte_rate_ * c.gap; }
+    double off_constraint(double gap, double gap_rate) const { return gap_rate + baumgarte_rate_ * gap; }
     // Sustained contact: changes ξ̇ by the impulse of the contact that makes that `off`. Returns the contact before it.
     ContactState hold(double t, double off, double* y);
     // Lower bound of the time from touch to maximum penetration [s]: the undamped impact of the contact point's own
@@ -121,7 +122,6 @@ class System final : public Ode {
     long gap_evaluations = 0;
 
   private:
-    double bristle(const double* y) const { return friction_.bristle ? y[2 * n_] : 0; }
     ContactState contact_geometry(double t, bool search);
     void contact_rows(const ContactState& c, double* jn, double* jt) const { geometry_.rows(*model_, c, jn, jt); }
     void add_torque(double t, double* f) const;

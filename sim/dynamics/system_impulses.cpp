@@ -27,13 +27,14 @@ Compliance System::compliance(double t, const double* y, const ContactState& c) 
 }
 
 ContactState System::hold(double t, double off, double* y) {
+    BEAMCAM_ASSERT(phase_.held);
     double jn[kMaxSize], jt[kMaxSize], jump[kMaxSize], per_impulse = 0;
     const ContactState c = contact(t, y, false);
     contact_rows(c, jn, jt);
     std::copy_n(jn, n_, jump);
     respond(jump);
     for (int i = 0; i < n_; ++i) per_impulse += jn[i] * jump[i];
-    for (int i = 0; i < n_; ++i) y[n_ + i] -= (off_constraint(c) - off) / per_impulse * jump[i];
+    for (int i = 0; i < n_; ++i) y[n_ + i] -= (off_constraint(c.gap, c.gap_rate) - off) / per_impulse * jump[i];
     return c;
 }
 

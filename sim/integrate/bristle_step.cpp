@@ -39,14 +39,8 @@ bool BristleStep::eliminate(const NodalCompliance& across, const NodalCompliance
     return true;
 }
 
-Lanes BristleStep::deflection(const Lanes& rate) const {
-    Lanes z = Lanes{} + start_;
-    for (int l = 0; l < kNodes; ++l) z += (h_ * rate[l]) * Collocation::get().integrate[static_cast<std::size_t>(l)];
-    return z;
-}
-
 Lanes BristleStep::force(const Lanes& normal, const Lanes& slip) const {
-    if (state_ == FrictionState::stick) return -(law_.stiffness * deflection(slip) + law_.damping * slip);
+    if (state_ == FrictionState::stick) return -(law_.stiffness * at_nodes(start_, h_, slip) + law_.damping * slip);
     return (-FrictionLaw::sign(state_) * law_.kinetic) * normal;
 }
 
@@ -76,7 +70,7 @@ bool BristleStep::settle(const Lanes& normal, const Lanes& slip, Lanes& friction
         rate = r * (sliding - start_);
         if (!solve_dense(matrix, {&rate, 1})) return false;
     }
-    nodes_ = deflection(rate);
+    nodes_ = at_nodes(start_, h_, rate);
     return true;
 }
 

@@ -33,7 +33,6 @@ class BristleStep {
     double decays() const { return decays_; }           // decay by the dashpot within the step [–]
 
   private:
-    Lanes deflection(const Lanes& rate) const;
     Lanes force(const Lanes& normal, const Lanes& slip) const;
 
     const FrictionLaw& law_;

@@ -61,4 +61,11 @@ void Collocation::weights_to(double s, Lanes& w) const {
         w += ((p[j + 1] - p[j - 1]) / (2.0 * (2 * static_cast<int>(j) + 1))) * legendre[j];
 }
 
+Lanes at_nodes(double start, double h, const Lanes& rate) {
+    const Collocation& gauss = Collocation::get();
+    Lanes out = Lanes{} + start;
+    for (int l = 0; l < kNodes; ++l) out += (h * rate[l]) * gauss.integrate[static_cast<std::size_t>(l)];
+    return out;
+}
+
 }  // namespace beamcam::sim

@@ -37,7 +37,7 @@ void ContactStep::begin_touch(const ContactState& c) {
     const Phase& phase = step_.system.phase();
     BEAMCAM_ASSERT(!c.at_end && (phase.held || phase.approach > 0));
     held_ = phase.held;
-    held_end_ = {c.force, step_.system.off_constraint(c)};
+    held_end_ = {c.force, step_.system.off_constraint(c.gap, c.gap_rate)};
     approach = phase.approach;
     gap_offset_ = phase.gap_offset;
     expansion_.centre(c.x);
@@ -93,9 +93,14 @@ void ContactStep::guess(const StepTable& table) {
         frame_.disc_vy[k] = pose.velocity.y;
     }
     const Lanes tau = table.h * Collocation::get().c;
-    for (int k = 0; k < kNodes; ++k)
-        load.force[k] =
-            held_ ? held_start_.force : law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+    for (int k = 0; k < kNodes; ++k) {
+        if (held_) {
+            off_at_nodes_[k] = share_left(step_.time[k] - s.t0) * off(start);
+            load.force[k] = held_start_.force;
+        } else {
+            load.force[k] = law_.force(-start.gap - start.gap_rate * tau[k], -start.gap_rate, approach);
+        }
+    }
     load.friction = friction_.bristle ? bristle_.guess(load.force, start.slip) : Lanes{};
     step_.propagate_unforced(table);
     for (std::size_t i = 0; i < step_.n; ++i) s.f[i] += load.force * (row[i] / form_.mass);
@@ -150,13 +155,10 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
 // What the force at a node lacks to that of its law, and the slopes of the law; in sustained contact, what ġ + κg lacks
 // to its start decayed at the rate κ.
 ForceAndSlopes ContactStep::normal_residual(int k) const {
-    const double depth = -load.contact.gap[k], rate = -load.contact.gap_rate[k];
-    if (held_) {
-        const double decay = step_.system.baumgarte_rate();
-        const double left = std::exp(-decay * (step_.time[k] - step_.segment.t0));
-        return {rate + decay * depth + left * (start.gap_rate + decay * start.gap), decay, 1};
-    }
-    ForceAndSlopes at = law_.linearized(depth, rate, approach);
+    const double gap = load.contact.gap[k], rate = load.contact.gap_rate[k];
+    const System& system = step_.system;
+    if (held_) return {off_at_nodes_[k] - system.off_constraint(gap, rate), system.baumgarte_rate(), 1};
+    ForceAndSlopes at = law_.linearized(-gap, -rate, approach);
     at.force -= load.force[k];
     return at;
 }
@@ -203,9 +205,7 @@ double ContactStep::error(double h) {
         std::max({smooth, force * mobility_modes_ / step_.scale_modes, force * mobility_hub_ / step_.scale_theta_dot});
     if (!held_) return of_force;
     // The impulse by which `hold_end` will put the end on the constraint.
-    const double decay = step_.system.baumgarte_rate();
-    const double off = end.gap_rate + decay * end.gap - std::exp(-decay * h) * (start.gap_rate + decay * start.gap);
-    const double impulse = std::fabs(off) / yields_;
+    const double impulse = std::fabs(off(end) - share_left(h) * off(start)) / yields_;
     const double hub = form_.prescribed ? 0 : impulse * std::fabs(start.hub) / form_.J;
     return std::max({of_force, impulse * kick / step_.scale_modes, hub / step_.scale_theta_dot});
 }
@@ -220,7 +220,7 @@ bool ContactStep::deep() const {
 void ContactStep::hold_end() {
     if (!held_) return;
     ExponentialSegment& s = step_.segment;
-    held_end_.off = held_start_.off * std::exp(-step_.system.baumgarte_rate() * s.h);
+    held_end_.off = held_start_.off * share_left(s.h);
     held_end_.force = step_.system.hold(s.t1, held_end_.off, s.end.data()).force;
 }
 

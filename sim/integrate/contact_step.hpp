@@ -2,6 +2,8 @@
 // the force, or in sustained impulsive contact its constraint (S45). MODEL.md §12.
 #pragma once
 
+#include <cmath>
+
 #include "sim/integrate/bristle_step.hpp"
 #include "sim/integrate/nodal_step.hpp"
 
@@ -37,6 +39,9 @@ class ContactStep {
     double kick = 0;          // change of the modes' rates per impulse
 
   private:
+    // ġ + κg at an instant, and the share of it that is left some time later (S45).
+    double off(const ContactKinematics<double>& at) const { return step_.system.off_constraint(at.gap, at.gap_rate); }
+    double share_left(double after) const { return std::exp(-step_.system.baumgarte_rate() * after); }
     void place_at_start();
     void guess(const StepTable& table);
     bool improve(const StepTable& table, int corrections);
@@ -58,6 +63,7 @@ class ContactStep {
         double force = 0;  // [N]
         double off = 0;    // ġ + κg, by which a state is off the constraint (S45) [m/s]
     } held_start_, held_end_;
+    Lanes off_at_nodes_{};  // ġ + κg that the nodes are to have
     double gap_offset_ = 0, centred_ = -1;
     double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]

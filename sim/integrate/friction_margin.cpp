@@ -58,7 +58,7 @@ FrictionMargin::FrictionMargin(const NodalStep& step, const ContactStep& contact
     for (int k = 0; k < kNodes; ++k)
         margin(static_cast<std::size_t>(k) + 1, nodes.gap[k], nodes.gap_rate[k], nodes.slip[k],
                bristle.deflection()[k]);
-    const double z = step.next[2 * (step.n + 1)];
+    const double z = step.system.bristle(step.next.data());
     margin(kNodes + 1, contact.end.gap, contact.end.gap_rate, contact.end.slip, z);
     deep_ = 0;
     for (const double m : at_) deep_ = std::max(deep_, kMarginRounding * std::fabs(m));

@@ -7,18 +7,6 @@
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-// start + ∫ rate from the start of a step of length h to each node.
-Lanes integral(double start, double h, const Lanes& rate) {
-    const Collocation& gauss = Collocation::get();
-    Lanes out = Lanes{} + start;
-    for (int l = 0; l < kNodes; ++l) out += (h * rate[l]) * gauss.integrate[static_cast<std::size_t>(l)];
-    return out;
-}
-
-}  // namespace
-
 double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
 
 NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, double relative, double absolute,
@@ -53,7 +41,7 @@ void NodalStep::begin(double t) {
     std::copy_n(y + 1, n, s.q0.begin());
     std::copy_n(y + 2 + n, n, s.v0.begin());
     std::copy_n(s.end.data() + system.controlled, kLedgerSize, s.ledger0);
-    if (s.has_bristle()) s.bristle0 = s.end[2 * (n + 1)];
+    s.bristle0 = system.bristle(s.end.data());
     s.theta0 = y[0];
     theta_dot0 = y[1 + n];
     // Θ̇ = p/(J + qᵀBq) inverted.
@@ -191,7 +179,7 @@ double NodalStep::update_by_arrays(const StepTable& table, const ContactLoad* lo
 // Θ̇ and Θ at the nodes from ṗ; returns how much changed, in units of the tolerance.
 double NodalStep::turn_hub(double h, const Lanes& inertia) {
     ExponentialSegment& s = segment;
-    const Lanes theta_dot = integral(s.p0, h, s.p_dot) / inertia;
+    const Lanes theta_dot = at_nodes(s.p0, h, s.p_dot) / inertia;
     const double rate_change = largest(theta_dot - s.theta_dot) / scale_theta_dot;
     s.theta_dot = theta_dot;
     return std::max(rate_change, set_angle(h) / scale_theta);
@@ -199,13 +187,13 @@ double NodalStep::turn_hub(double h, const Lanes& inertia) {
 
 void NodalStep::hub_from_load(double h) {
     ExponentialSegment& s = segment;
-    s.theta_dot = integral(s.p0, h, s.p_dot) * (theta_dot0 != 0 ? theta_dot0 / s.p0 : 1 / form->J);
+    s.theta_dot = at_nodes(s.p0, h, s.p_dot) * (theta_dot0 != 0 ? theta_dot0 / s.p0 : 1 / form->J);
     set_angle(h);
 }
 
 // Θ at the nodes from Θ̇; returns its largest change.
 double NodalStep::set_angle(double h) {
-    const Lanes changed = integral(segment.theta0, h, segment.theta_dot), by = changed - theta;
+    const Lanes changed = at_nodes(segment.theta0, h, segment.theta_dot), by = changed - theta;
     theta = changed;
     if (!inertia_) advance_angle(changed);
     return largest(by);

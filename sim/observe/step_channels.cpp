@@ -159,8 +159,7 @@ void StepChannels::probe_contact(double t) {
     const Phase& phase = system.phase();
     if (phase.touching) {
         c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
-        const double z = bristled_ ? y_[2 * static_cast<std::size_t>(system.coordinates())] : 0;
-        c.friction = system.friction().force(phase.friction, c.force, c.slip, z);
+        c.friction = system.friction().force(phase.friction, c.force, c.slip, system.bristle(y_.data()));
     }
     evaluator_.set_contact(c);
 }
