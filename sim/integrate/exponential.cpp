@@ -206,7 +206,7 @@ class Exponential final : public Integrator {
         s.touching = false;
         method_->step.begin(t_);
         for (bool rejected = false;; rejected = true) {
-            if (too_short(step_length(flight_level_))) return false;
+            if (rejected && too_short(step_length(flight_level_))) return false;
             bool last = false;
             const StepTable& table = flight_table(last);
             const double error = solve_flight(method_->step, table);

@@ -162,12 +162,19 @@ double ExponentialSegment::torque_on_vibration(double s, const double* y) const 
 double ExponentialSegment::drive_boundary(double t, const double* y) const {
     if (!form_->prescribed) return 0;
     const HubMotion hub = drive_.motion(t);
-    double momentum = form_->J * hub.rate, follow = 0;
+    double momentum = 0, follow = 0;
     for (std::size_t i = 0; i < n_; ++i) {
-        double row = 0;
-        for (std::size_t j = 0; j < n_; ++j) row += form_->inertia[i * n_ + j] * y[1 + j];
-        momentum += row * y[1 + i] * hub.rate + form_->U[i] * y[2 + n_ + i];
+        momentum += form_->U[i] * y[2 + n_ + i];
         follow += form_->U[i] * y[1 + i];
+    }
+    if (form_->by_arrays()) {
+        double inertia = form_->J;
+        for (std::size_t i = 0; i < n_; ++i) {
+            double row = 0;
+            for (std::size_t j = 0; j < n_; ++j) row += form_->inertia[i * n_ + j] * y[1 + j];
+            inertia += row * y[1 + i];
+        }
+        momentum += inertia * hub.rate;
     }
     return hub.rate * momentum - hub.acceleration * follow;
 }

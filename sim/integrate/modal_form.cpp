@@ -38,8 +38,7 @@ bool modes_are_coordinates(System& system) {
 }
 
 std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
-    if (modes_are_coordinates(system)) return by_arrays_of(system);
-    return system.drive().prescribed() ? nullptr : of_natural_modes(system);
+    return modes_are_coordinates(system) ? by_arrays_of(system) : of_natural_modes(system);
 }
 
 bool ModalForm::exists(System& system) {
@@ -141,7 +140,7 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     form->slope_norm = modes.slope_norm;
     form->h = modes.h;
     form->weight.assign(modes.weight.begin(), modes.weight.end());
-    form->U.assign(modes.weight.size(), 0);
+    form->U.assign(modes.U.begin(), modes.U.end());
     form->inertia_root.assign(form->U.size(), 0);
     return form;
 }

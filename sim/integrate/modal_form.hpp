@@ -1,7 +1,7 @@
 // The equations of motion in the form of an exponential integrator: oscillators and their coupling. The coupling is
 // given by plain arrays for modal models with a free hub in hub–beam shapes (no coupling through the inertia) or with a
-// prescribed hub in any shapes. For all others with a free hub it is the difference between their forces of inertia and
-// gravity (InertiaForces) and those of the vibrating straight beam.
+// prescribed hub in any shapes. For all others it is the difference between their forces of inertia and gravity
+// (InertiaForces) and those of the vibrating straight beam.
 #pragma once
 
 #include <Eigen/Core>
@@ -17,8 +17,7 @@ namespace beamcam::sim {
 bool modes_are_coordinates(System& system);
 
 struct ModalForm {
-    // Null when the equations of this problem do not have the form: damping that couples the modes, a prescribed hub of
-    // another model.
+    // Null when the equations of this problem do not have the form: damping that couples the modes.
     static std::shared_ptr<const ModalForm> of(System& system);
     // Whether `of` would return a form; costs nothing where the coupling is given by arrays.
     static bool exists(System& system);

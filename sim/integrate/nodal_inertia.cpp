@@ -26,7 +26,7 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
         const Oscillator& o = form->oscillators[i];
         mode_acceleration_[i] = s.f[i] - 2 * o.gamma * s.v[i] - o.omega * o.omega * s.q[i];
     }
-    const Lanes turn_acceleration = (1 / form->J) * s.p_dot;
+    const Lanes turn_acceleration = form->prescribed ? acceleration_ : (1 / form->J) * s.p_dot;
     const Lanes* resistance = forces_.data() + 1;  // of the modes
     if (inertia_->in_modes()) {
         inertia_->evaluate(
@@ -54,8 +54,7 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
         bq_[i] = mode_acceleration_[i] + per_mass * force;
         turn += row[i] * (bq_[i] - s.f[i]);
     }
-    const Lanes moment = moment_of_bent_inertia(turn);
-    s.p_dot += hub - moment;
+    const Lanes moment = form->prescribed ? Lanes{} : moment_of_bent_inertia(turn);
     double change2 = 0;
     for (std::size_t i = 0; i < n; ++i) {
         const Lanes f = bq_[i] - (per_mass * row[i]) * moment;
@@ -63,7 +62,10 @@ double NodalStep::update_by_inertia(const StepTable& table, const ContactLoad* l
         change2 += d * d;
         s.f[i] = f;
     }
-    return std::max(std::sqrt(change2) / scale_modes, turn_hub(h, Lanes{} + form->J));
+    const double modal = std::sqrt(change2) / scale_modes;
+    if (form->prescribed) return modal;
+    s.p_dot += hub - moment;
+    return std::max(modal, turn_hub(h, Lanes{} + form->J));
 }
 
 // The moment that the inertia g by which bending adds to that of the straight beam, D, takes from a change of the

@@ -42,27 +42,37 @@ void NodalStep::drive_power(const ContactLoad* load) {
         s.rate[kWorkDrive] = torque * hub_rate;
     }
     if (!form->prescribed) return;
-    Lanes quadratic = form->mass * fast_inertia_, fall{}, weighted{}, follow{};
+    Lanes follow{}, jerk{};  // Uᵀq; of the hub
+    for (std::size_t i = 0; i < n; ++i) follow += form->U[i] * steady_deflection(i);
+    for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
+    s.rate[kWorkDrive] = jerk * follow + (inertia_ ? drive_power_by_inertia() : drive_power_by_arrays());
+    // The drive balances the moment of the contact.
+    if (load) s.rate[kWorkDrive] -= s.theta_dot * load->torque();
+}
+
+// Of the moments of inertia and gravity on the hub but for Uᵀq̈.
+Lanes NodalStep::drive_power_by_inertia() const {
+    Lanes moment = forces_[0];
+    for (std::size_t i = 0; i < n; ++i) moment -= form->U[i] * mode_acceleration_[i];
+    return segment.theta_dot * moment;
+}
+
+Lanes NodalStep::drive_power_by_arrays() const {
+    Lanes quadratic = form->mass * fast_inertia_, fall{}, weighted{};
     if (!form->paper) fall = fast_fall_;
-    const auto deflection = [&](std::size_t i) { return s.left_out.contains(i) ? fast_steady_[i] : s.q[i]; };
     for (std::size_t i = 0; i < n; ++i) {
         Lanes a{}, b{};
         for (std::size_t j = 0; j < n; ++j) {
-            a += form->inertia[i * n + j] * deflection(j);
-            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * deflection(j);
+            a += form->inertia[i * n + j] * steady_deflection(j);
+            if (!form->paper && !form->second.empty()) b += form->second[i * n + j] * steady_deflection(j);
         }
-        const Lanes q = deflection(i);
+        const Lanes q = steady_deflection(i);
         quadratic += a * q;
         fall += b * q;
         weighted += form->weight[i] * q;
-        follow += form->U[i] * q;
     }
     const Lanes gravity = form->gravity * (form->S * cos - form->mass * (weighted * sin + 0.5 * cos * fall));
-    Lanes jerk{};  // of the hub
-    for (int l = 0; l < kNodes; ++l) jerk += (acceleration_[l] / s.h) * gauss.slope[static_cast<std::size_t>(l)];
-    s.rate[kWorkDrive] = jerk * follow - acceleration_ * (form->J + quadratic) * s.theta_dot + s.theta_dot * gravity;
-    // The drive balances the moment of the contact.
-    if (load) s.rate[kWorkDrive] -= s.theta_dot * load->torque();
+    return segment.theta_dot * (gravity - (form->J + quadratic) * acceleration_);
 }
 
 }  // namespace beamcam::sim

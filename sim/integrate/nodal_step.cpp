@@ -108,7 +108,7 @@ void NodalStep::place_hub(double h) {
         for (int k = 0; k < kNodes; ++k) torque[k] = system.drive().torque(time[k]);
     frame_angle_ = theta;
     evaluate_angle();
-    if (inertia_) s.p_dot = torque - form->gravity * form->S * cos;
+    if (inertia_ && !form->prescribed) s.p_dot = torque - form->gravity * form->S * cos;
 }
 
 void NodalStep::evaluate_angle() {

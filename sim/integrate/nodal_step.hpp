@@ -91,6 +91,12 @@ struct NodalStep {
     void smooth_force(std::size_t i, Lanes& f) const;
     void finish_ledger(const ContactLoad* load);
     void drive_power(const ContactLoad* load);
+    Lanes drive_power_by_arrays() const;
+    Lanes drive_power_by_inertia() const;
+    // q without fast vibration, which the nodes do not resolve.
+    const Lanes& steady_deflection(std::size_t i) const {
+        return segment.left_out.contains(i) ? fast_steady_[i] : segment.q[i];
+    }
 
     double rtol_, atol_;
     Lanes acceleration_{};

@@ -34,7 +34,7 @@ FixedPoint::Status FixedPoint::add(double change) {
         enough_ = enough_ || change == 0 || (contracts && change * ratio / (1 - ratio) < kShareOfIteration);
         if (enough_ && (!contracts || change * std::max(ratio, contraction_) / (1 - ratio) < share_))
             return Status::settled;
-        if (ratio > kStalled && change <= rounding_ * largest_) return Status::settled;
+        if (ratio > kStalled && change <= std::max(rounding_ * largest_, kNegligibleChange)) return Status::settled;
         if (ratio > growth_ && sweep > patience_) return enough_ ? Status::settled : Status::failed;
     }
     largest_ = std::max(largest_, change);

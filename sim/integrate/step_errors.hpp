@@ -25,7 +25,7 @@ class FixedPoint {
   public:
     enum class Status { going, settled, failed };
     // Fails once changes grow by more than `growth` after `patience` sweeps, unless they are below `rounding` times the
-    // largest.
+    // largest or negligible.
     FixedPoint(double rounding, double growth, int patience)
         : rounding_(rounding), growth_(growth), patience_(patience) {}
     // Continues, while changes still contract, until the rest is below this share of the tolerance for a contraction by
