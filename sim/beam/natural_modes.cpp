@@ -30,6 +30,9 @@ NaturalModes::NaturalModes(const Model& of, const Problem& problem) {
     inverse.bottomRightCorner(n, n) = beam.transpose() * inertia / m;
     inverse.topRightCorner(1, n) = rotation.transpose();
     U = beam.transpose() * (mass.bottomLeftCorner(n, 1) - J * rotation);
+    damping = Eigen::VectorXd::Zero(n);
+    if (const std::vector<double> all = model->damping_matrix(); !all.empty())
+        damping = (beam.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * beam).diagonal() / m;
     bound_shapes(*model, problem.beam.bending_stiffness(), problem.hub.radius);
     weigh(*model, problem.gravity);
 }

@@ -16,6 +16,7 @@ struct NaturalModes {
     // ξ = shapes z, z = inverse ξ; z₀ is the rigid rotation.
     Eigen::MatrixXd shapes, inverse;
     Eigen::VectorXd omega_squared;  // of z₁…z_n, ascending [1/s²]
+    Eigen::VectorXd damping;        // 2γ of z₁…z_n [1/s]; no damping law couples them
     double J = 0, S = 0;            // inertia [kg m²] and static moment [kg m] about the hinge
     Eigen::VectorXd U, weight;      // inertia shared with z₀, zero for a free hub [kg m]; W/m of gravity
     // Bounds of each mode along the beam: displacement, wave number [1/m] (displacement times it bounds the rotation,

@@ -16,7 +16,7 @@ bool sharp_friction(System& system) {
     const Problem& p = system.problem();
     const auto* friction = std::get_if<CoulombFriction>(&p.contact.friction);
     return system.has_cam() && friction && friction->coefficient > 0 && friction->slip_speed < kSharpSlip &&
-           p.contact.model == ContactModel::compliant && exponential_in_contact(system);
+           p.contact.model == ContactModel::compliant;
 }
 
 Method fallback_method(System& system) {
@@ -79,10 +79,10 @@ class StepTables {
     StepTable other_;
 };
 
-// The parts of the method, where the problem has the modal form.
+// The parts of the method.
 struct ModalMethod {
-    ModalMethod(System& system, std::shared_ptr<const ModalForm> form, double rtol, double atol, long& evaluations)
-        : step(system, std::move(form), rtol, atol, evaluations), tables(*step.form) {
+    ModalMethod(System& system, double rtol, double atol, long& evaluations)
+        : step(system, ModalForm::of(system), rtol, atol, evaluations), tables(*step.form) {
         if (!system.has_cam()) return;
         contact.emplace(step);
         contact_end.emplace(step, *contact);
@@ -96,19 +96,19 @@ struct ModalMethod {
 class Exponential final : public Integrator {
   public:
     Exponential(System& system, double rtol, double atol)
-        : system_(system), fallback_(make_fallback(fallback_method(system), system, rtol, atol)) {
+        : system_(system),
+          method_(system, rtol, atol, counters.rhs),
+          fallback_(make_fallback(fallback_method(system), system, rtol, atol)),
+          sharp_(sharp_friction(system)) {
         counters.fallback = fallback_method(system);
-        sharp_ = sharp_friction(system);
-        if (auto form = ModalForm::of(system)) method_.emplace(system, std::move(form), rtol, atol, counters.rhs);
     }
 
     void start(double t, const double* y) override {
         const Phase& phase = system_.phase();
-        if (method_ && method_->contact_end && !(touching_ && t == t_)) method_->contact_end->reset_side();
+        if (method_.contact_end && !(touching_ && t == t_)) method_.contact_end->reset_side();
         touching_ = phase.touching;
         // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback.
-        const bool follows = phase.held && method_ && method_->step.n == 0;
-        falling_back_ = !method_ || follows || (touching_ && !method_->contact);
+        falling_back_ = phase.held && method_.step.n == 0;
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
             ++counters.handed_over;
@@ -159,7 +159,7 @@ class Exponential final : public Integrator {
     }
 
   private:
-    ExponentialSegment& segment() { return method_->step.segment; }
+    ExponentialSegment& segment() { return method_.step.segment; }
 
     // The fallback continues from (t, y), with a first step of at most `first`.
     void hand_over(double t, const double* y, double first) {
@@ -190,13 +190,13 @@ class Exponential final : public Integrator {
         const double level = step_length(flight_level_);
         const double h = std::min(level, std::max(first_step_, kLeastStep * std::fabs(t_)));
         last = t_ + kRestLevel * h >= stop_;
-        if (last) return method_->tables.length(stop_ - t_);
-        return h < level ? method_->tables.length(h) : method_->tables.level(flight_level_);
+        if (last) return method_.tables.length(stop_ - t_);
+        return h < level ? method_.tables.length(h) : method_.tables.level(flight_level_);
     }
 
     // Where the modes are coupled so strongly that this method has to resolve their vibration, the fallback is cheaper.
     bool too_short(double h) const {
-        const ModalForm& form = *method_->step.form;
+        const ModalForm& form = *method_.step.form;
         return !form.by_arrays() && h * form.oscillators.back().omega < kLeastTurns;
     }
 
@@ -204,14 +204,14 @@ class Exponential final : public Integrator {
     bool flight() {
         ExponentialSegment& s = segment();
         s.touching = false;
-        method_->step.begin(t_);
+        method_.step.begin(t_);
         for (bool rejected = false;; rejected = true) {
             if (rejected && too_short(step_length(flight_level_))) return false;
             bool last = false;
             const StepTable& table = flight_table(last);
-            const double error = solve_flight(method_->step, table);
+            const double error = solve_flight(method_.step, table);
             if (error <= 1) {
-                if (method_->tables.on_ladder(table) && !rejected && error < kLongerFlight)
+                if (method_.tables.on_ladder(table) && !rejected && error < kLongerFlight)
                     flight_level_ = std::min(flight_level_ + (error < kMuchLongerFlight ? 2 : 1), kHighestLevel);
                 s.t1 = last ? stop_ : t_ + table.h;
                 first_step_ = std::numeric_limits<double>::infinity();
@@ -224,7 +224,7 @@ class Exponential final : public Integrator {
                 throw StepFailure(step_failure_reason(std::isfinite(error)));
         }
         ++counters.steps;
-        method_->step.finish(nullptr);
+        method_.step.finish(nullptr);
         t_ = s.t1;
         return true;
     }
@@ -232,25 +232,25 @@ class Exponential final : public Integrator {
     bool begin_touch(double t, const double* y) {
         const ContactState c = system_.contact(t, y, true);
         if (c.at_end) return false;
-        method_->contact->begin_touch(c);
+        method_.contact->begin_touch(c);
         crawls_ = 0;
-        if (sharp_) crawl_ = kCrawl * system_.touch_time(t, y, c, method_->contact->approach);
+        if (sharp_) crawl_ = kCrawl * system_.touch_time(t, y, c, method_.contact->approach);
         return true;
     }
 
     // One step; false when this method cannot take the contact (the state is then that of the start).
     bool touch_step() {
         if (sharp_ && crawls_ > kMostCrawls) return false;
-        method_->step.begin(t_);
-        method_->contact->begin();
+        method_.step.begin(t_);
+        method_.contact->begin();
         for (bool rejected = false;; rejected = true) {
             const bool last = t_ + kRestLevel * step_length(touch_level_) >= stop_;
-            const StepTable& table = last ? method_->tables.length(stop_ - t_) : method_->tables.level(touch_level_);
-            double error = method_->contact->solve(table), length = table.h;
+            const StepTable& table = last ? method_.tables.length(stop_ - t_) : method_.tables.level(touch_level_);
+            double error = method_.contact->solve(table), length = table.h;
             if (std::isfinite(error)) {
-                if (method_->contact->deep()) return false;
+                if (method_.contact->deep()) return false;
                 TouchSamples::Ending ending = TouchSamples::Ending::open;
-                if (!system_.phase().held) error = method_->contact_end->cut(error, ending);
+                if (!system_.phase().held) error = method_.contact_end->cut(error, ending);
                 if (error <= 1) {
                     if (ending == TouchSamples::Ending::open && !last && !rejected && error < kLongerTouch)
                         touch_level_ = std::min(touch_level_ + (error < kMuchLongerTouch ? 2 : 1), kHighestLevel);
@@ -277,18 +277,18 @@ class Exponential final : public Integrator {
     void accept_touch(TouchSamples::Ending ending) {
         ExponentialSegment& s = segment();
         ++counters.steps;
-        method_->contact_end->accept(ending);
+        method_.contact_end->accept(ending);
         s.touching = true;
         s.t1 = s.t0 + s.h;
         first_step_ = s.h;
         if (s.h < crawl_) ++crawls_;
-        method_->step.finish(&method_->contact->load);
-        method_->contact->hold_end();
+        method_.step.finish(&method_.contact->load);
+        method_.contact->hold_end();
         s.samples.ending = ending;
-        s.samples.friction_over = method_->contact_end->friction_over();
-        method_->contact->fill(s.samples);
+        s.samples.friction_over = method_.contact_end->friction_over();
+        method_.contact->fill(s.samples);
         t_ = s.t1;
-        if (const double carry = std::exchange(method_->contact_end->carry, 0.0); carry != 0) {
+        if (const double carry = std::exchange(method_.contact_end->carry, 0.0); carry != 0) {
             shorten(t_ + carry);
             constexpr int kLast = TouchSamples::kCount - 1;
             s.samples.t[kLast] = t_;
@@ -298,7 +298,7 @@ class Exponential final : public Integrator {
 
     // Ends the step at `at` by solving it again.
     void solve_up_to(double at) {
-        if (!std::isfinite(method_->contact->solve(method_->tables.length(at - segment().t0))))
+        if (!std::isfinite(method_.contact->solve(method_.tables.length(at - segment().t0))))
             throw StepFailure("the contact force could not be solved for");
         accept_touch(TouchSamples::Ending::open);
     }
@@ -314,10 +314,11 @@ class Exponential final : public Integrator {
     }
 
     System& system_;
-    std::optional<ModalMethod> method_;  // absent: the fallback takes all phases
+    ModalMethod method_;
     std::unique_ptr<Integrator> fallback_;
     IntegratorCounters seen_;
-    bool falling_back_ = true, touching_ = false, sharp_ = false;
+    const bool sharp_;
+    bool falling_back_ = true, touching_ = false;
     double t_ = 0;
     int flight_level_ = kFirstFlightLevel, touch_level_ = kFirstTouchLevel;
     // [s] Limit of the next step of flight, and in contact of one of the fallback.
@@ -331,8 +332,6 @@ class Exponential final : public Integrator {
 };
 
 }  // namespace
-
-bool exponential_in_contact(System& system) { return ModalForm::exists(system); }
 
 std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol) {
     return std::make_unique<Exponential>(system, rtol, atol);

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/assert.hpp"
 #include "sim/base/linear_algebra.hpp"
-#include "sim/beam/constants.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/natural_modes.hpp"
 
@@ -41,15 +41,9 @@ std::shared_ptr<const ModalForm> ModalForm::of(System& system) {
     return modes_are_coordinates(system) ? by_arrays_of(system) : of_natural_modes(system);
 }
 
-bool ModalForm::exists(System& system) {
-    if (!modes_are_coordinates(system)) return of(system) != nullptr;
-    return !system.model().damped() || system.model().diagonal_damping();
-}
-
 std::shared_ptr<const ModalForm> ModalForm::by_arrays_of(System& system) {
     const auto* model = static_cast<const ModalModel*>(&system.model());
-    if (model->damped() && !model->diagonal_damping()) return nullptr;
-
+    BEAMCAM_ASSERT(!model->damped() || model->diagonal_damping());
     auto form = begin(system, *model);
     const ModalMatrices& m = model->matrices();
     const int n = form->n;
@@ -108,22 +102,10 @@ void ModalForm::transform(const Eigen::MatrixXd& by, double* state) const {
 std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     const Model& model = system.model();
     const Eigen::Index n = model.size() - 1;
-    if (n == 0) return nullptr;
     const NaturalModes& modes = system.natural_modes();
     auto form = begin(system, model);
     form->natural = modes.shapes;
     form->to_natural = modes.inverse;
-    Eigen::VectorXd gamma = Eigen::VectorXd::Zero(n);
-    if (form->damped) {
-        const std::vector<double> all = model.damping_matrix();
-        const Eigen::MatrixXd shapes = modes.shapes.bottomRightCorner(n, n),
-                              damping =
-                                  shapes.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * shapes;
-        gamma = damping.diagonal() / (2 * form->mass);
-        const Eigen::MatrixXd coupling = damping - Eigen::MatrixXd(damping.diagonal().asDiagonal());
-        if (coupling.cwiseAbs().maxCoeff() > kUncoupledDamping * damping.diagonal().cwiseAbs().maxCoeff())
-            return nullptr;
-    }
     form->mode_rows.assign(form->natural.data() + (n + 1), form->natural.data() + (n + 1) * (n + 1));
     const Eigen::MatrixXd rows = form->natural.rightCols(n).transpose();
     form->mode_columns.assign(rows.data(), rows.data() + rows.size());
@@ -131,8 +113,8 @@ std::shared_ptr<const ModalForm> ModalForm::of_natural_modes(System& system) {
     form->S = modes.S;
     form->shortening = true;
     for (Eigen::Index i = 0; i < n; ++i) {
-        if (!(modes.omega_squared[i] > 0)) return nullptr;
-        form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), gamma[i]});
+        BEAMCAM_ASSERT(modes.omega_squared[i] > 0);
+        form->oscillators.push_back({std::sqrt(modes.omega_squared[i]), 0.5 * modes.damping[i]});
     }
     form->groups = pack_oscillators(form->oscillators);
     form->shape = modes.shape;

@@ -17,10 +17,8 @@ namespace beamcam::sim {
 bool modes_are_coordinates(System& system);
 
 struct ModalForm {
-    // Null when the equations of this problem do not have the form: damping that couples the modes.
+    // Throws InertiaLost and std::domain_error where the straight beam has no positive inertia.
     static std::shared_ptr<const ModalForm> of(System& system);
-    // Whether `of` would return a form; costs nothing where the coupling is given by arrays.
-    static bool exists(System& system);
 
     int n = 0;  // modes
     // Natural modes of the straight beam with its hub, in columns: ξ = natural z, z = to_natural ξ, z₀ the rigid turn.

@@ -89,17 +89,12 @@ void ModeBasis::of_natural_modes(System& system) {
     S = std::fabs(m.S);
     const double root_mass = std::sqrt(mass), with_root = std::sqrt(reach / length),
                  arm = std::sqrt(reach - 0.5 * length);
-    Eigen::VectorXd damping = Eigen::VectorXd::Zero(n);
-    if (const std::vector<double> all = model->damping_matrix(); !all.empty()) {
-        const Eigen::MatrixXd beam = m.shapes.bottomRightCorner(n, n);
-        damping = (beam.transpose() * Eigen::Map<const Eigen::MatrixXd>(all.data(), n, n) * beam).diagonal() / mass;
-    }
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const double square = std::max(0.0, m.omega_squared[i]), steep = m.slope_norm[k] * with_root;
         modes.push_back({std::fabs(m.h[k]), m.h[k], by_mode[i + 1], std::fabs(m.U[i]), mass * std::fabs(m.weight[i]),
                          mass * square, root_mass * (1 + arm * steep), root_mass * steep, m.shape[k],
-                         m.shape[k] * m.beta[k], m.beta[k], std::sqrt(square), damping[i]});
+                         m.shape[k] * m.beta[k], m.beta[k], std::sqrt(square), m.damping[i]});
     }
 }
 

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "sim/dynamics/system.hpp"
-#include "sim/integrate/exponential.hpp"
 #include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
@@ -20,21 +19,7 @@ Problem at_tolerance(const Problem& problem) {
     return out;
 }
 
-// For equations that are not oscillators `auto` itself is rk8.
-Method other_method(const Problem& problem, System& system) {
-    switch (problem.solver.method) {
-        case Method::automatic:
-        case Method::exponential:
-            return exponential_in_contact(system) ? Method::rk8 : Method::cvode_adams;
-        case Method::rk8:
-            return Method::cvode_adams;
-        case Method::cvode_adams:
-        case Method::cvode_bdf:
-        case Method::arkode_erk:
-            break;
-    }
-    return Method::rk8;
-}
+Method other_method(Method method) { return method == Method::rk8 ? Method::cvode_adams : Method::rk8; }
 
 // The fastest rate that an explicit method must resolve, of vibration or of its decay [1/s].
 double fastest_rate(const System& system) {
@@ -111,7 +96,7 @@ Comparison comparison(const Problem& problem, double end) {
     System system(problem);
     Comparison out{at_tolerance(problem), false};
     if (fastest_rate(system) * end > kExplicitRadians * kMaxComparedSteps) return tighter_comparison(problem);
-    out.problem.solver.method = other_method(problem, system);
+    out.problem.solver.method = other_method(problem.solver.method);
     out.problem.solver.max_steps = std::min(problem.solver.max_steps, static_cast<int>(4 * kMaxComparedSteps));
     return out;
 }
@@ -119,9 +104,7 @@ Comparison comparison(const Problem& problem, double end) {
 Comparison tighter_comparison(const Problem& problem) { return {at_tolerance(problem), true}; }
 
 bool tighter_is_cheap(const Problem& problem) {
-    System system(problem);
-    const bool exponential = problem.solver.method == Method::automatic || problem.solver.method == Method::exponential;
-    return exponential && exponential_in_contact(system);
+    return problem.solver.method == Method::automatic || problem.solver.method == Method::exponential;
 }
 
 double other_needed_until(const Problem& problem, const Request& angle, const Result& plain, const Result& tighter) {
