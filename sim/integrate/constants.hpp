@@ -38,6 +38,8 @@ inline constexpr double kSeriesRadians = 2;         // [rad], or decays, up to w
 inline constexpr double kResolvedRadians = 3;
 // Vibration that turns by more radians in a step of flight is left out of the forcing, unless its ζ is larger. (S52b)
 inline constexpr double kFastRadians = 14, kMostDampingOfFast = 0.1;
+// In sustained contact, vibration that turns by more radians in a step is projected; growth by it begins at 14. (S52c)
+inline constexpr double kAliasedRadians = 7;
 // Bounds within a step.
 inline constexpr double kNodeOvershoot = 1.5;  // largest value of a polynomial over that at the nodes
 // Of the Legendre polynomial P₈ on a step: its largest integral from the start, and the integral of that over half of

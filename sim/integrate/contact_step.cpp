@@ -45,9 +45,11 @@ void ContactStep::begin_touch(const ContactState& c) {
     start.dx = c.x - expansion_.at();
 }
 
-double ContactStep::solve(const StepTable& table) {
+double ContactStep::solve(const StepTable& nodal) {
     ExponentialSegment& s = step_.segment;
-    const double h = table.h;
+    const double h = nodal.h;
+    if (held_ && projected_.h != h) projected_.build_projected(form_.oscillators, nodal);
+    const StepTable& table = held_ ? projected_ : nodal;
     s.begin(h, {});
     step_.place_hub(h);
     if (!linearize(table)) return kNoSolution;
@@ -62,13 +64,21 @@ double ContactStep::solve(const StepTable& table) {
         if (!improve(table, sweep == 0 ? kFootCorrections : 1)) return kNoSolution;
         if (held_ || decays_ > (is_steady(load.force) ? kSteadyDecay : kFastDecay))
             iteration.demand(kShareOfIteration / kContactShare, kSlowestContraction);
-        status = iteration.add(step_.update_forcing(table, &load));
+        const double change = step_.update_forcing(table, &load);
+        // The forces of a constraint follow the other forcing one sweep later: every second change shows the
+        // contraction.
+        if (!held_ || sweep % 2 == 1) status = iteration.add(change);
     }
     if (status != FixedPoint::Status::settled && !iteration.enough()) return kNoSolution;
     move(-1);
     step_.propagate(table);
     step_.propagate_rates(table);
     move(1);
+    if (held_) {
+        step_.propagate_free(nodal);
+        step_.propagate(nodal);
+        step_.propagate_rates(nodal);
+    }
     if (friction_.bristle && !bristle_.settle(load.force, load.contact.slip, load.friction, s.bristle_rate))
         return kNoSolution;
     step_.arrive(table);

@@ -19,7 +19,7 @@ class ContactStep {
     void begin();
     // Solves for the nodal forces. Returns the error in units of the tolerance, kNoSolution if Newton's method fails or
     // the contact leaves the range of its expansion.
-    double solve(const StepTable& table);
+    double solve(const StepTable& nodal);
     // The contact at one state, in coordinates.
     void evaluate(double t, const double* state, ContactKinematics<double>& touch);
     // The contact is deeper than half of the disc's radius, beyond its geometry; another method continues.
@@ -64,6 +64,7 @@ class ContactStep {
         double off = 0;    // ġ + κg, by which a state is off the constraint (S45) [m/s]
     } held_start_, held_end_;
     Lanes off_at_nodes_{};  // ġ + κg that the nodes are to have
+    StepTable projected_;   // of the vibrations, in sustained contact
     double gap_offset_ = 0, centred_ = -1;
     double force_rounding_ = 0;  // of the force by rounding of the penetration [N]
     double decays_ = 0;          // decay of the contact's own damping within the step [–]

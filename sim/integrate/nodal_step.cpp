@@ -53,14 +53,17 @@ void NodalStep::propagate_rates(const StepTable& table) {
     kernels_.propagate_rates(n, table.rows.data(), segment.f.data(), base_v_.data(), segment.v.data());
 }
 
-void NodalStep::propagate_unforced(const StepTable& table) {
-    ExponentialSegment& s = segment;
+void NodalStep::propagate_free(const StepTable& table) {
     for (std::size_t i = 0; i < n; ++i) {
         const StepTable::Row& row = table.rows[i];
-        base_q_[i] = row.qq * s.q0[i] + row.qv * s.v0[i];
-        base_v_[i] = row.vq * s.q0[i] + row.vv * s.v0[i];
-        smooth_force(i, s.f[i]);
+        base_q_[i] = row.qq * segment.q0[i] + row.qv * segment.v0[i];
+        base_v_[i] = row.vq * segment.q0[i] + row.vv * segment.v0[i];
     }
+}
+
+void NodalStep::propagate_unforced(const StepTable& table) {
+    propagate_free(table);
+    for (std::size_t i = 0; i < n; ++i) smooth_force(i, segment.f[i]);
     weigh_fast(table);
 }
 

@@ -35,7 +35,9 @@ struct NodalStep {
     void begin(double t);
     // The hub at the nodes: as prescribed, or guessed as a rigid pendulum.
     void place_hub(double h);
-    // The free motion of q and q̇, and the part of the forcing that does not depend on them.
+    // The free motion of q and q̇ at the nodes.
+    void propagate_free(const StepTable& table);
+    // The same, and the part of the forcing that does not depend on q and q̇.
     void propagate_unforced(const StepTable& table);
     void propagate(const StepTable& table);
     // The same with the quasi-static deflection of the fast modes.                                            (S52b)

@@ -54,6 +54,22 @@ void respond_by_decays(const Decays& d, const double* power, double tau, double*
     for (int j = 0; j < kNodes; ++j) r[2 + j] = power[j + 1] * (slow[j] - fast[j]) / d.apart();
 }
 
+// q and v at a point of a step, over the nodal forcing, of the polynomial motion Σ c_j f⁽ʲ⁾ that follows it.    (S52b)
+void follow_forcing(const Oscillator& o, double h, std::size_t point, Lanes& q, Lanes& v) {
+    const std::array<Lanes, kNodes>& derive = Collocation::get().derive[point];
+    const double w2 = o.omega * o.omega;
+    double inverse[kNodes];  // 1/hʲ
+    inverse[0] = 1;
+    for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    q = v = Lanes{};
+    double c = 1 / w2, before = 0;
+    for (std::size_t j = 0; j < kNodes; ++j) {
+        q += (c * inverse[j]) * derive[j];
+        if (j + 1 < kNodes) v += (c * inverse[j + 1]) * derive[j + 1];
+        before = std::exchange(c, -(2 * o.gamma * c + before) / w2);
+    }
+}
+
 }  // namespace
 
 bool decays(const Oscillator& o) { return o.gamma > kTwoDecays * o.omega; }
@@ -161,15 +177,7 @@ void StepTable::build_row(std::size_t i, const Oscillator& o, const double* inve
     const Collocation& gauss = Collocation::get();
     Row& row = rows[i];
     const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
-    if (o.omega * h > kFastRadians) {
-        row.steady = row.steady_rate = Lanes{};
-        double c = 1 / w2, before = 0;  // q = Σ c_j f⁽ʲ⁾
-        for (std::size_t j = 0; j < kNodes; ++j) {
-            row.steady += (c * inverse[j]) * gauss.derive[0][j];
-            if (j + 1 < kNodes) row.steady_rate += (c * inverse[j + 1]) * gauss.derive[0][j + 1];
-            before = std::exchange(c, -(damping * c + before) / w2);
-        }
-    }
+    if (o.omega * h > kAliasedRadians) follow_forcing(o, h, 0, row.steady, row.steady_rate);
     // From point to point, each by the expansion at its start.
     double qq = 1, qv = 0, vq = 0, vv = 1;
     Lanes q{}, v{};
@@ -207,6 +215,39 @@ void StepTable::build_row(std::size_t i, const Oscillator& o, const double* inve
     row.end_qv = qv;
     row.end_vq = vq;
     row.end_vv = vv;
+}
+
+void StepTable::build_projected(const std::vector<Oscillator>& oscillators, const StepTable& table) {
+    h = table.h;
+    rows = table.rows;
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+        const Oscillator& o = oscillators[i];
+        if (o.omega * h > kAliasedRadians && o.gamma <= kMostDampingOfFast * o.omega) project_row(o, rows[i]);
+    }
+}
+
+// The free vibration by ∫₀ʰ ℓ_k s = ∫₀ʰ ℓ_{7−k}(u) s(h − u) du, which are the weights of the end; forced motion follows
+// the forcing but for a free vibration.
+void StepTable::project_row(const Oscillator& o, Row& row) const {
+    const Collocation& gauss = Collocation::get();
+    Lanes s, ds;
+    for (int k = 0; k < kNodes; ++k) {
+        s[k] = row.end_q[kNodes - 1 - k] / (h * gauss.b[k]);
+        ds[k] = row.end_v[kNodes - 1 - k] / (h * gauss.b[k]);
+    }
+    row.qq = ds + 2 * o.gamma * s;
+    row.qv = s;
+    row.vq = -(o.omega * o.omega) * s;
+    row.vv = ds;
+    for (int k = 0; k < kNodes; ++k) {
+        Lanes q, v;
+        follow_forcing(o, h, static_cast<std::size_t>(k) + 1, q, v);
+        for (std::size_t l = 0; l < kNodes; ++l) {
+            const int node = static_cast<int>(l);
+            row.q[l][k] = q[node] - row.qq[k] * row.steady[node] - row.qv[k] * row.steady_rate[node];
+            row.v[l][k] = v[node] - row.vq[k] * row.steady[node] - row.vv[k] * row.steady_rate[node];
+        }
+    }
 }
 
 }  // namespace beamcam::sim

@@ -46,7 +46,7 @@ struct StepTable {
         std::array<Lanes, kNodes> q, v;
         Lanes end_q, end_v;  // over l
         double end_qq, end_qv, end_vq, end_vv;
-        // Of oscillators that turn by more than kFastRadians: q and v at the start, over l, of the polynomial motion
+        // Of oscillators that turn by more than kAliasedRadians: q and v at the start, over l, of the polynomial motion
         // that follows the forcing without vibration.                                                        (S52b)
         Lanes steady, steady_rate;
     };
@@ -54,9 +54,13 @@ struct StepTable {
     std::vector<Row> rows;
     // `groups`: the same oscillators packed in lanes.
     void build(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups, double length);
+    // The same step; but of vibrations that the nodes do not resolve, q and v are at the nodes those of the nearest
+    // polynomial of degree seven, by least squares.                                                          (S52c)
+    void build_projected(const std::vector<Oscillator>& oscillators, const StepTable& table);
 
   private:
     void build_row(std::size_t i, const Oscillator& oscillator, const double* inverse);  // [j]: 1/hʲ
+    void project_row(const Oscillator& oscillator, Row& row) const;
 
     std::vector<Lanes> responses_;  // kept for its memory
 };

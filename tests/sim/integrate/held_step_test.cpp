@@ -2,6 +2,9 @@
 #include <cmath>
 #include <ostream>
 
+#include "sim/base/numerics.hpp"
+#include "sim/integrate/constants.hpp"
+#include "sim/integrate/oscillator.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing::held_motion {
@@ -77,13 +80,78 @@ TEST(HeldMotion, StaysOnTheCam) {
     EXPECT_GT(extremum(p, "gap", 5).min, -1e-11);
 }
 
+double steps(Problem p, int modes) {
+    p.beam.modes = modes;
+    return static_cast<double>(run(p, 1).counters.steps);
+}
+
 TEST(HeldMotion, TakesStepsThatDoNotFollowTheHighestMode) {
-    const auto steps = [](int modes) {
-        Problem p = following({"", damped});
-        p.beam.modes = modes;
-        return static_cast<double>(run(p, 1).counters.steps);
-    };
-    EXPECT_LT(steps(24), 5 * steps(3));  // whose highest frequency is a seventieth
+    for (const Case& c : {Case{"Damped", damped}, Case{"Plain", plain}}) {
+        const Problem p = following(c);
+        EXPECT_LT(steps(p, 24), 5 * steps(p, 3)) << c.name;  // whose highest frequency is a seventieth
+    }
+}
+
+// No vibration grows from rounding until it limits the steps.
+TEST(HeldMotion, TakesTheLongestStepsAtRest) {
+    for (const Case& c : {Case{"Plain", plain}, Case{"SecondOrder", second_order}, Case{"Exact", exact}}) {
+        Problem p = following(c);
+        p.cam->speed = 0;
+        for (const double rtol : {1e-4, 1e-6}) {
+            set_tolerance(p, rtol);
+            EXPECT_LT(steps(p, 8), 20) << c.name << " at " << rtol;
+        }
+    }
+}
+
+// ∫₀¹ ℓ_k f over b_k, by Gauss's rule in 100 parts.
+template <class F>
+double projection(int k, const F& f) {
+    constexpr int kParts = 100;
+    const Collocation& gauss = Collocation::get();
+    double total = 0;
+    for (int part = 0; part < kParts; ++part)
+        for (int i = 0; i < kNodes; ++i) {
+            const double s = (part + gauss.c[i]) / kParts;
+            double p[kNodes], basis = 0;
+            legendre(2 * s - 1, kNodes, p);
+            for (std::size_t j = 0; j < kNodes; ++j) basis += gauss.legendre[j][k] * p[j];
+            total += gauss.b[i] / kParts * basis * f(s);
+        }
+    return total / gauss.b[k];
+}
+
+TEST(ProjectedSteps, HaveTheNearestPolynomialsOfVibrations) {
+    const double h = 0.01, q0 = 0.7;
+    const Collocation& gauss = Collocation::get();
+    const Lanes f = 5 + 3 * gauss.c - 2 * gauss.c * gauss.c * gauss.c;
+    for (const double turn : {7.1, 14.0, 60.0, 300.0})
+        for (const double ratio : {0.0, 0.05}) {
+            const Oscillator o{turn / h, ratio * turn / h};
+            const double w2 = o.omega * o.omega, v0 = -q0 * o.omega;
+            const auto motion = [&](double s, double& q, double& v) {
+                double r[kResponse];
+                respond(o, s * h, r);
+                q = (r[0] + 2 * o.gamma * r[1]) * q0 + r[1] * v0 +
+                    w2 * (5 * r[2] + 3 / h * r[3] - 12 / (h * h * h) * r[5]);
+                v = r[0] * v0 - w2 * r[1] * q0 + w2 * (5 * r[1] + 3 / h * r[2] - 12 / (h * h * h) * r[4]);
+            };
+            StepTable table, projected;
+            table.build({o}, pack_oscillators({o}), h);
+            projected.build_projected({o}, table);
+            const StepTable::Row& row = projected.rows[0];
+            Lanes q = row.qq * q0 + row.qv * v0, v = row.vq * q0 + row.vv * v0;
+            for (int l = 0; l < kNodes; ++l) {
+                q += (w2 * f[l]) * row.q[static_cast<std::size_t>(l)];
+                v += (w2 * f[l]) * row.v[static_cast<std::size_t>(l)];
+            }
+            for (int k = 0; k < kNodes; ++k) {
+                double of_q, of_v;
+                EXPECT_NEAR(q[k], projection(k, [&](double s) { return motion(s, of_q, of_v), of_q; }), 1e-11);
+                EXPECT_NEAR(v[k], projection(k, [&](double s) { return motion(s, of_q, of_v), of_v; }),
+                            1e-11 * o.omega);
+            }
+        }
 }
 
 }  // namespace
