@@ -48,48 +48,69 @@ bool meets_body(const Box& box, const SeenFrame& now) {
     return with_bodies(OccupancyGrid(box, 4 * now.at.unit), now).covered(box.inset(0.01)) > 0.01;
 }
 
+// A label in this box hides neither a body nor its owner.
+static bool is_clear(const Box& box, const SeenFrame& now, const std::vector<Box>& owner) {
+    const Box kept = box.inset(-kMargin * now.at.unit);
+    return std::ranges::none_of(owner, [&](const Box& part) { return kept.overlaps(part); }) && !meets_body(kept, now);
+}
+
+// From the wanted place, moved into the view, to the nearest clear one; none if that is far.
+static std::optional<Vec2> way_aside(const Box& box, const SeenFrame& now, const std::vector<Box>& owner) {
+    if (is_clear(box, now, owner)) return Vec2{};
+    const double cell = 4 * now.at.unit;
+    const Box within = now.at.label_area(), near = box.inset(-kFarthestShift * now.at.unit);
+    const double x = std::max(within.x, near.x), y = std::max(within.y, near.y);
+    const Box around{x, y, std::min(within.right(), near.right()) - x, std::min(within.bottom(), near.bottom()) - y};
+    OccupancyGrid room = with_bodies(OccupancyGrid(around, cell), now);
+    for (const Box& part : owner) room.cover(part);
+    const Box free = room.nearest_free(box.inset(-cell)).inset(cell);
+    if (!is_clear(free, now, owner)) return std::nullopt;
+    return free.centre() - box.centre();
+}
+
 void shift_clear(LabelPlace& label, const MechanismCameras& cameras,
                  const std::function<std::optional<WantedPlace>(const SeenFrame&)>& wanted) {
     const FilmContext& context = cameras.view(0).context;
     const auto frames = static_cast<std::size_t>(context.frames());
-    std::vector<std::optional<Vec2>> aside(frames);  // from the wanted place
-    std::vector<Vec2> usual(frames);                 // to the wanted place
-    std::vector<Box> boxes(frames);                  // the wanted places
+    std::vector<std::optional<Vec2>> aside(frames);
+    std::vector<std::optional<WantedPlace>> places(frames);
     std::vector<int> met;
     for (std::size_t k = 0; k < frames; ++k) {
         const SeenFrame now(cameras, static_cast<int>(k));
-        const auto place = wanted(now);
-        if (!place) continue;
-        const double u = now.at.unit;
-        const Box box = now.at.inside_view(place->box);
-        usual[k] = box.centre() - place->base - label.offset;
-        boxes[k] = box;
-        aside[k] = Vec2{};
-        const bool pushed = !(box == place->box);
-        if (pushed && std::ranges::any_of(place->owner, [&](const Box& part) { return box.overlaps(part); })) {
-            aside[k].reset(), met.push_back(now.frame);
-            continue;
-        }
-        if (!meets_body(box.inset(-kMargin * u), now)) continue;
-        const OccupancyGrid room = with_bodies(OccupancyGrid(now.at.label_area(), 4 * u), now);
-        const Box free = room.nearest_free(box.inset(-4 * u)).inset(4 * u);
-        if (norm(free.centre() - box.centre()) > kFarthestShift * u || meets_body(free, now))
-            aside[k].reset(), met.push_back(now.frame);
-        else
-            aside[k] = free.centre() - box.centre();
+        if (places[k] = wanted(now); !places[k]) continue;
+        places[k]->box = now.at.inside_view(places[k]->box);
+        aside[k] = way_aside(places[k]->box, now, places[k]->owner);
+        if (!aside[k]) met.push_back(now.frame);
     }
     label.shifts = averaged(aside, static_cast<int>(kSmoothedShifts / 2 * context.setup->fps));
     for (std::size_t k = 0; k < frames; ++k) {
-        if (aside[k] && !(label.shifts[k] == *aside[k])) {
+        if (!places[k]) continue;
+        const WantedPlace& place = *places[k];
+        Vec2& shift = label.shifts[k];
+        if (aside[k] && !(shift == *aside[k])) {
             const SeenFrame now(cameras, static_cast<int>(k));
-            Box there = boxes[k];
-            there.x += label.shifts[k].x, there.y += label.shifts[k].y;
-            if (meets_body(now.at.inside_view(there).inset(-kMargin * now.at.unit), now)) label.shifts[k] = *aside[k];
+            const Box there{place.box.x + shift.x, place.box.y + shift.y, place.box.w, place.box.h};
+            if (!is_clear(now.at.inside_view(there), now, place.owner)) shift = *aside[k];
         }
-        const Vec2 whole = label.shifts[k] + usual[k];  // rounded: it is the same while the camera rests
-        label.shifts[k] = {std::round(64 * whole.x) / 64, std::round(64 * whole.y) / 64};
+        shift = shift + place.box.centre() - place.base - label.offset;
+        shift = {std::round(64 * shift.x) / 64, std::round(64 * shift.y) / 64};  // the same while the camera rests
     }
     fade_about(label, met, context, kFastFade);
+}
+
+LabelPlace placed_near(const MechanismView& at, const Perspective* by, const OccupancyGrid& room, const Box& preferred,
+                       Vec2 base, double clear) {
+    const Box found = room.nearest_free(preferred.inset(-at.unit - clear));
+    const Vec2 on_base = at.look.camera.to_world(base);
+    return {on_base, found.centre() - at.seen(at.px(on_base), by), {preferred.w, preferred.h}, {}, {}};
+}
+
+void fade_where_met(LabelPlace& label, const MechanismCameras& cameras) {
+    const FilmContext& context = cameras.view(0).context;
+    std::vector<int> met;
+    for (int k = 0; k < context.frames(); ++k)
+        if (const SeenFrame now(cameras, k); meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);
+    fade_about(label, met, context);
 }
 
 void fade_about(LabelPlace& label, const std::vector<int>& met, const FilmContext& context, double lasts) {

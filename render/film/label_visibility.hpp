@@ -23,6 +23,11 @@ struct SeenFrame {
 // Covers the bodies and the arrow of the force.
 OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now, const ForceArrow* arrow = nullptr);
 bool meets_body(const Box& box, const SeenFrame& now);
+// The free place of a label nearest to the preferred box. `by`: of the solid view; `base`: in the flat view [px].
+LabelPlace placed_near(const MechanismView& at, const Perspective* by, const OccupancyGrid& room, const Box& preferred,
+                       Vec2 base, double clear = 0);
+// Hides the label in the frames in which a body is in its place.
+void fade_where_met(LabelPlace& label, const MechanismCameras& cameras);
 // Number of frames, by a sample, in which a label in this box is visible, of those with a pose that counts.
 double frames_visible(const Box& box, const MechanismCameras& cameras,
                       const std::function<bool(const sim::Pose&)>& counts);
@@ -30,10 +35,11 @@ double frames_visible(const Box& box, const MechanismCameras& cameras,
 struct WantedPlace {
     Vec2 base;  // the point beside which it is drawn [px]
     Box box;
-    std::vector<Box> owner = {};  // over which the edge of the view must not push it [px]
+    std::vector<Box> owner;  // what it belongs to, which it must not hide [px]
 };
 // Shifts the label of a moving camera in each frame: to the place that is wanted, none while its owner is out of view,
-// or else to the nearest free one. Where that is far, it is hidden.
+// or else to the nearest one that is inside the view and hides neither a body nor the owner. Where that is far, the
+// label is hidden.
 void shift_clear(LabelPlace& label, const MechanismCameras& cameras,
                  const std::function<std::optional<WantedPlace>(const SeenFrame&)>& wanted);
 inline constexpr double kLabelFade = 0.2;  // duration of fading a label without a free place [s]

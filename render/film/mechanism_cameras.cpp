@@ -85,10 +85,16 @@ std::optional<Perspective> MechanismCameras::perspective(const MechanismView& at
     return looking(at, yaw + view.swing * std::sin(turn), pitch);
 }
 
+std::optional<Perspective> MechanismCameras::usual() const {
+    const View& view = home_.context.setup->view;
+    if (view.style != Style::solid) return std::nullopt;
+    return looking(home_, view.shot.yaw, view.shot.pitch);
+}
+
 std::vector<Perspective> MechanismCameras::projections() const {
     const View& view = home_.context.setup->view;
     if (view.style != Style::solid) return {};
-    std::vector<Perspective> out{looking(home_, view.shot.yaw, view.shot.pitch)};
+    std::vector<Perspective> out{*usual()};
     for (const double way : {-1.0, -0.5, 0.5, 1.0})
         if (view.swing != 0) out.push_back(looking(home_, view.shot.yaw + way * view.swing, view.shot.pitch));
     for (const CameraMove& move : home_.context.setup->moves)

@@ -22,7 +22,9 @@ class MechanismCameras {
     MechanismView view(int frame) const;
     // Of the solid view; none in flat and lit films.
     std::optional<Perspective> perspective(const MechanismView& at, int frame) const;
-    // The usual projection, and those of the swing and of the keyframes; empty in flat and lit films.
+    // The usual projection; none in flat and lit films.
+    std::optional<Perspective> usual() const;
+    // The usual one, and those of the swing and of the keyframes; empty in flat and lit films.
     std::vector<Perspective> projections() const;
 
   private:

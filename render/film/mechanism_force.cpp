@@ -1,11 +1,19 @@
 // The arrow of the contact force, its label, and the leader line between them.
 #include <algorithm>
+#include <ranges>
 #include <string>
 
+#include "render/film/label_visibility.hpp"
 #include "render/film/mechanism_marks.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
+namespace {
+
+constexpr double kSameEpisode = 0.5;         // longest time without a force during which its label keeps its place [s]
+constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
+
+}  // namespace
 
 std::string force_label(const MechanismView& at, const ForceArrow& arrow) {
     const std::string peak_of = arrow.is_peak ? at.context.translate("peak") + "\u00A0" : std::string();
@@ -26,6 +34,81 @@ std::optional<ForceArrow> force_arrow_of(const sim::Pose& pose, const DrawnBeam&
     if (peak || !shows_force(pose, beam)) return peak;
     return ForceArrow{beam.contact->on_disc, beam.contact->normal, pose.nearest->force};
 }
+
+// ---- the place of the label --------------------------------------------------------------------
+
+// Beside the tip of the arrow, beyond the beam.
+static Box beside_tip(const MechanismView& at, const Perspective* view, const ForceArrow& arrow, Vec2 size) {
+    const double u = at.unit,
+                 length = force_label_distance(arrow_length(at, arrow), at.look.depth * at.look.camera.scale, u);
+    const Vec2 n{arrow.normal.x, -arrow.normal.y}, tip = at.seen(at.px(arrow.foot) + n * length, view);
+    const bool right = n.x > 0.5;  // on its left is the beam
+    return {tip.x + (right ? 14 * u : -14 * u - size.x), tip.y - size.y / 2, size.x, size.y};
+}
+
+// Of each frame with a force, the largest one of its contact [N].
+static std::vector<double> largest_of_episodes(const LabelNeeds& needs, double most_apart) {
+    std::vector<double> out(needs.arrows.size());
+    for (std::size_t first = 0, end; first < needs.arrows.size(); first = end) {
+        end = first + 1;
+        while (end < needs.arrows.size() && needs.frames[end] - needs.frames[end - 1] <= most_apart) ++end;
+        const auto all = std::ranges::subrange(needs.arrows.begin() + std::ptrdiff_t(first),
+                                               needs.arrows.begin() + std::ptrdiff_t(end));
+        const double most = std::ranges::max_element(all, {}, &ForceArrow::force)->force;
+        std::fill(out.begin() + std::ptrdiff_t(first), out.begin() + std::ptrdiff_t(end), most);
+    }
+    return out;
+}
+
+static std::vector<Box> along(const SeenFrame& now, const ForceArrow& arrow) {
+    constexpr int kPieces = 16;
+    const Vec2 foot = now.at.seen(now.at.px(arrow.foot), now.by()), way = arrow_tip(now.at, now.by(), arrow) - foot;
+    std::vector<Box> out;
+    for (int i = 0; i <= kPieces; ++i) {
+        const Vec2 on = foot + way * (static_cast<double>(i) / kPieces);
+        out.push_back(Box{on.x, on.y, 0, 0}.inset(-8 * now.at.marks));
+    }
+    return out;
+}
+
+// Before a moving camera the label is beside the tip of the largest arrow of its contact.
+static void keep_beside_tip(LabelPlace& label, const MechanismCameras& cameras, const LabelNeeds& needs, double fps) {
+    const std::vector<double> largest = largest_of_episodes(needs, kSameEpisode * fps);
+    shift_clear(label, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
+        const auto found = std::ranges::lower_bound(needs.frames, now.frame);
+        if (found == needs.frames.end() || *found != now.frame) return std::nullopt;
+        const auto i = static_cast<std::size_t>(found - needs.frames.begin());
+        ForceArrow arrow = needs.arrows[i];
+        const std::vector<Box> drawn = along(now, arrow);
+        arrow.force = largest[i];
+        return WantedPlace{now.at.seen(now.at.px(arrow.foot), now.by()),
+                           beside_tip(now.at, now.by(), arrow, label.size), drawn};
+    });
+}
+
+// Beside the tip of the longest arrow, clear of the beam.
+LabelPlace place_force_label(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
+                             const OccupancyGrid& room, Canvas& canvas) {
+    const ForceArrow& most = *std::ranges::max_element(needs.arrows, {}, &ForceArrow::force);
+    double width = 0;
+    const auto measure = [&](const ForceArrow& arrow) {
+        width = std::max(width, canvas.measure(force_label(at, arrow), force_style(at)).w);
+    };
+    measure(most);
+    const std::size_t step = 1 + needs.arrows.size() / kMeasuredPushes;
+    for (std::size_t i = 0; i < needs.arrows.size(); i += step) measure(needs.arrows[i]);
+    const Vec2 size{width, label_size(at) * 4 / 3};
+    const std::optional<Perspective> usual = cameras.usual();
+    const Perspective* view = usual ? &*usual : nullptr;
+    LabelPlace out = placed_near(at, view, room, beside_tip(at, view, most, size), at.px(most.foot));
+    if (cameras.move())
+        keep_beside_tip(out, cameras, needs, at.context.setup->fps);
+    else if (room.covered(at.label_box(out, view)) > 0)
+        fade_where_met(out, cameras);
+    return out;
+}
+
+// ---- drawing -----------------------------------------------------------------------------------
 
 static bool names_force(const MechanismScene& s, Vec2 foot) {
     return s.at.labelled() && s.at.shows(foot) && s.at.labels->force;

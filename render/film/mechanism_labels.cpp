@@ -15,11 +15,9 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kText = 4;                  // weight of labels, over which names are not readable; of bodies 1
-constexpr double kFarthestLetter = 65;       // largest distance of θ from its arc [design px of the letter]
-constexpr double kLowestLetter = 1.2;        // largest angle of θ beyond the horizontal [rad]
-constexpr double kSameEpisode = 0.5;         // longest time without a force during which its label keeps its place [s]
-constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
+constexpr double kText = 4;             // weight of labels, over which names are not readable; of bodies 1
+constexpr double kFarthestLetter = 65;  // largest distance of θ from its arc [design px of the letter]
+constexpr double kLowestLetter = 1.2;   // largest angle of θ beyond the horizontal [rad]
 
 Box about(Vec2 middle, Vec2 size) { return {middle.x - size.x / 2, middle.y - size.y / 2, size.x, size.y}; }
 
@@ -41,9 +39,7 @@ namespace {
 class LabelPlacer {
   public:
     LabelPlacer(const MechanismView& home, const MechanismCameras& seen_by, const LabelNeeds& all)
-        : at(home), cameras(seen_by), u(home.unit), needs(all) {
-        if (const auto projections = cameras.projections(); !projections.empty()) view = projections.front();
-    }
+        : at(home), cameras(seen_by), u(home.unit), needs(all), view(seen_by.usual()) {}
 
     // Radius at which the letter fits beside the arc, limited by the panel. An arc that has no room between hub and cam
     // is beyond the cam or, if the beam is too short for that, behind the disc; so is that of the solid view, whose
@@ -115,7 +111,7 @@ class LabelPlacer {
         for (const Box& box : arrow_boxes(way)) taken.cover(box.inset(-3 * u), 1);
         const double edge = speed_radius(at) - speed_gap(at);
         LabelPlace out = place(taken, speed_box(way, width), axis() + down(way) * edge);
-        fade(out, taken, [this, way](const SeenFrame& now, Vec2) { return arrow_boxes(way, now.at, now.by()); });
+        fade(out, taken, [this, way](const SeenFrame& now) { return arrow_boxes(way, now.at, now.by()); });
         return out;
     }
 
@@ -132,25 +128,6 @@ class LabelPlacer {
         return out;
     }
 
-    // Beside the tip of the longest arrow, clear of the beam.
-    LabelPlace force(const OccupancyGrid& room, Canvas& canvas) const {
-        const ForceArrow& most = *std::ranges::max_element(needs.arrows, {}, &ForceArrow::force);
-        double width = 0;
-        const auto measure = [&](const ForceArrow& arrow) {
-            width = std::max(width, canvas.measure(force_label(at, arrow), force_style(at)).w);
-        };
-        measure(most);
-        const std::size_t step = 1 + needs.arrows.size() / kMeasuredPushes;
-        for (std::size_t i = 0; i < needs.arrows.size(); i += step) measure(needs.arrows[i]);
-        const Vec2 size{width, label_size(at) * 4 / 3};
-        LabelPlace out = place(room, beside_tip(at, usual(), most, size), at.px(most.foot));
-        if (cameras.move())
-            keep_beside_tip(out);
-        else
-            fade(out, room, {});
-        return out;
-    }
-
   private:
     // A smaller arc is not drawn [px].
     double least_arc() const { return at.hub() + 22 * at.marks; }
@@ -161,7 +138,16 @@ class LabelPlacer {
     LabelPlace beside_arc(Vec2 way, Vec2 size, double radius, const OccupancyGrid& room) const {
         const Vec2 on_arc = way * (radius / norm(way));
         LabelPlace out{at.look.camera.to_world(at.px({0, 0}) + on_arc), way - on_arc, size, {}, {}};
-        fade(out, room, [this](const SeenFrame&, Vec2 base) { return std::vector{about(base, Vec2{6, 6} * u)}; });
+        fade(out, room, [this, radius](const SeenFrame& now) {
+            constexpr int kPieces = 32;
+            const double angle = drawn_angle(now.at.context.pose(now.at.member, now.frame));
+            std::vector<Box> boxes;
+            for (int i = 0; i <= kPieces; ++i) {
+                const Vec2 on_drawn = now.at.px({0, 0}) + down(angle * i / kPieces) * (radius * now.at.zoom());
+                boxes.push_back(about(now.at.seen(on_drawn, now.by()), Vec2{2, 2} * u));
+            }
+            return boxes;
+        });
         return out;
     }
 
@@ -201,61 +187,23 @@ class LabelPlacer {
     const Perspective* usual() const { return view ? &*view : nullptr; }
     Vec2 on(Vec2 flat) const { return at.seen(flat, usual()); }
 
-    Box beside_tip(const MechanismView& now, const Perspective* seen_by, const ForceArrow& arrow, Vec2 size) const {
-        const Vec2 n{arrow.normal.x, -arrow.normal.y};
-        const double depth = now.look.depth * now.look.camera.scale;
-        const Vec2 tip =
-            now.seen(now.px(arrow.foot) + n * force_label_distance(arrow_length(now, arrow), depth, u), seen_by);
-        const bool right = n.x > 0.5;  // on its left is the beam
-        return {tip.x + (right ? 14 * u : -14 * u - size.x), tip.y - size.y / 2, size.x, size.y};
-    }
-
-    // `base`: in the flat view [px].
     LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base, double clear = 0) const {
-        const Box found = room.nearest_free(preferred.inset(-u - clear));
-        const Vec2 on_base = at.look.camera.to_world(base);
-        return {on_base, found.centre() - on(at.px(on_base)), {preferred.w, preferred.h}, {}, {}};
+        return placed_near(at, usual(), room, preferred, base, clear);
     }
 
-    // What the label belongs to, as seen; `base`: of the label.
-    using Owner = std::function<std::vector<Box>(const SeenFrame& now, Vec2 base)>;
+    using Owner = std::function<std::vector<Box>(const SeenFrame&)>;  // what the label belongs to, as seen
 
     // The label is hidden in frames in which a moving part is in its place, before a moving camera if there is no
     // other.
     void fade(LabelPlace& label, const OccupancyGrid& room, const Owner& owner) const {
-        if (cameras.move())
-            return shift_clear(label, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
-                const Vec2 base = now.at.seen(now.at.px(label.base), now.by());
-                if (!now.at.shows(base)) return std::nullopt;
-                return WantedPlace{base, about(base + label.offset, label.size), owner(now, base)};
-            });
-        if (room.covered(box(label)) == 0) return;
-        std::vector<int> met;
-        for (int k = 0; k < at.context.frames(); ++k)
-            if (const SeenFrame now(cameras, k); meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);
-        fade_about(label, met, at.context);
-    }
-
-    // Before a moving camera the label is beside the tip of the largest arrow of its contact, beyond the beam.
-    void keep_beside_tip(LabelPlace& label) const {
-        const double most_apart = kSameEpisode * at.context.setup->fps;
-        std::vector<double> largest(needs.arrows.size());
-        for (std::size_t first = 0, end; first < needs.arrows.size(); first = end) {
-            end = first + 1;
-            while (end < needs.arrows.size() && needs.frames[end] - needs.frames[end - 1] <= most_apart) ++end;
-            const auto all = std::ranges::subrange(needs.arrows.begin() + std::ptrdiff_t(first),
-                                                   needs.arrows.begin() + std::ptrdiff_t(end));
-            const double most = std::ranges::max_element(all, {}, &ForceArrow::force)->force;
-            std::fill(largest.begin() + std::ptrdiff_t(first), largest.begin() + std::ptrdiff_t(end), most);
+        if (!cameras.move()) {
+            if (room.covered(box(label)) > 0) fade_where_met(label, cameras);
+            return;
         }
         shift_clear(label, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
-            const auto found = std::ranges::lower_bound(needs.frames, now.frame);
-            if (found == needs.frames.end() || *found != now.frame) return std::nullopt;
-            const auto i = static_cast<std::size_t>(found - needs.frames.begin());
-            ForceArrow arrow = needs.arrows[i];
-            const Vec2 foot = now.at.seen(now.at.px(arrow.foot), now.by());
-            arrow.force = largest[i];
-            return WantedPlace{foot, beside_tip(now.at, now.by(), arrow, label.size)};
+            const Vec2 base = now.at.seen(now.at.px(label.base), now.by());
+            if (!now.at.shows(base)) return std::nullopt;
+            return WantedPlace{base, about(base + label.offset, label.size), owner(now)};
         });
     }
 
@@ -292,7 +240,7 @@ MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& ca
     out.angle = placer.angle(swept.room, out.arc_radius);
     if (out.angle) take(*out.angle);
     if (!needs.arrows.empty()) {
-        out.force = placer.force(in_contact.room, canvas);
+        out.force = place_force_label(at, cameras, needs, in_contact.room, canvas);
         take(*out.force);
     }
     return out;

@@ -15,7 +15,9 @@
 namespace beamcam::render {
 
 struct MechanismView;
+class Canvas;
 class MechanismCameras;
+class OccupancyGrid;
 class SweptRegion;
 
 // A contact force as it is drawn.
@@ -56,6 +58,10 @@ struct LabelNeeds {
 // which is all that the label of the force has to avoid.
 MechanismLabels place_labels(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
                              SweptRegion& swept, SweptRegion& in_contact);
+
+// The place of the label of the force; at least one arrow.
+LabelPlace place_force_label(const MechanismView& at, const MechanismCameras& cameras, const LabelNeeds& needs,
+                             const OccupancyGrid& room, Canvas& canvas);
 
 // Largest radius of an arc about the hub's axis that stays before the disc at every angle of the cam [m].
 double arc_before_cam(const sim::Cam& cam);

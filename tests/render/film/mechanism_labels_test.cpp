@@ -197,6 +197,43 @@ TEST(MechanismLabels, ArrowsEndInTheViewOfANearCamera) {
     EXPECT_LT(norm(tip - foot), 10);
 }
 
+// At the edge of the view of a near camera the label of the force gives way to its arrow; it does not lie over it.
+TEST(MechanismLabels, TheForceIsClearOfItsArrowAtTheEdge) {
+    FilmSetup setup = test::flat_film({.duration = 2}, 1280, 720);
+    setup.impacts.clear();
+    setup.layout = LayoutNode{};
+    setup.view.shot = {.zoom = 2, .follow = {Anchor::Kind::place, {0.25, 0.1}}};
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const MechanismView home(context, *context.places.first(PanelKind::mechanism));
+    const double unit = home.unit, scale = 2 * home.look.camera.scale;
+    const double at_rest = home.beam_of(0, context.frames() - 1).contact->on_disc.x;
+    for (const double from_edge : {30.0, 60.0, 90.0}) {
+        setup.view.shot.follow.place.x = at_rest + (home.box.w / 2 - from_edge * unit) / scale;
+        Film film(setup);
+        int forces = 0;
+        for (int k = 0; k < film.frames(); ++k) {
+            const sim::Pose& pose = setup.poses[std::size_t(k)];
+            if (!(pose.nearest->force > 0)) continue;
+            const FrameGeometry g = film.geometry(k);
+            MechanismView at = home;
+            at.look.camera = g.camera, at.moved = true;
+            const ForceArrow arrow{g.beam.contact->on_disc, g.beam.contact->normal, pose.nearest->force};
+            const Vec2 foot = at.px(arrow.foot), tip = arrow_tip(at, nullptr, arrow);
+            bool near = false;
+            for (const Box& label : g.labels) {
+                near = near || norm(label.centre() - foot) < 300 * unit;
+                for (int i = 0; i <= 20; ++i) {
+                    const Vec2 on = foot + (tip - foot) * (i / 20.0);
+                    EXPECT_FALSE(label.contains({on.x, on.y, 0, 0})) << from_edge << ", " << k;
+                }
+            }
+            EXPECT_TRUE(near) << from_edge << ", " << k;
+            ++forces;
+        }
+        EXPECT_GT(forces, 5);
+    }
+}
+
 // A camera that moves during a contact takes the label of the force along, at the same distance beyond the beam.
 TEST(MechanismLabels, TheForceStaysNearItsArrowWhileTheCameraMoves) {
     FilmSetup setup = test::flat_film({.duration = 2}, 1280, 720);
