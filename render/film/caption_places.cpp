@@ -90,9 +90,15 @@ Vec2 CaptionPlaces::contact_foot() const {
     return s.beam.contact ? s.px(s.beam.contact->on_disc) : foot_of({.kind = Anchor::Kind::tip});
 }
 
-// A caption's place depends only on those that are visible when it appears.
 Box CaptionPlaces::plate_of(const Callout& callout) const {
+    const auto index = static_cast<std::size_t>(&callout - s.at.context.setup->callouts.data());
+    if (const auto& kept = s.at.labels->captions[index]) return *kept;
     if (const auto found = plates_.find(&callout); found != plates_.end()) return found->second;
+    return plates_[&callout] = placed(callout, beam());
+}
+
+// Depends only on captions that are visible when this one appears.
+Box CaptionPlaces::placed(const Callout& callout, const std::vector<Box>& moving) const {
     std::vector<Box> others;
     for (const Callout& other : s.at.context.setup->callouts)
         if (comes_before(other, callout) && other.last >= callout.first && other.first <= callout.last)
@@ -105,10 +111,9 @@ Box CaptionPlaces::plate_of(const Callout& callout) const {
     if (!is_at_contact(callout) && kind_of(callout) != Anchor::Kind::all) foot = foot_of(*callout.anchor);
     if (kind_of(callout) == Anchor::Kind::tip || kind_of(callout) == Anchor::Kind::place)
         bodies.push_back(Box{foot->x, foot->y, 0, 0}.inset(-24 * u));
-    const std::vector<Box> moving = moving_under(callout);
     std::optional<Box> found = free_plate(first, foot, bodies, moving);
     if (!found) found = free_plate(first, foot, others, moving);
-    return plates_[&callout] = found.value_or(first);
+    return found.value_or(first);
 }
 
 // The region that the disc sweeps, and the hub with its support; nothing while a near camera shows little else.
@@ -124,12 +129,8 @@ void CaptionPlaces::add_bodies(std::vector<Box>& taken) const {
     }
 }
 
-// Boxes around everything that moves while the caption is shown. One at the tip moves, too: it keeps clear of the beam
-// at its instant.
-std::vector<Box> CaptionPlaces::moving_under(const Callout& callout) const {
-    if (s.at.moved) return {};
-    if (kind_of(callout) != Anchor::Kind::tip)
-        return s.at.labels->under_captions[static_cast<std::size_t>(&callout - s.at.context.setup->callouts.data())];
+// Boxes around the beam: a caption that moves with the tip keeps clear of it at its instant.
+std::vector<Box> CaptionPlaces::beam() const {
     constexpr std::size_t kPieces = 12;
     std::vector<Box> out;
     const std::size_t last = s.shape.face.size() - 1;

@@ -24,7 +24,9 @@ class CaptionPlaces {
   public:
     explicit CaptionPlaces(const MechanismScene& scene);
 
-    Box plate_of(const Callout& callout) const;
+    Box plate_of(const Callout& callout) const;  // in this frame
+    // A place that keeps clear of `moving`, as far as there is room [px].
+    Box placed(const Callout& callout, const std::vector<Box>& moving) const;
     Caption caption_of(const Callout& callout, Vec2 at) const;
     bool is_visible(const Callout& callout) const;  // without space for all, a later caption replaces earlier ones
     Vec2 foot_of(const Anchor& anchor) const;
@@ -43,7 +45,7 @@ class CaptionPlaces {
     const Box* hidden(const Box& plate) const;
     void place(Box& plate) const;
     void add_bodies(std::vector<Box>& taken) const;
-    std::vector<Box> moving_under(const Callout& callout) const;
+    std::vector<Box> beam() const;
     bool crosses_cam(Vec2 from, Vec2 to) const;
     Box first_plate(const Callout& callout) const;
     Box plate_at_anchor(const Callout& callout) const;

@@ -139,13 +139,9 @@ class LabelPlacer {
         const Vec2 on_arc = way * (radius / norm(way));
         LabelPlace out{at.look.camera.to_world(at.px({0, 0}) + on_arc), way - on_arc, size, {}, {}};
         fade(out, room, [this, radius](const SeenFrame& now) {
-            constexpr int kPieces = 32;
-            const double angle = drawn_angle(now.at.context.pose(now.at.member, now.frame));
             std::vector<Box> boxes;
-            for (int i = 0; i <= kPieces; ++i) {
-                const Vec2 on_drawn = now.at.px({0, 0}) + down(angle * i / kPieces) * (radius * now.at.zoom());
-                boxes.push_back(about(now.at.seen(on_drawn, now.by()), Vec2{2, 2} * u));
-            }
+            for (const Vec2 p : angle_arc(now.at, radius, now.at.context.pose(now.at.member, now.frame)))
+                boxes.push_back(about(now.at.seen(p, now.by()), Vec2{2, 2} * u));
             return boxes;
         });
         return out;

@@ -43,8 +43,7 @@ struct MechanismLabels {
     double speed_way = -0.30 * std::numbers::pi;  // direction from the cam's axis to the arrow of its speed [rad]
     double arc_radius = 0;                        // radius of the arc of θ [px]
     std::optional<LabelPlace> angle, speed, force;
-    // For each caption of the film, boxes around what moves while it is shown [px].
-    std::vector<std::vector<Box>> under_captions;
+    std::vector<std::optional<Box>> captions;  // of the film; none: it moves with its part [px]
 };
 
 struct LabelNeeds {

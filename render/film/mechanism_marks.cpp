@@ -54,6 +54,14 @@ double speed_span(const MechanismView& at) { return std::min(0.8, 150 * at.unit 
 
 double drawn_angle(const sim::Pose& pose) { return std::fmod(pose.theta, 2 * pi); }
 
+std::vector<Vec2> angle_arc(const MechanismView& at, double radius, const sim::Pose& pose) {
+    constexpr int kPieces = 32;
+    std::vector<Vec2> out;
+    for (int i = 0; i <= kPieces; ++i)
+        out.push_back(at.px({0, 0}) + down(drawn_angle(pose) * i / kPieces) * (radius * at.zoom()));
+    return out;
+}
+
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now) {
     const double half_life = trace_half_life(at.context.span);
     std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
@@ -80,13 +88,10 @@ static double visible_angle(const MechanismScene& s, double radius) {
 
 // A line [px] crosses the arc of θ.
 static bool crosses_angle_arc(const MechanismScene& s, Vec2 from, Vec2 to) {
-    constexpr int kPieces = 24;
-    const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
-    const Vec2 o = s.at.px({0, 0});
     const auto apart = [](Vec2 a, Vec2 b, Vec2 p, Vec2 q) { return cross(b - a, p - a) * cross(b - a, q - a) > 0; };
-    for (int i = 0; i < kPieces; ++i) {
-        const Vec2 a = s.on(o + down(angle * i / kPieces) * radius),
-                   b = s.on(o + down(angle * (i + 1) / kPieces) * radius);
+    const std::vector<Vec2> arc = angle_arc(s.at, s.at.labels->arc_radius, s.pose);
+    for (std::size_t i = 0; i + 1 < arc.size(); ++i) {
+        const Vec2 a = s.on(arc[i]), b = s.on(arc[i + 1]);
         if (!apart(a, b, from, to) && !apart(from, to, a, b)) return true;
     }
     return false;

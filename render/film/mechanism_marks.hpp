@@ -23,6 +23,8 @@ void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, 
 inline constexpr double kLeastArc = 0.02;  // smaller angles have no arc [rad]
 // Hub angle as its arc shows it, without whole turns [rad].
 double drawn_angle(const sim::Pose& pose);
+// Points of the arc of θ in the flat view; `radius` before the camera that shows everything [px].
+std::vector<Vec2> angle_arc(const MechanismView& at, double radius, const sim::Pose& pose);
 void draw_angle_arc(const MechanismScene& s);
 void draw_cam_speed(const MechanismScene& s);
 void draw_base_line(const MechanismScene& s);

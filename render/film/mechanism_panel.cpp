@@ -53,7 +53,7 @@ MechanismPanel::MechanismPanel(const FilmContext& context, const PanelSlot& slot
     const LabelNeeds needs = add_frames(swept, in_contact, followed);
     cameras_.follow(followed);
     labels_ = place_labels(at_, cameras_, needs, swept, in_contact);
-    labels_.under_captions = moving_under_captions();
+    if (at_.member == 0) place_captions();
     legend_.place(std::move(swept.room));
 }
 

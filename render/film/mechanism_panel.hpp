@@ -42,7 +42,8 @@ class MechanismPanel final : public FilmPanel {
 
     void add_survey(SweptRegion& swept) const;
     LabelNeeds add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed);
-    std::vector<std::vector<Box>> moving_under_captions() const;
+    std::vector<Box> moving_under(const Callout& caption) const;
+    void place_captions();
 
     bool view_strobes() const { return at_.context.setup->view.strobe; }
     bool whole_path() const;  // draw all of the tip's path on an accumulated layer, instead of a trail

@@ -5,6 +5,8 @@
 #include <limits>
 #include <vector>
 
+#include "render/film/caption_places.hpp"
+#include "render/film/label_visibility.hpp"
 #include "render/film/mechanism_panel.hpp"
 
 namespace beamcam::render {
@@ -92,31 +94,57 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
     return needs;
 }
 
-// A caption keeps its place while it is shown, so that it has to avoid every pose of this time.
-std::vector<std::vector<Box>> MechanismPanel::moving_under_captions() const {
-    std::vector<std::vector<Box>> out;
-    if (at_.member != 0) return out;
-    for (const Callout& callout : at_.context.setup->callouts) {
-        SweptRegion swept(at_, OccupancyGrid(at_.box, kCaptionCell * at_.unit), cameras_.projections());
-        std::vector<Vec2> before;
-        for (int k = callout.first; k <= std::min(callout.last, at_.context.frames() - 1); ++k) {
-            for (int m = 0; m < (at_.ghosts ? at_.context.members() : 1); ++m)
-                for (std::size_t exposure = 0; exposure < at_.context.motion(m).exposures; ++exposure) {
-                    const Pose pose = at_.context.motion(m).pose(static_cast<std::size_t>(k), exposure);
-                    const DrawnBeam drawn = at_.drawn(m, pose);
-                    const MechanismShape shape =
-                        mechanism_shape(at_.context.motion(m).problem, pose, drawn, at_.look, at_.palette);
-                    swept.add_shape(shape);
-                    if (m > 0 || exposure > 0) continue;
-                    swept.add_motion(before, shape.face);
-                    before = shape.face;
-                    if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
-                    add_measured(at_, pose, drawn, swept);
-                }
-        }
-        out.push_back(swept.room.covered_boxes());
+// Boxes around everything that moves while the caption is shown, before a near camera also around labels.
+std::vector<Box> MechanismPanel::moving_under(const Callout& caption) const {
+    OccupancyGrid room(at_.box, kCaptionCell * at_.unit);
+    std::vector<Vec2> before;
+    for (int k = caption.first; k <= std::min(caption.last, at_.context.frames() - 1); ++k) {
+        const SeenFrame now(cameras_, k);
+        SweptRegion swept(now.at, std::move(room),
+                          cameras_.near() && now.projection ? std::vector{*now.projection} : cameras_.projections());
+        for (int m = 0; m < (at_.ghosts ? at_.context.members() : 1); ++m)
+            for (std::size_t exposure = 0; exposure < at_.context.motion(m).exposures; ++exposure) {
+                const Pose pose = at_.context.motion(m).pose(static_cast<std::size_t>(k), exposure);
+                const DrawnBeam drawn = at_.drawn(m, pose);
+                const MechanismShape shape =
+                    mechanism_shape(at_.context.motion(m).problem, pose, drawn, now.at.look, at_.palette);
+                swept.add_shape(shape);
+                if (m > 0 || exposure > 0) continue;
+                swept.add_motion(before, shape.face);
+                before = shape.face;
+                if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
+                add_measured(now.at, pose, drawn, swept);
+            }
+        if (cameras_.near() && labels_.angle)
+            swept.add_curve(angle_arc(now.at, labels_.arc_radius, at_.context.pose(at_.member, k)));
+        room = std::move(swept.room);
+        for (const auto* label : {&labels_.angle, &labels_.speed})
+            if (cameras_.near() && *label && (*label)->opacity_at(k) > 0)
+                room.cover(now.at.label_box(**label, now.by(), {}, k));
     }
-    return out;
+    return room.covered_boxes();
+}
+
+// A caption keeps its place while it is shown, so that it has to avoid every pose of this time. One at the tip moves
+// with it, unless the camera does.
+void MechanismPanel::place_captions() {
+    const std::vector<Callout>& all = at_.context.setup->callouts;
+    std::vector<const Callout*> in_order;
+    for (const Callout& each : all)
+        if (cameras_.near() || CaptionPlaces::kind_of(each) != Anchor::Kind::tip) in_order.push_back(&each);
+    std::ranges::sort(in_order, [](auto* a, auto* b) { return CaptionPlaces::comes_before(*a, *b); });
+    labels_.captions.resize(all.size());
+    Image scratch(1, 1);
+    Canvas canvas(scratch, *at_.context.fonts);
+    for (const Callout* each : in_order) {
+        const SeenFrame first(cameras_, std::clamp(each->first, 0, at_.context.frames() - 1));
+        const Pose pose = at_.context.pose(at_.member, first.frame);
+        const DrawnBeam drawn = at_.drawn(at_.member, pose);
+        const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, first.at.look, at_.palette);
+        const auto arrow = force_arrow_of(pose, drawn, rings_.peak(first.frame, drawn));
+        const MechanismScene scene{canvas, first.frame, pose, drawn, shape, first.at, first.by(), arrow};
+        labels_.captions[std::size_t(each - all.data())] = CaptionPlaces(scene).placed(*each, moving_under(*each));
+    }
 }
 
 }  // namespace beamcam::render

@@ -165,6 +165,39 @@ TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
     }
 }
 
+// Before a near camera, too, they keep one place each, beside beam and disc, while the camera moves.
+TEST(Captions, KeepTheirPlacesBeforeANearCamera) {
+    for (const Style style : {Style::flat, Style::solid}) {
+        FilmSetup setup = film_in(style);
+        setup.layout = LayoutNode{};
+        setup.view.shot = {.zoom = 3, .follow = {Anchor::Kind::contact, {}}};
+        setup.moves = {{.arrives = 50, .lasts = 20, .shot = {.zoom = 2, .follow = {Anchor::Kind::cam, {}}}}};
+        Film plain(setup);
+        setup.callouts = {{20, 50, "contact"}, {10, 50, "tip", Anchor{Anchor::Kind::tip, {}}}};
+        const FilmContext context(std::make_shared<const FilmSetup>(setup));
+        const MechanismView home(context, *context.places.first(PanelKind::mechanism));
+        Film film(setup);
+        std::vector<Box> places;
+        for (int k = 10; k <= 50; k += 2) {
+            const FrameGeometry g = film.geometry(k);
+            const std::vector<Box> others = plain.geometry(k).texts;
+            for (const Box& text : g.texts) {
+                if (std::ranges::find(others, text) != others.end()) continue;
+                if (std::ranges::find(places, text) == places.end()) places.push_back(text);
+                if (style == Style::solid) continue;
+                MechanismView at = home;
+                at.look.camera = g.camera;
+                EXPECT_FALSE(meets_beam(text, at, g.beam, nullptr)) << k;
+                const sim::Pose pose = context.pose(0, k);
+                const Vec2 disc = at.px(pose.disc_centre),
+                           nearest{std::clamp(disc.x, text.x, text.right()), std::clamp(disc.y, text.y, text.bottom())};
+                EXPECT_GT(norm(disc - nearest), setup.problem.cam->radius * g.camera.scale) << k;
+            }
+        }
+        EXPECT_EQ(places.size(), 2U) << int(style);
+    }
+}
+
 // The arrow of the cam's speed finds the only free direction, between those that are tried first.
 TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
     const FilmContext context(std::make_shared<const FilmSetup>(test::flat_film({.duration = 0.1}, 1280, 720)));
