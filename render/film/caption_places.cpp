@@ -207,8 +207,8 @@ bool CaptionPlaces::crosses_cam(Vec2 from, Vec2 to) const {
     return norm(to - axis) > swept && norm(from + way * nearest - axis) < swept;
 }
 
-// The nearest place clear of what is taken and of labels, rather below or beside than above, and over as little as
-// possible of what moves. None if there is none.
+// The nearest place clear of what is taken and of labels, unless the camera is near rather below or beside than above,
+// and over as little as possible of what moves. None if there is none.
 std::optional<Box> CaptionPlaces::free_plate(const Box& first, std::optional<Vec2> foot, const std::vector<Box>& taken,
                                              const std::vector<Box>& moving) const {
     const double gap = kBetweenPlates * u, lowest = box.bottom() - kFreeBelow * u;
@@ -234,13 +234,14 @@ std::optional<Box> CaptionPlaces::free_plate(const Box& first, std::optional<Vec
     for (const Box& other : taken) add_beside(other);
     for (const std::vector<Box>* each : {&labels_, &moving})
         for (const Box& other : *each) add_beside(other.inset(-gap));
+    const double upwards = s.at.moved ? 1 : 2;
     std::optional<Box> best;
     double least = 0;
     for (const double x : lefts)
         for (const double y : tops) {
             const Box plate{x, y, first.w, first.h};
             const double down = y - first.y;
-            double cost = (down > 0 ? 1 : 2) * std::abs(down) + 0.7 * std::abs(x - first.x);
+            double cost = (down > 0 ? 1 : upwards) * std::abs(down) + 0.7 * std::abs(x - first.x);
             if ((best && cost >= least) || !is_free(plate)) continue;
             cost += kCovering * u * covers(plate) + (crosses(plate) ? kCrossing * u : 0);
             if (best && cost >= least) continue;

@@ -96,6 +96,9 @@ void shift_clear(LabelPlace& label, const MechanismCameras& cameras,
         shift = {std::round(64 * shift.x) / 64, std::round(64 * shift.y) / 64};  // the same while the camera rests
     }
     fade_about(label, met, context, kFastFade);
+    label.opacity.resize(frames, 1);
+    for (std::size_t k = 0; k < frames; ++k)
+        if (!places[k]) label.opacity[k] = 0;
 }
 
 LabelPlace placed_near(const MechanismView& at, const Perspective* by, const OccupancyGrid& room, const Box& preferred,
@@ -105,8 +108,10 @@ LabelPlace placed_near(const MechanismView& at, const Perspective* by, const Occ
     return {on_base, found.centre() - at.seen(at.px(on_base), by), {preferred.w, preferred.h}, {}, {}};
 }
 
-void fade_where_met(LabelPlace& label, const MechanismCameras& cameras) {
-    const FilmContext& context = cameras.view(0).context;
+void fade_where_met(LabelPlace& label, const MechanismCameras& cameras, const OccupancyGrid& room) {
+    const SeenFrame usual(cameras, 0);
+    if (room.covered(usual.at.label_box(label, usual.by())) == 0) return;
+    const FilmContext& context = usual.at.context;
     std::vector<int> met;
     for (int k = 0; k < context.frames(); ++k)
         if (const SeenFrame now(cameras, k); meets_body(now.at.label_box(label, now.by()), now)) met.push_back(k);

@@ -26,8 +26,8 @@ bool meets_body(const Box& box, const SeenFrame& now);
 // The free place of a label nearest to the preferred box. `by`: of the solid view; `base`: in the flat view [px].
 LabelPlace placed_near(const MechanismView& at, const Perspective* by, const OccupancyGrid& room, const Box& preferred,
                        Vec2 base, double clear = 0);
-// Hides the label in the frames in which a body is in its place.
-void fade_where_met(LabelPlace& label, const MechanismCameras& cameras);
+// Before a camera that does not move, hides a label that has no place in `room` while a body is in its place.
+void fade_where_met(LabelPlace& label, const MechanismCameras& cameras, const OccupancyGrid& room);
 // Number of frames, by a sample, in which a label in this box is visible, of those with a pose that counts.
 double frames_visible(const Box& box, const MechanismCameras& cameras,
                       const std::function<bool(const sim::Pose&)>& counts);
@@ -37,9 +37,9 @@ struct WantedPlace {
     Box box;
     std::vector<Box> owner;  // what it belongs to, which it must not hide [px]
 };
-// Shifts the label of a moving camera in each frame: to the place that is wanted, none while its owner is out of view,
-// or else to the nearest one that is inside the view and hides neither a body nor the owner. Where that is far, the
-// label is hidden.
+// Shifts the label of a moving camera in each frame: to the place that is wanted, or else to the nearest one that is
+// inside the view and hides neither a body nor the owner. Where that is far, the label is hidden, as while no place is
+// wanted because its owner is out of view.
 void shift_clear(LabelPlace& label, const MechanismCameras& cameras,
                  const std::function<std::optional<WantedPlace>(const SeenFrame&)>& wanted);
 inline constexpr double kLabelFade = 0.2;  // duration of fading a label without a free place [s]

@@ -79,10 +79,11 @@ static void keep_beside_tip(LabelPlace& label, const MechanismCameras& cameras, 
         if (found == needs.frames.end() || *found != now.frame) return std::nullopt;
         const auto i = static_cast<std::size_t>(found - needs.frames.begin());
         ForceArrow arrow = needs.arrows[i];
+        const Vec2 foot = now.at.seen(now.at.px(arrow.foot), now.by());
+        if (!now.at.shows(foot)) return std::nullopt;
         const std::vector<Box> drawn = along(now, arrow);
         arrow.force = largest[i];
-        return WantedPlace{now.at.seen(now.at.px(arrow.foot), now.by()),
-                           beside_tip(now.at, now.by(), arrow, label.size), drawn};
+        return WantedPlace{foot, beside_tip(now.at, now.by(), arrow, label.size), drawn};
     });
 }
 
@@ -103,16 +104,14 @@ LabelPlace place_force_label(const MechanismView& at, const MechanismCameras& ca
     LabelPlace out = placed_near(at, view, room, beside_tip(at, view, most, size), at.px(most.foot));
     if (cameras.move())
         keep_beside_tip(out, cameras, needs, at.context.setup->fps);
-    else if (room.covered(at.label_box(out, view)) > 0)
-        fade_where_met(out, cameras);
+    else
+        fade_where_met(out, cameras, room);
     return out;
 }
 
 // ---- drawing -----------------------------------------------------------------------------------
 
-static bool names_force(const MechanismScene& s, Vec2 foot) {
-    return s.at.labelled() && s.at.shows(foot) && s.at.labels->force;
-}
+static bool names_force(const MechanismScene& s) { return s.at.labelled() && s.at.labels->force; }
 
 Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArrow& arrow) {
     const auto end = [&](double share) {
@@ -134,7 +133,7 @@ Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArro
 }
 
 void draw_force_leader(const MechanismScene& s) {
-    if (!s.arrow || !names_force(s, s.px(s.arrow->foot))) return;
+    if (!s.arrow || !names_force(s)) return;
     draw_leader(s, *s.at.labels->force, s.at.palette.contact, arrow_tip(s.at, s.view, *s.arrow), s.arrow->foot);
 }
 
@@ -148,8 +147,7 @@ void draw_force(const MechanismScene& s) {
     const double length = s.at.moved ? norm(tip - foot) : arrow_length(s.at, arrow);
     if (length > 7 * s.at.marks)
         s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (names_force(s, foot))
-        draw_label(s, *s.at.labels->force, force_label(s.at, arrow), force_style(s.at), arrow.foot);
+    if (names_force(s)) draw_label(s, *s.at.labels->force, force_label(s.at, arrow), force_style(s.at), arrow.foot);
 }
 
 }  // namespace beamcam::render

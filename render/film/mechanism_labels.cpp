@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <utility>
 
@@ -46,8 +45,10 @@ class LabelPlacer {
     // bearing takes that room.
     double arc_radius() const {
         const double letter = angle_letter(at), depth = at.look.depth * at.look.camera.scale;
-        const double preferred = std::clamp(17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3),
-                                            92 * at.marks, 150 * at.marks);
+        double preferred = std::clamp(17 * letter + (28 * letter + depth / 2) / std::max(least_angle(), 1e-3),
+                                      92 * at.marks, 150 * at.marks);
+        const double hub = view ? 1.5 * at.hub() + kMountDepth * at.wide : at.hub();  // with its bearing
+        if (preferred < hub + 34 * letter) preferred = hub + 50 * letter;
         const std::optional<sim::Cam>& cam = at.problem().cam;
         if (!cam) return std::min(preferred, needs.arc_room);
         const double scale = at.look.camera.scale, before = arc_before_cam(*cam) * scale;
@@ -111,7 +112,14 @@ class LabelPlacer {
         for (const Box& box : arrow_boxes(way)) taken.cover(box.inset(-3 * u), 1);
         const double edge = speed_radius(at) - speed_gap(at);
         LabelPlace out = place(taken, speed_box(way, width), axis() + down(way) * edge);
-        fade(out, taken, [this, way](const SeenFrame& now) { return arrow_boxes(way, now.at, now.by()); });
+        if (cameras.move())
+            shift_clear(out, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
+                const Vec2 base = now.at.seen(now.at.px(out.base), now.by());
+                if (!now.at.shows(base)) return std::nullopt;
+                return WantedPlace{base, about(base + out.offset, out.size), arrow_boxes(way, now.at, now.by())};
+            });
+        else
+            fade_where_met(out, cameras, taken);
         return out;
     }
 
@@ -138,12 +146,25 @@ class LabelPlacer {
     LabelPlace beside_arc(Vec2 way, Vec2 size, double radius, const OccupancyGrid& room) const {
         const Vec2 on_arc = way * (radius / norm(way));
         LabelPlace out{at.look.camera.to_world(at.px({0, 0}) + on_arc), way - on_arc, size, {}, {}};
-        fade(out, room, [this, radius](const SeenFrame& now) {
-            std::vector<Box> boxes;
-            for (const Vec2 p : angle_arc(now.at, radius, now.at.context.pose(now.at.member, now.frame)))
-                boxes.push_back(about(now.at.seen(p, now.by()), Vec2{2, 2} * u));
-            return boxes;
-        });
+        if (cameras.move())
+            shift_clear(out, cameras, [&](const SeenFrame& now) { return beside_arc_at(now, out, radius); });
+        else
+            fade_where_met(out, cameras, room);
+        return out;
+    }
+
+    // Before a moving camera the letter is in the middle of the sector while its usual place is out of view.
+    std::optional<WantedPlace> beside_arc_at(const SeenFrame& now, const LabelPlace& label, double radius) const {
+        const auto seen = [&](Vec2 flat) { return now.at.seen(flat, now.by()); };
+        const std::vector<Vec2> arc = angle_arc(now.at, radius, now.at.context.pose(now.at.member, now.frame));
+        WantedPlace out{seen(now.at.px(label.base)), {}, {}};
+        out.box = about(out.base + label.offset, label.size);
+        if (!now.at.shows(out.base)) {
+            const Vec2 middle = arc[arc.size() / 2], way = now.at.px({0, 0}) - middle;
+            if (!now.at.shows(seen(middle))) return std::nullopt;
+            out.box = about(seen(middle + way * (17 * angle_letter(at) / norm(way))), label.size);
+        }
+        for (const Vec2 p : arc) out.owner.push_back(about(seen(p), Vec2{2, 2} * u));
         return out;
     }
 
@@ -185,22 +206,6 @@ class LabelPlacer {
 
     LabelPlace place(const OccupancyGrid& room, const Box& preferred, Vec2 base, double clear = 0) const {
         return placed_near(at, usual(), room, preferred, base, clear);
-    }
-
-    using Owner = std::function<std::vector<Box>(const SeenFrame&)>;  // what the label belongs to, as seen
-
-    // The label is hidden in frames in which a moving part is in its place, before a moving camera if there is no
-    // other.
-    void fade(LabelPlace& label, const OccupancyGrid& room, const Owner& owner) const {
-        if (!cameras.move()) {
-            if (room.covered(box(label)) > 0) fade_where_met(label, cameras);
-            return;
-        }
-        shift_clear(label, cameras, [&](const SeenFrame& now) -> std::optional<WantedPlace> {
-            const Vec2 base = now.at.seen(now.at.px(label.base), now.by());
-            if (!now.at.shows(base)) return std::nullopt;
-            return WantedPlace{base, about(base + label.offset, label.size), owner(now)};
-        });
     }
 
     const MechanismView& at;

@@ -20,7 +20,7 @@ void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, 
     const Box box = s.label_box(label, base);
     const Vec2 edge{std::clamp(owner.x, box.x, box.right()), std::clamp(owner.y, box.y, box.bottom())};
     const double way = norm(owner - edge), opacity = label.opacity_at(s.frame);
-    if (opacity <= 0 || !s.at.shows(s.px(base)) || way <= far * s.at.unit) return;
+    if (opacity <= 0 || way <= far * s.at.unit) return;
     if (s.at.moved && way > kLongestLeader * s.at.unit) return;
     const Vec2 gap = (owner - edge) * (6 * s.at.unit / way);
     s.canvas.line(edge + gap, owner - gap, {color.faded(0.6 * opacity), 1.2 * s.at.unit});
@@ -29,7 +29,7 @@ void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, 
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base) {
     const double opacity = label.opacity_at(s.frame);
     const Box box = s.label_box(label, base);
-    if (opacity <= 0 || !s.at.shows(s.px(base))) return;
+    if (opacity <= 0) return;
     style.color = style.color.faded(opacity);
     // In the solid view a halo over soft shadows would glow; a near camera needs it.
     if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
@@ -111,12 +111,18 @@ void draw_angle_arc(const MechanismScene& s) {
     }
     if (!s.at.labels->angle) return;
     // A letter outside the sector of the angle gets a leader line to the start of the arc.
-    const Vec2 letter = s.at.px(s.at.labels->angle->base) + s.at.labels->angle->offset * s.at.zoom() - o;
+    const LabelPlace& label = *s.at.labels->angle;
+    const Vec2 letter = s.at.px(label.base) + label.offset * s.at.zoom() - o;
     const double sense = angle < 0 ? -1 : 1, way = std::atan2(-letter.y, letter.x) * sense;
     const double turned = way < 0 ? way + 2 * pi : way;
     const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
-    const LabelPlace& label = *s.at.labels->angle;
-    draw_leader(s, label, s.at.palette.muted, s.on(o + down(foot) * radius), label.base, kFarLetter);
+    Vec2 owner = s.on(o + down(foot) * radius);
+    if (s.at.moved) {
+        const Vec2 middle = s.label_box(label, label.base).centre();
+        const std::vector<Vec2> arc = angle_arc(s.at, s.at.labels->arc_radius, s.pose);
+        owner = s.on(*std::ranges::min_element(arc, {}, [&](Vec2 p) { return norm(s.on(p) - middle); }));
+    }
+    draw_leader(s, label, s.at.palette.muted, owner, label.base, kFarLetter);
     draw_label(s, label, "$θ$", {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
                label.base);
 }

@@ -13,7 +13,6 @@ namespace beamcam::render {
 
 inline constexpr double kReadable = 9;  // smallest size of letters in any picture [px]
 
-// Draws a label; a moving camera shows it if its base is in view.
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base);
 // Draws the leader line of a label whose owner is far [px].
 inline constexpr double kFarLabel = 60;  // [design px]

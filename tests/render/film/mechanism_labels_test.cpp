@@ -310,6 +310,36 @@ TEST(MechanismLabels, TheAngleIsShownBesideACamAtTheHub) {
     }
 }
 
+// While the usual place of the letter is below the view of this camera, it is in the sector, before the disc.
+TEST(MechanismLabels, TheAngleIsNamedBeforeANearCamera) {
+    FilmSetup setup = test::flat_film({.duration = 1}, 640, 360);
+    setup.layout = LayoutNode{};
+    setup.view.shot = {.zoom = 4, .follow = {Anchor::Kind::contact, {}}};
+    Film film(setup);
+    for (int k = 0; k < film.frames(); k += 4) {
+        const FrameGeometry g = film.geometry(k);
+        int named = 0;
+        for (const Box& label : g.labels) {
+            const Vec2 way = g.camera.to_world(label.centre());
+            const double angle = std::atan2(way.y, way.x);
+            named += angle > -1 && angle < setup.poses[std::size_t(k)].theta &&
+                     norm(way) < arc_before_cam(*setup.problem.cam);
+        }
+        EXPECT_EQ(named, 1) << k;
+    }
+}
+
+// A large hub covers the usual arc: its arc is outside the hub.
+TEST(MechanismLabels, TheAngleIsShownBesideALargeHub) {
+    for (const Style style : {Style::flat, Style::solid})
+        for (const double radius : {0.05, 0.1, 0.3}) {
+            FilmSetup setup = test::led_rod(0.7, -0.2);
+            setup.problem.hub.radius = radius, setup.problem.cam.reset();
+            setup.view.style = style;
+            EXPECT_EQ(Film(setup).geometry(0).labels.size(), 1U) << int(style) << ", " << radius;
+        }
+}
+
 // Where the beam sweeps nearly all directions, the letter is across the horizontal from it until the beam passes there.
 TEST(MechanismLabels, TheAngleOfABeamThatTurnsOverHasItsLetter) {
     FilmSetup setup = test::led_rod(0.17, 5.9);
