@@ -6,11 +6,12 @@
 #include <vector>
 
 #include "scenes/commands/commands.hpp"
+#include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
 
-KeyRange range_argument(const std::string& over, const sim::Problem& problem) {
+KeyRange range_argument(const std::string& over, const sim::Problem& problem, render::Units& units) {
     const std::size_t equals = over.find('='), colon = over.find(':', equals);
     if (equals == std::string::npos || colon == std::string::npos || over.find(':', colon + 1) != std::string::npos)
         throw UsageError(fmt::format("--over {}: write KEY=FROM:TO, for example cam.speed=40:60", over));
@@ -28,7 +29,9 @@ KeyRange range_argument(const std::string& over, const sim::Problem& problem) {
             fmt::format("{}: {} takes whole numbers alone, and an orbit is followed over a key that varies "
                         "continuously; give sweep --over {} a list of them",
                         option, path, path));
-    KeyRange range{*key, signed_argument(option, over.substr(equals + 1, colon - equals - 1), key->dimension),
+    const std::string from = over.substr(equals + 1, colon - equals - 1);
+    adopt_unit(from, key->dimension, units);
+    KeyRange range{*key, signed_argument(option, from, key->dimension),
                    signed_argument(option, over.substr(colon + 1), key->dimension)};
     if (!(range.from < range.to)) throw UsageError(fmt::format("{}: the range must ascend", option));
     return range;

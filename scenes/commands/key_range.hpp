@@ -13,7 +13,7 @@ struct KeyRange {
     double from = 0, to = 0;
 };
 
-// Of `--over`. Throws UsageError, SceneError.
-KeyRange range_argument(const std::string& over, const sim::Problem& problem);
+// Of `--over`, whose unit diagrams take over. Throws UsageError, SceneError.
+KeyRange range_argument(const std::string& over, const sim::Problem& problem, render::Units& units);
 
 }  // namespace beamcam::scenes

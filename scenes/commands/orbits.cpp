@@ -223,7 +223,7 @@ int act(const OrbitsArguments& args) {
     Scene scene = load_scene(args.scene, args.common);
     if (args.row > 0 && args.sweep_file) scene.problem = problem_at_row(scene.problem, *args.sweep_file, args.row);
     std::optional<KeyRange> range;
-    if (args.over) range = range_argument(*args.over, scene.problem);
+    if (args.over) range = range_argument(*args.over, scene.problem, scene.units);
     reject_unused_options(args);
     output::Manifest manifest(args.common.force);
     require_writable_files(args, manifest);
@@ -235,7 +235,7 @@ int act(const OrbitsArguments& args) {
 
     // 3. The result and its files.
     write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table); },
-                  [&] { return branches_figure(table, swept, scene.problem, args.files.lang); },
+                  [&] { return branches_figure(table, swept, scene, args.files.lang); },
                   [&] { return output::orbit_columns(table, attributes_of(scene)); }},
                  args.files, scene, args.common, manifest);
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);

@@ -40,8 +40,8 @@ bool is_count(const std::string& text) {
     return text.ends_with('n') || (digits && text != "0" && text != "1");
 }
 
-// KEY=FIRST:LAST:COUNT, then :log; KEY=FIRST:LAST:STEP; KEY=v,v,…; KEY=@FILE:COLUMN.
-SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
+// KEY=FIRST:LAST:COUNT, then :log; KEY=FIRST:LAST:STEP; KEY=v,v,…; KEY=@FILE:COLUMN. Diagrams take over the unit.
+SweptKey over_argument(const std::string& text, const sim::Problem& problem, render::Units& units) {
     const std::string option = "--over " + text;
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
@@ -58,6 +58,7 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem) {
         over.column = value.substr(colon + 1);
         return over;
     }
+    adopt_unit(value.substr(0, value.find_first_of(":,")), dimension, units);
     std::vector<std::string> parts = split(value, ':');
     if (parts.size() == 1) {
         for (const std::string& each : split(value, ','))
@@ -106,7 +107,7 @@ sim::CamSpan span_argument(const char* option, const std::string& text) {
 Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     Sweep sweep = scene.sweep.value_or(Sweep{});
     if (!args.over.empty()) sweep.over.clear();
-    for (const std::string& text : args.over) sweep.over.push_back(over_argument(text, scene.problem));
+    for (const std::string& text : args.over) sweep.over.push_back(over_argument(text, scene.problem, scene.units));
     const auto require = [](const char* option, const std::string& text, const std::string& problem) {
         if (!problem.empty()) throw UsageError(fmt::format("{} {}: {}", option, text, problem));
     };

@@ -55,9 +55,9 @@ std::string value_label(const std::string& symbol, double value, const std::stri
     return fmt::format("{} = {:g}{}", symbol, value, unit.empty() || unit == "1" ? "" : " " + print_unit(unit));
 }
 
-std::string key_label(const std::string& key, const sim::Problem& problem) {
-    if (const auto known = sim::number_key(problem, key)) return axis_label(symbol_of(key), si_unit(known->dimension));
-    return symbol_of(key);
+Measure measure_in(const render::Units& units, const std::string& si_unit) {
+    const double factor = units.factor(si_unit);
+    return {factor, factor == 1 ? si_unit : units.unit(si_unit)};
 }
 
 Measure measure_of(const std::string& unit, double largest) {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "sim/problem/problem.hpp"
+#include "render/film/film.hpp"
 
 namespace beamcam::scenes {
 
@@ -14,14 +14,14 @@ std::string symbol_of(const std::string& name);
 std::string axis_label(const std::string& symbol, const std::string& unit);
 // "$ω$ = 48 rad s^{−1}"
 std::string value_label(const std::string& symbol, double value, const std::string& unit);
-// Of a key of this problem that is a number.
-std::string key_label(const std::string& key, const sim::Problem& problem);
 
 // How the values of a quantity are written along an axis: multiplied by `factor`, in `unit`, which may be empty.
 struct Measure {
     double factor = 1;
     std::string unit;
 };
+// In the scene's unit of angles and of speeds; other quantities in SI units.
+Measure measure_in(const render::Units& units, const std::string& si_unit);
 // The prefix that suits the largest value, in SI units; of m, N, J and s alone.
 Measure measure_of(const std::string& unit, double largest);
 double largest_magnitude(const std::vector<double>& values);  // 0: there is no finite one

@@ -5,6 +5,7 @@
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/command_figures.hpp"
+#include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -15,7 +16,7 @@ constexpr std::uint32_t kSweptColor = 0x9A9A9A;  // beneath the branches
 constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
 
 // The impacts of the stable or of the unstable orbits of a branch, one after the other; pieces meet at the change.
-void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
+void add_impacts(const sim::Branch& branch, bool stable, double factor, Series& series) {
     std::size_t impacts = 0;  // their number changes along the branch before a rest on the cam
     for (const sim::BranchPoint& point : branch.points) impacts = std::max(impacts, point.orbit.impacts.size());
     for (std::size_t k = 0; k < impacts; ++k)
@@ -25,7 +26,8 @@ void add_impacts(const sim::Branch& branch, bool stable, Series& series) {
             const bool here = point.orbit.stable() == stable;
             if (!here && !before) continue;
             const bool there = k < point.orbit.impacts.size();
-            series.add(there ? point.parameter : kGapInCurve, there ? point.orbit.impacts[k].approach : kGapInCurve);
+            series.add(there ? factor * point.parameter : kGapInCurve,
+                       there ? point.orbit.impacts[k].approach : kGapInCurve);
             if (!here || i + 1 == branch.points.size()) series.add(kGapInCurve, kGapInCurve);
         }
 }
@@ -38,12 +40,12 @@ const char* letters(sim::OrbitChange change) {
 // Labels nearer to the last one than this share of the range are omitted.
 constexpr double kLabelRoom = 0.06;
 
-std::string add_special(const output::BranchTable& table, double range, Panel& panel) {
+std::string add_special(const output::BranchTable& table, double factor, double range, Panel& panel) {
     std::string text;
     double labelled = kGapInCurve;
     for (const sim::Branch& branch : table.branches)
         for (const sim::SpecialPoint& point : branch.special) {
-            const double x = point.at.parameter;
+            const double x = factor * point.at.parameter;
             const bool room = !(std::abs(x - labelled) < kLabelRoom * range);
             if (room) labelled = x;
             for (std::size_t k = 0; k < point.at.orbit.impacts.size(); ++k)
@@ -62,16 +64,16 @@ struct BranchCurves {
     Series stable, unstable;
     double low = std::numeric_limits<double>::infinity(), high = -low;
 };
-BranchCurves curves_of(const output::BranchTable& table, Lang lang) {
+BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lang) {
     BranchCurves out{{.label = phrase(lang, "stable", "稳定"), .solid = true},
                      {.label = phrase(lang, "unstable", "不稳定"), .look = 1}};
     for (const sim::Branch& branch : table.branches) {
         if (branch.points.empty()) continue;
-        add_impacts(branch, true, out.stable);
-        add_impacts(branch, false, out.unstable);
+        add_impacts(branch, true, factor, out.stable);
+        add_impacts(branch, false, factor, out.unstable);
         for (const sim::BranchPoint& point : branch.points) {
-            out.low = std::min(out.low, point.parameter);
-            out.high = std::max(out.high, point.parameter);
+            out.low = std::min(out.low, factor * point.parameter);
+            out.high = std::max(out.high, factor * point.parameter);
         }
     }
     return out;
@@ -92,18 +94,19 @@ std::string branches_caption(const output::BranchTable& table, const std::string
 
 }  // namespace
 
-Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const sim::Problem& problem,
-                       Lang lang) {
-    BranchCurves curves = curves_of(table, lang);
-    Panel panel{.x = {.label = key_label(table.key, problem), .tight = true},
+Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const Scene& scene, Lang lang) {
+    const auto key = sim::number_key(scene.problem, table.key);
+    const Measure shown = measure_in(scene.units, key ? sim::si_unit(key->dimension) : "");
+    BranchCurves curves = curves_of(table, shown.factor, lang);
+    Panel panel{.x = {.label = axis_label(symbol_of(table.key), shown.unit), .tight = true},
                 .y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")},
                 .legend = render::figure::Legend::box,
                 .name = "branches"};
     const bool with_sweep = !swept.parameter.empty();
     if (with_sweep)
-        panel.clouds.push_back(
-            {phrase(lang, "sweep", "扫描"), swept.parameter, swept.approach, render::rgb(kSweptColor)});
-    const std::string special = add_special(table, curves.high - curves.low, panel);
+        panel.clouds.push_back({phrase(lang, "sweep", "扫描"), {}, swept.approach, render::rgb(kSweptColor)});
+    for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
+    const std::string special = add_special(table, shown.factor, curves.high - curves.low, panel);
     for (Series* series : {&curves.stable, &curves.unstable})
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
     if (panel.series.empty())
@@ -111,7 +114,7 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     return {.name = "branches",
             .title = phrase(lang, "Branches of periodic orbits", "周期轨道分支"),
             .panels = {std::move(panel)},
-            .caption = branches_caption(table, special, with_sweep, problem, lang),
+            .caption = branches_caption(table, special, with_sweep, scene.problem, lang),
             .accuracy = phrase(lang, "Newton's method on the section map at relative tolerance 10^{−12}.",
                                "截面映射上的 Newton 法，相对容差 10^{−12}。")};
 }

@@ -20,10 +20,10 @@ render::figure::Figure accuracy_figure(const sim::Accuracy& accuracy, const sim:
 struct SweptImpacts {
     std::vector<double> parameter, approach;
 };
-// Branches of periodic orbits over a parameter: impact speeds, stable solid and unstable dashed, above the impacts of
-// the sweep if there are any. Throws PictureError where no branch has impacts.
-render::figure::Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept,
-                                       const sim::Problem& problem, Lang lang);
+// Branches of periodic orbits over a parameter in the scene's unit: impact speeds, stable solid and unstable dashed,
+// above the impacts of the sweep if there are any. Throws PictureError where no branch has impacts.
+render::figure::Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const Scene& scene,
+                                       Lang lang);
 
 // The convergence of the Lyapunov exponents of a motion. Throws PictureError where every exponent is −∞.
 render::figure::Figure exponents_figure(const sim::Exponents& exponents, const sim::Problem& problem, Lang lang);

@@ -44,7 +44,7 @@ SweptPoints::SweptPoints(const Swept& swept, Lang how)
     : scene(*swept.scene), data(*swept.data), lang(how), starts_(starts_of(scene.sweep->seeds)) {
     for (std::size_t i = 0; i < data.axes.size(); ++i) {
         output::SweepAxis axis = data.axes[i];
-        Measure measure{scene.units.factor(axis.unit), scene.units.unit(axis.unit)};
+        Measure measure = measure_in(scene.units, axis.unit);
         if (measure.factor == 1 && scale(i) == render::Scale::linear)
             measure = measure_of(axis.unit, largest_magnitude(axis.values));
         axis.unit = measure.unit;
@@ -74,14 +74,16 @@ std::string class_label(AttractorClass kind, Lang lang) { return lang == Lang::e
 const StartLook& look_of(SeedKind kind) { return *std::ranges::find(kStarts, kind, &StartLook::kind); }
 
 std::string column_label(const SweptPoints& points, std::size_t column) {
-    const std::string &name = points.data.columns[column].name, &unit = points.data.columns[column].unit;
+    const std::string& name = points.data.columns[column].name;
+    const std::string unit = measure_in(points.scene.units, points.data.columns[column].unit).unit;
     if (name == "cam_phase") return phrase(points.lang, "cam phase / turn", "凸轮相位 / 转");
     if (name == kApproach) return axis_label(kApproachSpeed.in(points.lang), unit);
     return axis_label(symbol_of(name), unit);
 }
 
 double drawn(const SweptPoints& points, std::size_t column, double sample) {
-    return points.data.columns[column].name == kApproach ? -sample : sample;
+    const output::TableColumn& one = points.data.columns[column];
+    return one.name == kApproach ? -sample : measure_in(points.scene.units, one.unit).factor * sample;
 }
 
 std::string label_of(const output::SweepAxis& axis) { return axis_label(symbol_of(axis.name), axis.unit); }

@@ -51,7 +51,8 @@ struct StartLook {
 };
 const StartLook& look_of(SeedKind kind);
 
-// A column of samples along an axis. Figures draw the speed v_n before an impact as the approach speed −v_n.
+// A column of samples along an axis, in the scene's unit of angles and speeds. Figures draw the speed v_n before an
+// impact as the approach speed −v_n.
 std::string column_label(const SweptPoints& points, std::size_t column);
 double drawn(const SweptPoints& points, std::size_t column, double sample);
 std::string label_of(const output::SweepAxis& axis);

@@ -108,6 +108,15 @@ void infer_units(ObjectReader& r, render::Units& units) {
     units.rpm = first_ends_in({"cam.speed", "hub.drive.speed", "initial.angular_velocity"}, {"rpm"});
 }
 
+void adopt_unit(std::string_view text, const Dimension& dimension, render::Units& units) {
+    if (text.find_last_not_of("0123456789.eE+-") == std::string_view::npos) return;
+    const bool degrees = text.find("deg") != std::string_view::npos || text.find("°") != std::string_view::npos;
+    if (same(dimension, dimension::kAngle)) units.degrees = degrees;
+    if (!same(dimension, dimension::kAngularSpeed)) return;
+    units.rpm = text.ends_with("rpm");
+    if (!units.rpm) units.degrees = degrees;
+}
+
 void check_view(ObjectReader& r, const View& view) {
     if (r.has("exposures") && view.poses() == 1)
         r.warn("exposures", " has no effect without a \"shutter\" or \"strobe\"");

@@ -24,6 +24,8 @@ void check_markup(ObjectReader& r, const std::string& key, const std::string& te
 void check_physics(ObjectReader& r, const sim::Problem& problem);
 // Pictures use the units in which the scene gives its angle and its speed.
 void infer_units(ObjectReader& r, render::Units& units);
+// The unit of an option's angle or speed becomes theirs; a plain number leaves them.
+void adopt_unit(std::string_view text, const Dimension& dimension, render::Units& units);
 void check_camera(ObjectReader& r, const View& view);  // `r` reads "camera"
 void check_view(ObjectReader& r, const View& view);    // `r` reads "view"
 void check_picture(ObjectReader& r, Picture& picture);

@@ -116,7 +116,11 @@ sim::Problem SweepGrid::problem(std::uint64_t point) const {
     return out;
 }
 
-std::string SweepGrid::digest() const { return output::sha256("sweep\n" + to_json(scene_)); }
+std::string SweepGrid::digest() const {
+    Scene points = scene_;
+    points.units = {};  // of diagrams
+    return output::sha256("sweep\n" + to_json(points));
+}
 std::string SweepGrid::identity() const { return output::sha256(program_identity() + "\n" + digest()); }
 
 }  // namespace beamcam::scenes

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
 #include "scenes/figures/command_figures.hpp"
@@ -220,13 +222,46 @@ TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
         branch.points.push_back(point);
     }
     table.branches = {branch};
-    const sim::Problem problem;
-    EXPECT_THAT(branches_figure(table, {}, problem, Lang::en).panels[0].clouds, SizeIs(0));
-    const auto figure = branches_figure(table, {{1.5, 1.6}, {0.2, 0.1}}, problem, Lang::en);
+    const Scene scene;
+    EXPECT_THAT(branches_figure(table, {}, scene, Lang::en).panels[0].clouds, SizeIs(0));
+    const auto figure = branches_figure(table, {{1.5, 1.6}, {0.2, 0.1}}, scene, Lang::en);
     ASSERT_THAT(figure.panels[0].clouds, SizeIs(1));
     EXPECT_EQ(figure.panels[0].clouds[0].y, (std::vector<double>{0.2, 0.1}));
     EXPECT_THAT(figure.panels[0].series, SizeIs(1));
     EXPECT_THAT(figure.caption, HasSubstr("Dots: impacts of a sweep"));
+}
+
+TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
+    output::BranchTable table;
+    table.key = "cam.speed";
+    sim::BranchPoint point;
+    point.orbit.impacts = {{0, 0.3}};
+    point.parameter = 10 * std::numbers::pi;
+    table.branches.emplace_back().points = {point, point};
+    table.branches[0].special.emplace_back().at = point;
+    Scene scene;
+    scene.units.rpm = true;
+    const auto figure = branches_figure(table, {{10 * std::numbers::pi}, {0.2}}, scene, Lang::en);
+    EXPECT_EQ(figure.panels[0].x.label, "$ω$ / rpm");
+    EXPECT_NEAR(figure.panels[0].series[0].x[0], 300, 1e-9);
+    EXPECT_NEAR(figure.panels[0].clouds[0].x[0], 300, 1e-9);
+    EXPECT_NEAR(figure.panels[0].marks[0].x, 300, 1e-9);
+    EXPECT_THAT(figure.caption, HasSubstr("SN 300."));
+}
+
+// Angular velocities of samples have the unit of the scene's speeds, angles that of its angles.
+TEST(Diagram, OfSamplesHasTheUnitsOfTheScene) {
+    Scene scene = grid(R"({"over": [{"key": "cam.speed", "values": ["300 rpm", "400 rpm"]}]})").scene();
+    scene.units.degrees = true;
+    const SweepGrid speeds(scene);
+    output::SweepData samples = data(speeds, {AttractorClass::periodic});
+    samples.columns = {{"theta", "rad", ""}, {"theta_dot", "rad/s", ""}};
+    const auto angles = diagram("bifurcation", speeds, samples, "theta");
+    EXPECT_EQ(angles.panels[0].y.label, "$θ$ / °");
+    EXPECT_NEAR(angles.panels[0].clouds[0].y[0], 0.1 * 180 / std::numbers::pi, 1e-9);
+    const auto rates = diagram("bifurcation", speeds, samples, "theta_dot");
+    EXPECT_EQ(rates.panels[0].y.label, "$\\dot{θ}$ / rpm");
+    EXPECT_NEAR(rates.panels[0].clouds[0].y[0], -30 / std::numbers::pi, 1e-9);
 }
 
 // Columns of files have the sign of v_n, which is negative before an impact; figures have its approach speed.
@@ -243,7 +278,7 @@ TEST(Diagram, OfSamplesAndOfBranchesHaveOneApproachSpeed) {
     sim::BranchPoint point;
     point.orbit.impacts = {{0, 0.3}};
     table.branches.emplace_back().points = {point, point};
-    EXPECT_EQ(branches_figure(table, {}, sim::Problem(), Lang::en).panels[0].y.label, samples.panels[0].y.label);
+    EXPECT_EQ(branches_figure(table, {}, Scene(), Lang::en).panels[0].y.label, samples.panels[0].y.label);
     const SweepGrid two = grid(
         R"({"over": [{"key": "cam.speed", "values": [1, 2]}, {"key": "cam.eccentricity", "values": [0.01, 0.02]}]})");
     const auto map = diagram("map", two, data(two, {AttractorClass::periodic}), "v_n_before");

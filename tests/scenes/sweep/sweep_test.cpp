@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "output/data/tables.hpp"
+#include "scenes/format/checks.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -149,6 +150,35 @@ TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
             ASSERT_TRUE(cell.empty() ? std::isnan(value) : value == std::stod(cell)) << table.names[c] << " " << row;
         }
     }
+}
+
+// Whatever unit the scene states, and the points are the same.
+TEST(SweepCommand, DrawsInTheUnitOfItsOption) {
+    render::Units units;
+    adopt_unit("420rpm", dimension::kAngularSpeed, units);
+    EXPECT_EQ(units, (render::Units{.rpm = true}));
+    adopt_unit("44", dimension::kAngularSpeed, units);
+    EXPECT_TRUE(units.rpm);
+    adopt_unit("44 rad/s", dimension::kAngularSpeed, units);
+    EXPECT_EQ(units, render::Units{});
+    adopt_unit("30 deg/s", dimension::kAngularSpeed, units);
+    EXPECT_EQ(units, (render::Units{.degrees = true}));
+    adopt_unit("0.5 rad", dimension::kAngle, units);
+    EXPECT_EQ(units, render::Units{});
+    adopt_unit("30 deg", dimension::kAngle, units);
+    adopt_unit("3 mm", dimension::kLength, units);
+    EXPECT_EQ(units, (render::Units{.degrees = true}));
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    const Finished done = shell(folder,
+                                "$BEAMCAM sweep s.json -q --transient 5 --keep 1 --over 'cam.speed=420 rpm:430rpm:2' "
+                                "--diagram d.svg --caption d.txt -o d.csv");
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(slurp(folder / "d.txt"), ::testing::HasSubstr("420 … 430 rpm"));
+    const SweepGrid one(*testing::read(kSweptScene).scene);
+    Scene other = one.scene();
+    other.units.rpm = !other.units.rpm;
+    EXPECT_EQ(SweepGrid(other).digest(), one.digest());
 }
 
 TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
