@@ -130,7 +130,7 @@ void Film::Prepared::draw_header(Canvas& canvas) {
     }
     std::vector<const sim::Problem*> problems;
     for (int m = 0; m < context.members(); ++m) problems.push_back(&context.motion(m).problem);
-    std::vector<std::string> pieces = common_pieces(problems, setup.units.rpm);
+    std::vector<std::string> pieces = common_pieces(problems, setup.units.speed);
     for (std::string& piece : pieces) piece = context.translate(std::move(piece));
     const ParameterLine line = parameter_line(canvas, places, setup.title, pieces);
     for (const ParameterLine::Piece& piece : line.pieces)

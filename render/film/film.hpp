@@ -22,6 +22,7 @@
 #include "render/film/camera.hpp"
 #include "render/film/layout.hpp"
 #include "render/mechanism/exaggeration.hpp"
+#include "render/plot/labels.hpp"
 #include "render/plot/lang.hpp"
 #include "render/plot/ticks.hpp"
 #include "sim/observe/channels.hpp"
@@ -129,7 +130,8 @@ struct Callout {
 
 // Display units of angles and rotational speeds; SI otherwise.
 struct Units {
-    bool degrees = false, rpm = false;
+    bool degrees = false;
+    SpeedUnit speed = SpeedUnit::automatic;  // in charts that of the angles
     // Factor from an SI unit to the one that is shown, and that one.
     double factor(const std::string& si) const;
     std::string unit(const std::string& si) const;

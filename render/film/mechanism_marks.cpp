@@ -40,7 +40,7 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
 
 std::string speed_label(const MechanismView& at) {
     return "$ω$\u2009=\u2009" +
-           turning_speed(at.problem().cam->speed, at.context.setup->units.rpm, at.context.setup->speed_decimals);
+           turning_speed(at.problem().cam->speed, at.context.setup->units.speed, at.context.setup->speed_decimals);
 }
 
 double speed_radius(const MechanismView& at) {

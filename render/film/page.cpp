@@ -141,7 +141,7 @@ std::string cam_json(const FilmContext& context) {
     return fmt::format(
         R"({{"centre":[{:.9g},{:.9g}],"radius":{:.9g},"eccentricity":{:.9g},"speed":{:.9g},"turning":{},"trace":{}}})",
         cam->centre.x, cam->centre.y, cam->radius, cam->eccentricity, cam->speed,
-        json_text(" = " + turning_speed(cam->speed, context.setup->units.rpm)), trace_json(context, cam->radius));
+        json_text(" = " + turning_speed(cam->speed, context.setup->units.speed)), trace_json(context, cam->radius));
 }
 
 std::string numbers_json(const std::vector<Instant>& kept) {

@@ -153,14 +153,14 @@ void FilmContext::place_logo() {
 }
 
 double Units::factor(const std::string& si) const {
-    if (si == "rad/s" && rpm) return 30 / std::numbers::pi;
-    return degrees && (si == "rad" || si == "rad/s") ? 180 / std::numbers::pi : 1;
+    if (si == "rad/s" && speed != SpeedUnit::automatic) return factor_of(speed);
+    return degrees && (si == "rad" || si == "rad/s") ? factor_of(SpeedUnit::degrees) : 1;
 }
 
 std::string Units::unit(const std::string& si) const {
     if (si == "m/s^2") return "m/s²";
     if (factor(si) == 1) return si;
-    return si == "rad" ? "°" : rpm ? "rpm" : "°/s";
+    return si == "rad" ? "°" : name_of(speed == SpeedUnit::rpm ? speed : SpeedUnit::degrees);
 }
 
 double FilmContext::shown_factor(Channel channel) const {

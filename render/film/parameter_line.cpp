@@ -139,14 +139,14 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
 
 std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& grid, int members,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
-                                      const Shown& asked, bool rpm) {
+                                      const Shown& asked, SpeedUnit unit) {
     Shown shown = asked;
     shown.title = shown.title && !title.empty();
     const Layout places = grid ? layout(width, height, *grid, shown)
                                : layout(width, height, std::vector<PanelSpec>{}, members, {}, shown);
     std::vector<std::string> out;
     std::vector<std::string> missing;
-    if (shown.parameters) missing = common_pieces(problems, rpm);
+    if (shown.parameters) missing = common_pieces(problems, unit);
     const bool titled = places.title && !title.empty();
     if (shown.title && !titled) out.emplace_back("the title");
     if (places.parameters || titled) {

@@ -47,6 +47,6 @@ FittedTitle fitted_title(Canvas& canvas, const std::string& title, const Box& bo
 // title and parameters. Throws FontError.
 std::vector<std::string> omitted_text(int width, int height, const std::optional<LayoutNode>& layout, int members,
                                       const std::string& title, const std::vector<const sim::Problem*>& problems,
-                                      const Shown& shown = {}, bool rpm = false);
+                                      const Shown& shown = {}, SpeedUnit unit = {});
 
 }  // namespace beamcam::render

@@ -51,7 +51,7 @@ struct FrictionPiece {
 
 // The drive of the hub; empty: free.
 struct DrivePiece {
-    bool rpm = false;
+    SpeedUnit unit;
     std::string operator()(const sim::FreeDrive&) const { return {}; }
     std::string operator()(const sim::ConstantTorque& d) const { return "torque " + quantity(d.value, "N\u2009m"); }
     std::string operator()(const sim::HarmonicTorque& d) const {
@@ -59,24 +59,32 @@ struct DrivePiece {
     }
     std::string operator()(const sim::TorqueTable&) const { return "torque by table"; }
     std::string operator()(const sim::ConstantSpeed& d) const {
-        return d.speed == 0 ? "hub held" : "hub at " + turning_speed(d.speed, rpm);
+        return d.speed == 0 ? "hub held" : "hub at " + turning_speed(d.speed, unit);
     }
     std::string operator()(const sim::SpinUp& d) const {
-        return fmt::format("hub to {} in {}", turning_speed(d.speed, rpm), quantity(d.duration, "s"));
+        return fmt::format("hub to {} in {}", turning_speed(d.speed, unit), quantity(d.duration, "s"));
     }
     std::string operator()(const sim::AngleTable&) const { return "hub by table"; }
 };
 
 }  // namespace
 
-std::string turning_speed(double speed, bool rpm, std::optional<int> decimals) {
-    const double value = std::abs(rpm ? speed * 30 / std::numbers::pi : speed);
+double factor_of(SpeedUnit unit) {
+    return unit == SpeedUnit::rpm ? 30 / std::numbers::pi : unit == SpeedUnit::degrees ? 180 / std::numbers::pi : 1;
+}
+
+const char* name_of(SpeedUnit unit) {
+    return unit == SpeedUnit::rpm ? "rpm" : unit == SpeedUnit::degrees ? "°/s" : "rad/s";
+}
+
+std::string turning_speed(double speed, SpeedUnit unit, std::optional<int> decimals) {
+    const double value = std::abs(speed * factor_of(unit));
     const auto with_unit = [&](const std::string& number) {
-        return (speed < 0 ? "−" : "") + number + (rpm ? "\u00A0rpm" : "\u00A0rad/s");
+        return (speed < 0 ? "−" : "") + number + (unit == SpeedUnit::degrees ? "" : "\u00A0") + name_of(unit);
     };
     if (decimals) return with_unit(fmt::format("{:.{}f}", value, *decimals));
     // Ordinary numbers need no prefix.
-    if (!rpm && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
+    if (factor_of(unit) == 1 && value != 0 && (value < 1e-3 || value >= 1e4)) return quantity(speed, "rad/s");
     std::string number = fmt::format("{:.3g}", value);
     if (number.find('e') != std::string::npos) number = fmt::format("{:.0f}", value);
     return with_unit(number);
@@ -90,7 +98,7 @@ std::string power_text(double value) {
     return mantissa == "1" ? power_of_ten(exponent) : mantissa + "·" + power_of_ten(exponent);
 }
 
-std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm) {
+std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit) {
     std::vector<std::string> out;
     out.push_back(equation("L", quantity(problem.beam.length, "m")));
     if (problem.cam) {
@@ -105,7 +113,7 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm)
     if (problem.hub.radius != 0) out.push_back(equation("a", quantity(problem.hub.radius, "m")));
     if (problem.hub.inertia != 0)
         out.push_back(equation("I_{\\r{h}}", power_text(problem.hub.inertia) + "\u00A0kg\u2009m²"));
-    if (std::string drive = std::visit(DrivePiece{rpm}, problem.hub.drive); !drive.empty())
+    if (std::string drive = std::visit(DrivePiece{unit}, problem.hub.drive); !drive.empty())
         out.push_back(std::move(drive));
     if (problem.gravity == 0)
         out.emplace_back("no gravity");
@@ -120,10 +128,10 @@ std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm)
     return out;
 }
 
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm) {
-    std::vector<std::string> out = parameter_pieces(*problems.front(), rpm);
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit) {
+    std::vector<std::string> out = parameter_pieces(*problems.front(), unit);
     for (const sim::Problem* other : problems) {
-        const std::vector<std::string> its = parameter_pieces(*other, rpm);
+        const std::vector<std::string> its = parameter_pieces(*other, unit);
         std::erase_if(out, [&](const std::string& piece) { return std::ranges::find(its, piece) == its.end(); });
     }
     return out;

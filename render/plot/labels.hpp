@@ -9,13 +9,17 @@
 
 namespace beamcam::render {
 
+enum class SpeedUnit { automatic, radians, degrees, rpm };  // of angular speeds; automatic: rad/s
+double factor_of(SpeedUnit unit);                           // from rad/s
+const char* name_of(SpeedUnit unit);                        // "°/s"
+
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
-std::vector<std::string> parameter_pieces(const sim::Problem& problem, bool rpm = false);
+std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit = {});
 // The pieces that all problems share.
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, bool rpm = false);
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit = {});
 
 // "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits, or with this number of decimals. `speed` in rad/s.
-std::string turning_speed(double speed, bool rpm, std::optional<int> decimals = {});
+std::string turning_speed(double speed, SpeedUnit unit, std::optional<int> decimals = {});
 
 // Of a frame: "1/50 speed", "2× speed", "0.524× speed", "frozen"; empty at real time. `steady`: of a film at one speed;
 // otherwise changing speeds are rounded to simple fractions.

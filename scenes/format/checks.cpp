@@ -88,12 +88,22 @@ static std::vector<const Node*> compared_sets(const Node& scene) {
     return out;
 }
 
+bool in_degrees(std::string_view text) {
+    return text.find("deg") != std::string_view::npos || text.find("°") != std::string_view::npos;
+}
+
+render::SpeedUnit speed_unit(std::string_view text) {
+    return text.ends_with("rpm") ? render::SpeedUnit::rpm
+           : in_degrees(text)    ? render::SpeedUnit::degrees
+           : text.empty()        ? render::SpeedUnit::automatic
+                                 : render::SpeedUnit::radians;
+}
+
 // The units of the first of these keys that is a text with a unit, in the scene or else in its comparisons.
 void infer_units(ObjectReader& r, render::Units& units) {
     if (!r.node()) return;
     const std::vector<const Node*> sets = compared_sets(*r.node());
-    const auto first_ends_in = [&](std::initializer_list<const char*> keys,
-                                   std::initializer_list<std::string_view> names) {
+    const auto first_stated = [&](std::initializer_list<const char*> keys) -> std::string_view {
         const auto states_unit = [](const Node* at) { return at && at->kind == Node::Kind::string; };
         const Node* stated = nullptr;
         for (const char* key : keys)
@@ -101,20 +111,16 @@ void infer_units(ObjectReader& r, render::Units& units) {
         for (const Node* set : sets)
             for (const char* key : keys)
                 if (const Member* at = set->find(key); !stated && at && states_unit(&at->value)) stated = &at->value;
-        return stated &&
-               std::ranges::any_of(names, [&](auto name) { return std::string_view(stated->text).ends_with(name); });
+        return stated ? std::string_view(stated->text) : std::string_view();
     };
-    units.degrees = first_ends_in({"initial.angle", "cam.phase"}, {"deg", "°"});
-    units.rpm = first_ends_in({"cam.speed", "hub.drive.speed", "initial.angular_velocity"}, {"rpm"});
+    units.degrees = in_degrees(first_stated({"initial.angle", "cam.phase"}));
+    units.speed = speed_unit(first_stated({"cam.speed", "hub.drive.speed", "initial.angular_velocity"}));
 }
 
 void adopt_unit(std::string_view text, const Dimension& dimension, render::Units& units) {
     if (text.find_last_not_of("0123456789.eE+-") == std::string_view::npos) return;
-    const bool degrees = text.find("deg") != std::string_view::npos || text.find("°") != std::string_view::npos;
-    if (same(dimension, dimension::kAngle)) units.degrees = degrees;
-    if (!same(dimension, dimension::kAngularSpeed)) return;
-    units.rpm = text.ends_with("rpm");
-    if (!units.rpm) units.degrees = degrees;
+    if (same(dimension, dimension::kAngle)) units.degrees = in_degrees(text);
+    if (same(dimension, dimension::kAngularSpeed)) units.speed = speed_unit(text);
 }
 
 void check_view(ObjectReader& r, const View& view) {

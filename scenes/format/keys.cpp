@@ -65,9 +65,14 @@ void visit(SceneVisitor& v, Scene& scene) {
             auto& s = static_cast<SceneVisitor&>(inside);
             s.choice(sim::derived("angle"), scene.units.degrees, {{false, "rad"}, {true, "deg"}},
                      "Unit of angles; by default that of initial.angle or cam.phase, if it is a text with a unit.");
-            s.choice(sim::derived("speed"), scene.units.rpm, {{false, "rad/s"}, {true, "rpm"}},
+            s.choice(sim::derived("speed"), scene.units.speed,
+                     {{render::SpeedUnit::automatic, "auto"},
+                      {render::SpeedUnit::radians, "rad/s"},
+                      {render::SpeedUnit::degrees, "deg/s"},
+                      {render::SpeedUnit::rpm, "rpm"}},
                      "Unit of angular speeds; by default that of cam.speed, the drive or initial.angular_velocity, the "
-                     "first that is a text with a unit. Of a key that is swept the sweep's first value counts.");
+                     "first that is a text with a unit. auto: rad/s, in charts that of angles per second. Of a key "
+                     "that is swept the sweep's first value counts.");
         },
         "Units of angles and speeds in films.", nullptr);
     v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });

@@ -80,7 +80,7 @@ std::string omitted_text(const Pictures& p, const Scene& scene) {
     if (problems.empty()) problems.push_back(&scene.problem);
     const int members = p.comparison == render::Comparison::panels ? static_cast<int>(problems.size()) : 1;
     return fmt::format("{}", fmt::join(render::omitted_text(p.size.width, p.size.height, p.layout, members, scene.title,
-                                                            problems, p.view.show, scene.units.rpm),
+                                                            problems, p.view.show, scene.units.speed),
                                        "; "));
 }
 

@@ -240,7 +240,7 @@ TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
     table.branches.emplace_back().points = {point, point};
     table.branches[0].special.emplace_back().at = point;
     Scene scene;
-    scene.units.rpm = true;
+    scene.units.speed = render::SpeedUnit::rpm;
     const auto figure = branches_figure(table, {{10 * std::numbers::pi}, {0.2}}, scene, Lang::en);
     EXPECT_EQ(figure.panels[0].x.label, "$ω$ / rpm");
     EXPECT_NEAR(figure.panels[0].series[0].x[0], 300, 1e-9);

@@ -159,25 +159,31 @@ TEST(Reader, PlatesAreLeftOutOneByOneOrByAPreset) {
 }
 
 TEST(Reader, PicturesHaveTheUnitsOfTheScene) {
+    using render::SpeedUnit;
     const auto units = [](const std::string& text) { return read(text).scene->units; };
-    EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "cam": {"speed": "-300 rpm"}})"), (render::Units{true, true}));
+    EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "cam": {"speed": "-300 rpm"}})"),
+              (render::Units{true, SpeedUnit::rpm}));
     EXPECT_EQ(units(R"({"hub": {"drive": {"type": "prescribed", "law": "constant", "speed": "10 rpm"}},
                         "cam": {"speed": 2, "phase": "30 deg"}})"),
-              (render::Units{true, true}));
-    EXPECT_EQ(units(R"({"initial": {"angle": 1}, "cam": {"speed": "2 rad/s"}})"), render::Units{});
+              (render::Units{true, SpeedUnit::rpm}));
+    EXPECT_EQ(units(R"({"initial": {"angle": 1}, "cam": {"speed": "2 rad/s"}})"),
+              (render::Units{.speed = SpeedUnit::radians}));
+    EXPECT_EQ(units(R"({"hub": {"drive": {"type": "prescribed", "law": "constant", "speed": "-30 deg/s"}}})"),
+              (render::Units{.speed = SpeedUnit::degrees}));
     EXPECT_EQ(units(R"({"initial": {"angle": "60 deg"}, "units": {"angle": "rad"}})"), render::Units{});
     // Of a key that is swept, the values of the sweep decide.
     const std::string speed = R"({"cam": {"speed": "1 rad/s"}, "sweep": {"over": [{"key": "cam.speed", )";
-    EXPECT_EQ(units(speed + R"("from": "300 rpm", "to": "400 rpm", "count": 3}]}})"), (render::Units{.rpm = true}));
-    EXPECT_EQ(units(speed + R"("values": ["300 rpm"]}]}})"), (render::Units{.rpm = true}));
+    EXPECT_EQ(units(speed + R"("from": "300 rpm", "to": "400 rpm", "count": 3}]}})"),
+              (render::Units{.speed = SpeedUnit::rpm}));
+    EXPECT_EQ(units(speed + R"("values": ["300 rpm"]}]}})"), (render::Units{.speed = SpeedUnit::rpm}));
     EXPECT_EQ(units(speed + R"("values": [30]}]}})"), render::Units{});
     // A scene without units takes those of the motions that it compares.
     const std::string compared =
         R"("outputs": [{"type": "video", "file": "a.mp4", "compare": [{}, {"set": {"cam.speed": "60 rpm"}}]}]})";
-    EXPECT_EQ(units("{" + compared), (render::Units{.rpm = true}));
-    EXPECT_EQ(units(R"({"cam": {"speed": "2 rad/s"}, )" + compared), render::Units{});
+    EXPECT_EQ(units("{" + compared), (render::Units{.speed = SpeedUnit::rpm}));
+    EXPECT_EQ(units(R"({"cam": {"speed": "2 rad/s"}, )" + compared), (render::Units{.speed = SpeedUnit::radians}));
     const std::string written = to_json(*read(R"({"initial": {"angle": "60 deg"}})").scene);
-    EXPECT_EQ(units(written), (render::Units{true, false}));
+    EXPECT_EQ(units(written), (render::Units{true, SpeedUnit::automatic}));
 }
 
 TEST(Reader, AllIssuesComeAtOnceInTheOrderOfTheText) {

@@ -163,7 +163,7 @@ TEST(Page, NamesTheSpeedOfTheCamInTheUnitsOfTheScene) {
     render::FilmSetup setup = setup_until(0.05, 500);
     setup.problem.cam->speed = 10;
     EXPECT_EQ(data_of(render::html_page(setup))["cam"]["turning"], " = 10\u00A0rad/s");
-    setup.units.rpm = true;
+    setup.units.speed = render::SpeedUnit::rpm;
     EXPECT_EQ(data_of(render::html_page(setup))["cam"]["turning"], " = 95.5\u00A0rpm");
 }
 

@@ -156,18 +156,18 @@ TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
 TEST(SweepCommand, DrawsInTheUnitOfItsOption) {
     render::Units units;
     adopt_unit("420rpm", dimension::kAngularSpeed, units);
-    EXPECT_EQ(units, (render::Units{.rpm = true}));
+    EXPECT_EQ(units, (render::Units{.speed = render::SpeedUnit::rpm}));
     adopt_unit("44", dimension::kAngularSpeed, units);
-    EXPECT_TRUE(units.rpm);
-    adopt_unit("44 rad/s", dimension::kAngularSpeed, units);
-    EXPECT_EQ(units, render::Units{});
+    EXPECT_EQ(units.speed, render::SpeedUnit::rpm);
     adopt_unit("30 deg/s", dimension::kAngularSpeed, units);
-    EXPECT_EQ(units, (render::Units{.degrees = true}));
-    adopt_unit("0.5 rad", dimension::kAngle, units);
-    EXPECT_EQ(units, render::Units{});
+    EXPECT_EQ(units, (render::Units{.speed = render::SpeedUnit::degrees}));
+    adopt_unit("44 rad/s", dimension::kAngularSpeed, units);
     adopt_unit("30 deg", dimension::kAngle, units);
     adopt_unit("3 mm", dimension::kLength, units);
-    EXPECT_EQ(units, (render::Units{.degrees = true}));
+    EXPECT_EQ(units, (render::Units{.degrees = true, .speed = render::SpeedUnit::radians}));
+    EXPECT_EQ(units.unit("rad/s"), "rad/s");
+    adopt_unit("0.5 rad", dimension::kAngle, units);
+    EXPECT_FALSE(units.degrees);
     Folder folder;
     folder.write("s.json", kSweptScene);
     const Finished done = shell(folder,
@@ -177,7 +177,7 @@ TEST(SweepCommand, DrawsInTheUnitOfItsOption) {
     EXPECT_THAT(slurp(folder / "d.txt"), ::testing::HasSubstr("420 … 430 rpm"));
     const SweepGrid one(*testing::read(kSweptScene).scene);
     Scene other = one.scene();
-    other.units.rpm = !other.units.rpm;
+    other.units.speed = render::SpeedUnit::rpm;
     EXPECT_EQ(SweepGrid(other).digest(), one.digest());
 }
 
