@@ -1,0 +1,155 @@
+// Labels beside obstacles: what gives way, where a leader line ends, and when a label is hidden.
+#include "render/film/label_visibility.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "render/film/mechanism_marks.hpp"
+#include "tests/render/drawing.hpp"
+#include "tests/render/synthetic.hpp"
+
+namespace beamcam::render {
+namespace {
+
+// A mechanism at the first frame of a film, drawn mark by mark on white paper.
+class Marks {
+  public:
+    explicit Marks(const FilmSetup& setup)
+        : context_(std::make_shared<const FilmSetup>(setup)),
+          home(context_, *context_.places.first(PanelKind::mechanism)),
+          cameras(home),
+          pose_(context_.pose(0, 0)) {
+        cameras.follow(std::vector<Followed>(std::size_t(context_.frames())));
+        at_.emplace(cameras.view(0));
+        at_->labels = &labels;
+        perspective = cameras.perspective(*at_, 0);
+    }
+
+    template <class Draw>
+    Image drawn(const Draw& draw) {
+        Image image(context_.setup->width, context_.setup->height);
+        Canvas canvas(image, fonts());
+        canvas.paint(rgb(0xFFFFFF));
+        canvas.record = &texts;
+        const DrawnBeam beam = at_->drawn(0, pose_);
+        const MechanismShape shape = mechanism_shape(at_->problem(), pose_, beam, at_->look, at_->palette);
+        draw(MechanismScene{canvas, 0, pose_, beam, shape, *at_, perspective ? &*perspective : nullptr});
+        return image;
+    }
+    const MechanismView& at() const { return *at_; }
+
+  private:
+    FilmContext context_;
+
+  public:
+    MechanismView home;
+    MechanismCameras cameras;
+    MechanismLabels labels;
+    std::optional<Perspective> perspective;
+    std::vector<Box> texts;
+
+  private:
+    sim::Pose pose_;
+    std::optional<MechanismView> at_;
+};
+
+FilmSetup film_of(Style style) {
+    FilmSetup setup = test::flat_film({.duration = 0.2}, 1280, 720);
+    setup.view.style = style;
+    setup.layout = LayoutNode{};
+    return setup;
+}
+
+long inked(const Image& a, const Image& b) { return differing_pixels(a, b, {0, 0, double(a.width), double(a.height)}); }
+
+// Films with and without an arc of θ differ by the leader of the cam's speed if the arc lies between label and arrow.
+TEST(MechanismMarks, TheLeaderOfTheSpeedDoesNotCrossTheArcOfTheAngle) {
+    Marks marks(film_of(Style::flat));
+    const MechanismView& at = marks.at();
+    const Vec2 axis = at.px(at.problem().cam->centre), hinge = at.px({0, 0});
+    marks.labels.speed_way = 0.8 * std::numbers::pi;  // towards the beam
+    const Vec2 arrow = axis + down(marks.labels.speed_way) * speed_radius(at);
+    const auto leader = [&](Vec2 label) {
+        marks.labels.speed = LabelPlace{at.look.camera.to_world(arrow), label - arrow, {60, 20}, {}, {}};
+        const auto draw = [](const MechanismScene& s) { draw_cam_speed(s); };
+        marks.labels.arc_radius = 0.85 * norm(arrow - hinge);
+        const Image with = marks.drawn(draw);
+        marks.labels.arc_radius = 0;
+        return inked(with, marks.drawn(draw));
+    };
+    EXPECT_GT(leader(arrow + Vec2{0, 200}), 20);  // across the start of the arc
+    EXPECT_EQ(leader(arrow - Vec2{0, 200}), 0);
+}
+
+// Before a moving camera a label may be far from its arrow, to which no line leads then.
+TEST(MechanismMarks, LeadersHaveAGreatestLengthBeforeAMovingCamera) {
+    for (const double zoom : {1.0, 3.0}) {
+        FilmSetup setup = film_of(Style::flat);
+        setup.view.shot.zoom = zoom;
+        Marks marks(setup);
+        const auto drawn_over = [&](double length) {
+            const MechanismView& at = marks.at();
+            const LabelPlace label{{}, {}, {20, 20}, {}, {}};
+            const auto draw = [&](const MechanismScene& s) {
+                const Box box = s.label_box(label, label.base);
+                draw_leader(s, label, rgb(0), {box.right() + length * at.unit, box.centre().y}, label.base);
+            };
+            return inked(marks.drawn(draw), marks.drawn([](const MechanismScene&) {})) > 0;
+        };
+        EXPECT_FALSE(drawn_over(kFarLabel - 5));
+        EXPECT_TRUE(drawn_over(150));
+        EXPECT_EQ(drawn_over(300), zoom == 1) << zoom;
+    }
+}
+
+// From far above, letters at another depth would be beside the line through B and C on the front of the disc.
+TEST(MechanismMarks, LettersOfTheDiscAreOnItsFront) {
+    FilmSetup setup = film_of(Style::solid);
+    setup.problem.cam->eccentricity = 0.05;
+    for (sim::Pose& pose : setup.poses) pose.disc_centre = setup.problem.cam->centre + Vec2{0.05, 0};
+    setup.view.shot.pitch = 1;
+    Marks marks(setup);
+    const MechanismView& at = marks.at();
+    marks.drawn([](const MechanismScene& s) { draw_disc_letters(s); });
+    ASSERT_EQ(marks.texts.size(), 2U);
+    const Vec2 axis = at.px(at.problem().cam->centre);
+    const auto beside_line = [&](Vec2 p, double depth) {
+        double least = 1e9;
+        for (double x = -200; x < 200; x += 0.5)
+            least = std::min(least, norm(at.seen(axis + Vec2{x, 0}, &*marks.perspective, depth) - p));
+        return least;
+    };
+    const Vec2 letter = marks.texts.front().centre();
+    EXPECT_LT(beside_line(letter, kDiscDepth), 2);
+    EXPECT_GT(beside_line(letter, 0.5), 3);
+}
+
+// A label over the beam moves to the free place beside it and stays opaque; one as large as the view is hidden.
+TEST(LabelVisibility, HidesLabelsBeforeAMovingCameraOnlyWithoutRoom) {
+    FilmSetup setup = film_of(Style::flat);
+    setup.view.shot = {.zoom = 1.5, .follow = {Anchor::Kind::place, {0.4, 0.4}}};
+    Marks marks(setup);
+    const auto shifted = [&](Vec2 size) {
+        LabelPlace label{{}, {}, size, {}, {}};
+        shift_clear(label, marks.cameras, [&](const SeenFrame& now) {
+            const DrawnBeam beam = now.at.beam_of(0, now.frame);
+            const Vec2 on = now.at.px(beam.line[beam.line.size() / 2]);
+            return WantedPlace{now.at.px(label.base), Box{on.x - size.x / 2, on.y - size.y / 2, size.x, size.y}, {}};
+        });
+        return label;
+    };
+    const LabelPlace small = shifted({60, 20});
+    const Box view = marks.home.box;
+    const LabelPlace large = shifted({0.9 * view.w, 0.9 * view.h});
+    for (int k = 0; k < int(setup.poses.size()); ++k) {
+        const SeenFrame now(marks.cameras, k);
+        EXPECT_EQ(small.opacity_at(k), 1) << k;
+        EXPECT_FALSE(meets_body(now.at.label_box(small, now.by(), {}, k), now)) << k;
+        EXPECT_EQ(large.opacity_at(k), 0) << k;
+    }
+}
+
+}  // namespace
+}  // namespace beamcam::render
