@@ -47,7 +47,7 @@ void Canvas::rounded(const Box& b, double r) {
     cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
     cairo_close_path(cr_);
     add_to_key('O', {b.x, b.y, b.w, b.h, r});
-    extend_path_box(b);
+    if (touched) path_.add(b);
 }
 
 void Canvas::paint(Color c) {
@@ -136,7 +136,7 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
             pango_cairo_layout_path(cr_, letters);
             add_to_key('t', {from.x, from.y}, face_of(run, style, fonts_->typefaces()).key(run.run.text));
         }
-        extend_path_box(ink);
+        if (touched) path_.add(ink);
         uncased([&] {
             // Wide and faint under narrow and strong: the outline fills the inside of small letters softly.
             if (outline)

@@ -54,47 +54,14 @@ void Painter::mark_painted(const Box& box) {
     if (!within.empty()) touched->add(within);
 }
 
-void Painter::extend_path_box(const Box& box) {
-    if (touched) path_.push_back(box);
-}
-
-// Boxes about as long as a tile, so that a slanted line marks few tiles.
-void Painter::add_line_boxes(Vec2 from, Vec2 to) {
-    constexpr double kPieceLength = 48, kMostPieces = 1000;
-    const int pieces = static_cast<int>(std::clamp(std::ceil(norm(to - from) / kPieceLength), 1.0, kMostPieces));
-    for (int i = 0; i < pieces; ++i) {
-        const Vec2 a = from + (to - from) * (double(i) / pieces), b = from + (to - from) * (double(i + 1) / pieces);
-        path_.push_back({std::min(a.x, b.x), std::min(a.y, b.y), std::abs(b.x - a.x), std::abs(b.y - a.y)});
-    }
-}
-
-void Painter::add_arc_boxes(Vec2 c, double radius, double from, double to) {
-    const int pieces = static_cast<int>(std::clamp(std::ceil(std::abs(to - from) / 0.4), 1.0, 64.0));
-    const double step = (to - from) / pieces;
-    const double bulge = radius * (1 - std::cos(std::min(std::abs(step) / 2, std::numbers::pi)));
-    for (int i = 0; i < pieces; ++i) {
-        const double p = from + i * step, q = p + step;
-        const double ax = radius * std::cos(p), ay = -radius * std::sin(p), bx = radius * std::cos(q),
-                     by = -radius * std::sin(q);
-        path_.push_back(
-            Box{c.x + std::min(ax, bx), c.y + std::min(ay, by), std::abs(bx - ax), std::abs(by - ay)}.inset(-bulge));
-    }
-}
-
 // A stroke marks the boxes of its path; a fill marks the box around all of them.
 void Painter::mark_path_painted(double around, bool inside) {
     if (!touched) return;
     if (!inside) {
-        for (const Box& box : path_) mark_painted(box.inset(-around));
+        for (const Box& box : path_.boxes()) mark_painted(box.inset(-around));
         return;
     }
-    if (!path_.empty()) mark_painted(path_box());
-}
-
-Box Painter::path_box() const {
-    Bounds all;
-    for (const Box& box : path_) all.add({box.x, box.y}), all.add({box.right(), box.bottom()});
-    return all.box();
+    if (!path_.boxes().empty()) mark_painted(path_.around());
 }
 
 void Painter::add_to_key(char what, std::initializer_list<double> numbers, std::string_view words) {
@@ -115,20 +82,17 @@ void Painter::paint_path(Color color, const std::string& name, const Box& box,
 void Painter::move_to(Vec2 p) {
     cairo_move_to(cr_, p.x, p.y);
     add_to_key('m', {p.x, p.y});
-    start_ = at_ = p, open_ = true;
+    if (touched) path_.move_to(p);
 }
 void Painter::line_to(Vec2 p) {
     cairo_line_to(cr_, p.x, p.y);
     add_to_key('l', {p.x, p.y});
-    if (!open_) start_ = at_ = p;  // as Cairo does
-    if (touched) add_line_boxes(at_, p);
-    at_ = p, open_ = true;
+    if (touched) path_.line_to(p);
 }
 void Painter::close() {
     cairo_close_path(cr_);
     add_to_key('z', {});
-    if (touched && open_) add_line_boxes(at_, start_);
-    at_ = start_;
+    if (touched) path_.close();
 }
 
 void Painter::polyline(std::span<const Vec2> points) {
@@ -149,10 +113,7 @@ void Painter::arc(Vec2 c, double radius, double from, double to) {
     else
         cairo_arc(cr_, c.x, c.y, radius, -from, -to);
     add_to_key('a', {c.x, c.y, radius, from, to});
-    const auto place = [&](double angle) { return c + Vec2{std::cos(angle), -std::sin(angle)} * radius; };
-    if (!open_) start_ = at_ = place(from);
-    if (touched) add_line_boxes(at_, place(from)), add_arc_boxes(c, radius, from, to);
-    at_ = place(to), open_ = true;
+    if (touched) path_.arc(c, radius, from, to);
 }
 
 void Painter::circle(Vec2 c, double radius) {
@@ -160,15 +121,13 @@ void Painter::circle(Vec2 c, double radius) {
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
     add_to_key('o', {c.x, c.y, radius});
-    if (touched) add_arc_boxes(c, radius, 0, 2 * std::numbers::pi);
-    start_ = at_ = c + Vec2{radius, 0}, open_ = true;
+    if (touched) path_.circle(c, radius);
 }
 
 void Painter::rectangle(const Box& b) {
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
     add_to_key('r', {b.x, b.y, b.w, b.h});
-    extend_path_box(b);
-    start_ = at_ = {b.x, b.y}, open_ = true;
+    if (touched) path_.rectangle(b);
 }
 
 // A shaft and a filled head; an arrow shorter than its head is only a smaller head.
@@ -204,14 +163,13 @@ void Painter::fill(Color c) {
 void Painter::fill_keeping_path(Color c) {
     // Translucent fills are faster in Cairo than from cached coverage.
     const bool kept = !key_.empty() && c.a == 1;
-    paint_path(c, kept ? key_ : "", path_box().inset(-2), cairo_fill_preserve);
+    paint_path(c, kept ? key_ : "", path_.around().inset(-2), cairo_fill_preserve);
     mark_path_painted(0, true);
 }
 void Painter::new_path() {
     cairo_new_path(cr_);
     path_.clear();
     key_.clear();
-    open_ = false;
 }
 void Painter::stroke(const Pen& pen) {
     constexpr double kFaint = 0.5;
@@ -227,7 +185,7 @@ void Painter::stroke(const Pen& pen) {
     new_path();
 }
 void Painter::stroke_path(const Pen& pen, const std::string& name) {
-    paint_path(pen.color, name, path_box().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
+    paint_path(pen.color, name, path_.around().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
         cairo_set_line_width(cr, pen.width);
         cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);

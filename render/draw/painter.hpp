@@ -15,6 +15,7 @@
 #include "render/draw/coverage_cache.hpp"
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
+#include "render/draw/path_boxes.hpp"
 
 using cairo_t = struct _cairo;                  // NOLINT(bugprone-reserved-identifier): the library's own names
 using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
@@ -95,7 +96,6 @@ class Painter {
     void end();
     void set_source(Color color);
     void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
-    void extend_path_box(const Box& box);
     void new_path();
     void stroke_path(const Pen& pen, const std::string& name);  // keeps the path
     // Appends to the key that identifies the path in the coverage cache.
@@ -111,19 +111,14 @@ class Painter {
     cairo_t* cr_ = nullptr;
     Color (*recolor_)(Color) = nullptr;  // if set, maps colours before painting
     const Box* limit_ = nullptr;         // the clip; null: none
+    PathBoxes path_;                     // of the path, while `touched` is set
 
   private:
     cairo_surface_t* surface_ = nullptr;
     int exceptions_ = 0;  // number of active exceptions when drawing began
     void place(const Image& image, const Box& into, bool smooth);
-    void add_line_boxes(Vec2 from, Vec2 to);
-    void add_arc_boxes(Vec2 centre, double radius, double from, double to);
     void mark_path_painted(double around, bool inside);
-    Box path_box() const;
-    std::vector<Box> path_;  // boxes that contain the path, while `touched` is set
-    std::string key_;        // of the path, while coverage is cached
-    Vec2 start_, at_;        // of the open part of the path
-    bool open_ = false;
+    std::string key_;  // of the path, while coverage is cached
 };
 
 }  // namespace beamcam::render
