@@ -8,69 +8,11 @@
 #include <utility>
 
 #include "render/base/error.hpp"
+#include "scenes/plan/event_search.hpp"
 #include "scenes/scene/time_map.hpp"
 #include "sim/observe/recorder_set.hpp"
 
 namespace beamcam::scenes {
-
-// ---- the search for events ---------------------------------------------------------------------
-
-namespace {
-
-using Bounds = std::vector<std::optional<Instant>>;  // events at which outputs begin or end
-
-// The events after which the run may end. The apex of a rebound is certain when the next collision begins. nullopt: the
-// whole motion is needed.
-std::optional<sim::EventCounts> enough_for(const Bounds& bounds) {
-    sim::EventCounts enough;
-    const auto raise = [](std::size_t& count, int number) {
-        count = std::max(count, static_cast<std::size_t>(number));
-    };
-    for (const std::optional<Instant>& each : bounds) {
-        switch (each.value_or(Instant{}).kind) {
-            case Instant::Kind::time:
-                break;
-            case Instant::Kind::last:
-                return std::nullopt;
-            case Instant::Kind::impact:
-                raise(enough.touches, each->number);
-                break;
-            case Instant::Kind::release:
-                raise(enough.releases, each->number);
-                break;
-            case Instant::Kind::collision:
-                raise(enough.collisions, each->number);
-                break;
-            case Instant::Kind::apex:
-                raise(enough.collisions, each->number + 1);
-                break;
-        }
-    }
-    return enough.touches + enough.releases + enough.collisions > 0 ? std::optional(enough) : std::nullopt;
-}
-
-Bounds bounds_of(const Pictures& p) { return {p.span.from_event, p.span.to_event}; }
-Bounds bounds_of(const SeriesKeys& keys) { return {keys.from_event, keys.to_event, keys.at}; }
-
-sim::Request events_request(double end, bool apexes) {
-    sim::Request request;
-    request.end_time = end;
-    request.apexes = apexes;
-    return request;
-}
-
-// The motion until the end of the request, or until all bounds are found. Without bounds: until the end.
-sim::Result find_events(const sim::Problem& problem, sim::Request request, const Bounds& bounds,
-                        const FindEvents& find) {
-    request.enough = enough_for(bounds);
-    sim::Result found = find(problem, request);
-    const auto lacks = [&](const std::optional<Instant>& at) { return at && !find_instant(*at, found); };
-    if (!(found.end_time < request.end_time) || std::ranges::none_of(bounds, lacks)) return found;
-    request.enough.reset();  // two successive collisions had no apex between them
-    return find(problem, request);
-}
-
-}  // namespace
 
 // ---- figures -----------------------------------------------------------------------------------
 
@@ -116,7 +58,7 @@ FigureOutput with_found_times(const FigureOutput& how, const Scene& scene, const
     const sim::Problem& counted = keys.compare.empty() ? scene.problem : keys.compare.front().problem;
     const sim::Request request = events_request(keys.to.value_or(scene.end_time), needs_apexes(how));
     const bool ends_at_event = keys.to_event || keys.at;
-    return with_event_times(how, find_events(counted, request, ends_at_event ? bounds_of(keys) : Bounds(), find),
+    return with_event_times(how, find_events(counted, request, ends_at_event ? bounds_of(keys) : EventBounds(), find),
                             scene.end_time);
 }
 
@@ -160,7 +102,7 @@ FilmTimes with_moves(const Pictures& p, FilmTimes times, const sim::Result& moti
 // Slow motion is around the impacts of all motions; "impact:N" counts those of the first motion.
 FilmTimes times_of_compared(Pictures& p, const FindEvents& find) {
     const sim::Result first = find_events(p.shown.front().problem, events_request(p.end_time, needs_apexes(p)),
-                                          p.ends_at_event() ? bounds_of(p) : Bounds(), find);
+                                          p.ends_at_event() ? bounds_of(p) : EventBounds(), find);
     end_at_event(p, first);
     std::vector<sim::Impact> all = first.impacts;
     for (std::size_t i = 1; i < p.shown.size(); ++i) {
@@ -267,8 +209,8 @@ void resolve_each(std::vector<T>& all, const RejectOutput& reject, const Resolve
 }  // namespace
 
 void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find, const RejectOutput& reject) {
-    Bounds bounds;
-    const auto add_bounds = [&](const Bounds& more) { bounds.insert(bounds.end(), more.begin(), more.end()); };
+    EventBounds bounds;
+    const auto add_bounds = [&](const EventBounds& more) { bounds.insert(bounds.end(), more.begin(), more.end()); };
     for (const Pictures& p : plan.pictures)
         if (!p.times_known && p.compare.empty()) add_bounds(bounds_of(p));
     for (const FigureFile& f : plan.figures)

@@ -2,88 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/base/numerics.hpp"
-#include "sim/observe/constants.hpp"
 #include "sim/run/constants.hpp"
 #include "sim/sweep/constants.hpp"
 #include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-bool frictionless(const Friction& friction) { return std::holds_alternative<NoFriction>(friction); }
-
-}  // namespace
-
-bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
-    const bool steady =
-        std::holds_alternative<FreeDrive>(p.hub.drive) || std::holds_alternative<ConstantTorque>(p.hub.drive);
-    const bool sampled = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::section;
-    if (p.beam.model != ModelKind::rigid || !p.cam || p.contact.model != ContactModel::restitution || !steady ||
-        !frictionless(p.contact.friction) || p.solver.method != Method::automatic || !sampled ||
-        std::isfinite(sampling.end_time))
-        return false;
-    const double away = norm(p.cam->centre), reach = p.cam->radius + contact_offset(p),
-                 margin = kInsideBeam * p.beam.length;
-    const double nearest = away - p.cam->eccentricity, farthest = away + p.cam->eccentricity;
-    if (!(nearest > reach)) return false;
-    const double shortest = std::sqrt(nearest * nearest - reach * reach) - p.hub.radius,
-                 longest = std::sqrt(farthest * farthest - reach * reach) - p.hub.radius;
-    return shortest > margin && longest < p.beam.length - margin;
-}
-
-RigidMotion::Mirrored RigidMotion::mirrored(const Problem& p, double theta) {
-    const double root = p.hub.radius, tip = root + p.beam.length, density = p.beam.line_density();
-    const double inertia = p.hub.inertia + density * (tip * tip * tip - root * root * root) / 3;  // (S8)
-    const auto* torque = std::get_if<ConstantTorque>(&p.hub.drive);
-    const double k = p.gravity * density * (tip * tip - root * root) / 2 / inertia;
-    const double alpha = (torque ? torque->value : 0) / inertia;
-    const double side = cross(disc_centre(*p.cam, 0), unit(theta)) < 0 ? -1 : 1;
-    Mirrored m{*p.cam, side, side * k, side * alpha};
-    m.cam.centre.y *= side;
-    m.cam.phase *= side;
-    m.cam.speed *= side;
-    return m;
-}
-
-// Without contact the initial state of a rigid beam is given directly.
-InitialState RigidMotion::start_of(const Problem& problem, const InitialState* start) {
-    if (start) return *start;
-    if (problem.initial.shape == InitialShape::resting) return initial_state(problem);
-    InitialState own;
-    own.y = {problem.initial.angle, problem.initial.angular_velocity};
-    return own;
-}
-
-RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start)
-    : problem_(problem),
-      sampling_(sampling),
-      start_(start_of(problem, start)),
-      span_(sample_span(problem, sampling)),
-      period_(span_.period),
-      mirrored_(mirrored(problem, start_.y[0])),
-      surface_(mirrored_.cam, problem.cam->radius + contact_offset(problem), mirrored_.k, mirrored_.alpha),
-      series_(mirrored_.k, mirrored_.alpha),
-      reach_(problem.cam->radius),
-      centre_direction_(std::atan2(mirrored_.cam.centre.y, mirrored_.cam.centre.x)),
-      section_phase_(section_phase(problem, sampling.level)) {
-    motion_.accuracy = kRigidAccuracy;
-    begin(start_);
-}
-
-void RigidMotion::begin(const InitialState& start) {
-    state_.theta = mirrored_.side * start.y[0];
-    state_.rate = mirrored_.side * start.y[1];
-    const SurfaceAngle c = surface_.at(0);
-    if (start.phase.touching) {
-        rest_on(c);
-    } else if (state_.theta < c.angle) {
-        state_.theta = c.angle;
-        touched_ = true;
-    }
-}
 
 SampledMotion RigidMotion::follow(const Progress& progress, bool until_return) {
     for (long count = 1; turn_ < span_.to && !motion_.over_the_top; ++count) {
