@@ -61,6 +61,18 @@ std::vector<double> pressed_state(System& system, Dice& dice, double depth, doub
     return y;
 }
 
+// A state at 0.1 s in which the beam presses on the cam, in one phase of friction after the other.
+std::vector<double> state_in_contact(System& system, Dice& dice, int count, bool touching) {
+    Phase phase;
+    system.set_phase(phase);
+    std::vector<double> y = pressed_state(system, dice, 2e-3, 0.1);
+    phase.touching = touching;
+    phase.approach = 5;  // the force is not clamped
+    phase.friction = static_cast<FrictionState>(count % 3);
+    system.set_phase(phase);
+    return y;
+}
+
 class Contact_ : public ::testing::TestWithParam<ContactCase> {};
 
 TEST_P(Contact_, FootIsTheNearestPoint) {
@@ -115,13 +127,7 @@ TEST_P(Contact_, PowerOnTheBeamIsWorkOfTheCamLessWhatTheContactTakes) {
     System system(p);
     Dice dice(13);
     for (int repeat = 0; repeat < 6; ++repeat) {
-        Phase phase;
-        system.set_phase(phase);
-        const std::vector<double> y = pressed_state(system, dice, 2e-3, 0.1);
-        phase.touching = true;
-        phase.approach = 5;  // the force is not clamped
-        phase.friction = static_cast<FrictionState>(repeat % 3);
-        system.set_phase(phase);
+        const std::vector<double> y = state_in_contact(system, dice, repeat, true);
         const int n = system.coordinates();
         std::vector<double> dy(y.size());
         system.rhs(0.1, y.data(), dy.data());
@@ -148,19 +154,14 @@ TEST_P(Contact_, LedgerIsConstantAlongTheFlow) {
     System system(p);
     Dice dice(14);
     for (int repeat = 0; repeat < 6; ++repeat) {
-        Phase phase;
-        system.set_phase(phase);
-        std::vector<double> y = pressed_state(system, dice, 2e-3, 0.1);
-        phase.touching = repeat < 5;
-        phase.approach = 5;  // the force is not clamped
-        phase.friction = static_cast<FrictionState>(repeat % 3);
-        system.set_phase(phase);
+        const bool touching = repeat < 5;
+        const std::vector<double> y = state_in_contact(system, dice, repeat, touching);
         std::vector<double> dy(y.size());
         system.rhs(0.1, y.data(), dy.data());
         const auto total = [&](double e) {
             std::vector<double> z = y;
             for (std::size_t i = 0; i < z.size(); ++i) z[i] += e * dy[i];
-            const ContactState c = system.contact(0.1 + e, z.data(), !phase.touching);
+            const ContactState c = system.contact(0.1 + e, z.data(), !touching);
             return system.current_energy_balance(z.data(), c).total();
         };
         const double h = 1e-7, drift = scalar_slope_at_zero(total, h);

@@ -23,6 +23,15 @@ std::vector<Branch> one_impact_branch(const Family& family, double from, const C
     return continue_orbit(family, {from, found.front()}, request);
 }
 
+// The beam starts so close to the cam that it comes to rest on it.
+Family close_to_cam(const PressedBeam& b) {
+    return [b](double speed) {
+        Problem p = b.problem(speed);
+        p.initial.angle = 0.46;
+        return p;
+    };
+}
+
 double least_of(const std::function<double(double)>& f, double low, double high) {
     double at = low;
     constexpr int kSamples = 2000;
@@ -103,11 +112,7 @@ TEST(OrbitChanges, FollowingIsReleasedWhereTheCamFallsFasterThanThePull) {
     const PressedBeam b;
     const double expected =
         std::sqrt(-b.alpha / least_of([&](double psi) { return b.curve(psi); }, 0, 2 * std::numbers::pi));
-    const Family family = [&](double speed) {
-        Problem p = b.problem(speed);
-        p.initial.angle = 0.46;
-        return p;
-    };
+    const Family family = close_to_cam(b);
     const auto found = find_orbits(family(30), {10, 1});
     ASSERT_FALSE(found.empty());
     ASSERT_TRUE(found.front().always_touching());
@@ -148,11 +153,7 @@ TEST(OrbitChanges, RestOnTheCamEndsWhereTheBouncesNoLongerDieOutInTime) {
     SKIP_UNDER_SANITIZERS();
     const PressedBeam b;
     const double expected = find_root([&](double w) { return rest_after_bounces(b, w); }, 46.0, 56.0);
-    const Family family = [&](double speed) {
-        Problem p = b.problem(speed);
-        p.initial.angle = 0.46;
-        return p;
-    };
+    const Family family = close_to_cam(b);
     const auto found = find_orbits(family(42.2), {10, 1});
     ASSERT_FALSE(found.empty());
     ASSERT_TRUE(found.front().chatters());
