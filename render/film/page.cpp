@@ -166,10 +166,10 @@ std::string numbers_json(const std::vector<Instant>& kept) {
         base64(points));
 }
 
-// Radius of the arc of θ: clear of the disc, unless there is no room between it and the hub.
+// Radius of the arc of θ: outside the hub and clear of the disc, unless there is no room between them.
 double arc_radius(const sim::Problem& problem) {
-    const double usual = 0.14 * problem.beam.length,
-                 least = std::max(problem.hub.radius, 0.022 * problem.beam.length) * 2;
+    const double length = problem.beam.length, usual = std::max(0.14 * length, problem.hub.radius + 0.1 * length),
+                 least = std::max(problem.hub.radius, 0.022 * length) * 2;
     if (!problem.cam) return usual;
     const double before_cam = arc_before_cam(*problem.cam);
     return before_cam >= least ? std::min(usual, before_cam) : usual;

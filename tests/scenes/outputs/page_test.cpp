@@ -135,14 +135,16 @@ TEST(Page, StatesTheForceOfImpacts) {
     }
 }
 
-// The arc of the angle and its letter are clear of the disc, wherever it has turned.
-TEST(Page, TheArcOfTheAngleIsBeforeTheCam) {
+// The arc of the angle and its letter are clear of the disc, wherever it has turned, and outside a large hub.
+TEST(Page, TheArcOfTheAngleIsBetweenHubAndCam) {
     render::FilmSetup setup = setup_until(0.05, 500);
     EXPECT_NEAR(data_of(render::html_page(setup))["arc"], 0.86 * (0.25 - 0.1 - 0.02), 1e-9);
     setup.problem.cam->centre = {0.6, 0};
     EXPECT_EQ(data_of(render::html_page(setup))["arc"], 0.14);
     setup.problem.cam.reset();
     EXPECT_EQ(data_of(render::html_page(setup))["arc"], 0.14);
+    setup.problem.hub.radius = 0.3;
+    EXPECT_NEAR(data_of(render::html_page(setup))["arc"], 0.4, 1e-9);
 }
 
 TEST(Page, TheSameMotionGivesTheSameBytes) {
