@@ -139,7 +139,8 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         by_depth[k] = at.by_depth;
         by_rate[k] = at.by_rate;
     }
-    force_rounding_ = held_ ? 0 : kDepthRounding * form_.length * largest(by_depth);
+    force_rounding_ = kDepthRounding * form_.length * largest(by_depth);
+    if (held_) force_rounding_ /= kNodeGap * mobility_contact_;  // which changes the rate from node to node
     decays_ = held_ ? 0 : largest(by_rate) * mobility_contact_;
     Lanes ahead;
     if (friction_.bristle) {

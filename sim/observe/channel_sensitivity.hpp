@@ -12,10 +12,10 @@
 
 namespace beamcam::sim {
 
-// To eight modes; what is absent is zero. `mixed`: contribution of products of modes; `shift`: frequency of the factor
-// of q [rad/s].
+// To eight modes; what is absent is zero. `mixed`: contribution of products of modes, `mixed_rate` of those with rates;
+// `shift`: frequency of the factor of q [rad/s].
 struct Sensitivity {
-    std::optional<Lanes> q{}, rate{}, acceleration{}, mixed{}, shift{};
+    std::optional<Lanes> q{}, rate{}, acceleration{}, mixed{}, mixed_rate{}, shift{};
 };
 
 class ChannelSensitivity {
@@ -101,9 +101,9 @@ void ChannelSensitivity::each_group(Channel channel, Visit&& visit) const {
         case ChannelKind::separation_paper: {  // (S41)
             const double pull = 1.5 * gravity_ / basis_.length;
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
-                return Sensitivity{
-                    .acceleration = of.h * part_.arm,
-                    .mixed = (foot(of) * (part_.hub_acceleration + pull) + of.h * (pull * part_.arm)) * m.amplitude};
+                return Sensitivity{.acceleration = of.h * part_.arm,
+                                   .mixed = (foot(of) + of.h * part_.arm) * pull * m.amplitude,
+                                   .mixed_rate = foot(of) * part_.hub_acceleration * m.amplitude};
             });
         }
         case ChannelKind::gap:
@@ -144,7 +144,7 @@ void ChannelSensitivity::visit_tip(ChannelKind kind, const Visit& visit) const {
             return Sensitivity{.q = magnitude(of.tip), .mixed = (of.h * (3 * third) + far_tip(of)) * m.amplitude};
         });
     visit_all(visit, [&](const Group& of, const Vibrations& m) {
-        return Sensitivity{.rate = magnitude(of.tip), .mixed = (of.h * (9 * third) + far_tip(of)) * m.rate};
+        return Sensitivity{.rate = magnitude(of.tip), .mixed_rate = (of.h * (9 * third) + far_tip(of)) * m.rate};
     });
 }
 
@@ -182,9 +182,9 @@ void ChannelSensitivity::visit_energy(ChannelKind kind, const Visit& visit) cons
     switch (kind) {
         case ChannelKind::energy_kinetic:
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
-                return Sensitivity{
-                    .rate = fastest * of.U,
-                    .mixed = (0.25 * basis_.mass) * m.rate * m.rate + fastest * turning(of, m) + far_kinetic(of, m)};
+                return Sensitivity{.rate = fastest * of.U,
+                                   .mixed = fastest * turning(of, m),
+                                   .mixed_rate = (0.25 * basis_.mass) * m.rate * m.rate + far_kinetic(of, m)};
             });
         case ChannelKind::energy_potential:
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
@@ -205,7 +205,7 @@ void ChannelSensitivity::visit_energy(ChannelKind kind, const Visit& visit) cons
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
                 return Sensitivity{.q = of.U * part_.part.motion->theta_ddot,
                                    .rate = (2 * fastest) * of.U,
-                                   .mixed = (2 * fastest) * turning(of, m)};
+                                   .mixed_rate = (2 * fastest) * turning(of, m)};
             });
     }
 }

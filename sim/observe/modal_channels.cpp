@@ -158,7 +158,8 @@ double ModalChannels::vibration_strays(Channel channel) const {
             const Lanes rate = s.shift ? m.rate * strays((m.rate_frequency + *s.shift) * h) : m.rate_strays;
             total += *s.rate * rate;
         }
-        if (s.mixed) total += tip ? *s.mixed * (m.product_strays + 1.0) : *s.mixed * m.product_strays;  // 1: see `tip`
+        for (const auto& mixed : {s.mixed, s.mixed_rate})
+            if (mixed) total += tip ? *mixed * (m.product_strays + 1.0) : *mixed * m.product_strays;  // 1: see `tip`
     });
     return sum(total);
 }
@@ -169,6 +170,7 @@ template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
     if (depends_on_gap(channel.kind) && channel.kind != ChannelKind::gap && !touch()) return;
     const double least = kFollowedRadians / bounds_.part.length();
+    const bool held = system_.phase().held;
     const auto add_above = [&](const Lanes& amplitude, const Lanes& frequency) {
         add(where_above(frequency, least, amplitude), frequency);
     };
@@ -184,7 +186,9 @@ void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
             else if (s.rate)
                 add_above(*s.rate * v.rate, shifted);
             if (s.acceleration) add_above(*s.acceleration * v.second, v.frequency);
-            if (s.mixed) add_above(*s.mixed * v.share, kProductFrequency * v.frequency);
+            // In sustained contact deflections may vibrate far less than rates.
+            if (s.mixed) add_above(*s.mixed * (held ? v.share : v.share_with_rates), kProductFrequency * v.frequency);
+            if (s.mixed_rate) add_above(*s.mixed_rate * v.share_with_rates, kProductFrequency * v.frequency);
         }
     });
 }
@@ -245,7 +249,9 @@ double ModalChannels::estimate_error(Channel channel) const {
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
     double error = 0;
     if (is_of_tip(channel.kind))
-        sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) { error += sum(*s.mixed); });
+        sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) {
+            error += sum(s.mixed ? *s.mixed : *s.mixed_rate);
+        });
     return error;
 }
 

@@ -39,8 +39,9 @@ void set_vibrations(const ModalBounds& bounds, double elapsed, double h, std::ve
         group.product_strays = strays(larger(group.q_frequency, group.rate_frequency) * (kProductFrequency * h));
         for (int k = 0; k < group.free_count; ++k) {
             ModeVibrations::Free& free = group.free[k];
-            const Lanes share = larger(free.value / group.amplitude, free.rate / group.rate);
-            free.share = smaller(Lanes{} + 1.0, kProductSwing * share);
+            const Lanes of_values = free.value / group.amplitude, of_rates = free.rate / group.rate;
+            free.share = smaller(Lanes{} + 1.0, kProductSwing * of_values);
+            free.share_with_rates = smaller(Lanes{} + 1.0, kProductSwing * larger(of_values, of_rates));
         }
     }
 }

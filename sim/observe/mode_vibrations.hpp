@@ -10,12 +10,13 @@ namespace beamcam::sim {
 
 // Lanes beyond the last mode are zero.
 struct ModeVibrations {
-    Lanes amplitude{}, rate{}, acceleration{};                  // of |q|, |q̇|, |q̈|
-    Lanes q_frequency{}, rate_frequency{};                      // as in ModalBounds
-    Lanes q_strays{}, rate_strays{};                            // of q, q̇ from a line within the part
-    Lanes product_strays{};                                     // of products of modes of amplitude 1
-    struct Free {                                               // a vibration that the nodes do not resolve
-        Lanes value{}, rate{}, second{}, frequency{}, share{};  // `share`: of the amplitudes of products of modes
+    Lanes amplitude{}, rate{}, acceleration{};  // of |q|, |q̇|, |q̈|
+    Lanes q_frequency{}, rate_frequency{};      // as in ModalBounds
+    Lanes q_strays{}, rate_strays{};            // of q, q̇ from a line within the part
+    Lanes product_strays{};                     // of products of modes of amplitude 1
+    struct Free {                               // a vibration that the nodes do not resolve
+        Lanes value{}, rate{}, second{}, frequency{};
+        Lanes share{}, share_with_rates{};  // of the amplitudes of products of modes, and of those with rates
     };
     Free free[ModalBounds::Mode::kSwings];
     int free_count = 0;

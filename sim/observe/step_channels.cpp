@@ -116,7 +116,9 @@ void StepChannels::bound(const SegmentInterval& s) {
     System& system = evaluator_.system();
     const ModalBounds* modes = segment.modal_bounds();
     polynomial_ = !modes;
+    at_rest_ = modes && largest(modes->theta_dot) < system.problem().solver.atol;
     if (modes) {
+        for (const Lanes& rate : modes->rate) at_rest_ = at_rest_ && largest(rate) < system.problem().solver.atol;
         const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
         modal_channels_.set({s.from, s.to, s.from - segment.t0, whole && !system.drive().prescribed(), modes,
                              segment.bounds(), segment.touch()});
@@ -145,6 +147,13 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
         touch.force[k] = c.force;
         touch.x[k] = c.x;
     }
+}
+
+bool StepChannels::rounding_only(ChannelKind kind) {
+    if (!system().phase().held) return false;
+    if (kind == ChannelKind::gap || kind == ChannelKind::energy_contact) return true;
+    return at_rest_ && (kind == ChannelKind::theta_dot || kind == ChannelKind::tip_rate ||
+                        kind == ChannelKind::energy_kinetic || is_separation(kind));
 }
 
 // The state of a prescribed hub is that of its drive, not the solution.

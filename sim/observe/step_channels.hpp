@@ -41,13 +41,14 @@ class StepChannels {
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
-    // In sustained impulsive contact the gap is zero but for rounding errors.
-    bool rounding_only(ChannelKind kind) { return kind == ChannelKind::gap && system().phase().held; }
+    // In sustained impulsive contact the gap and the energy stored in it are zero but for rounding errors, and so are
+    // rates and accelerations of a beam at rest.
+    bool rounding_only(ChannelKind kind);
     // The channel depends on the state of a bristle, or on a contact that the law does not describe.
     bool unlike_law(ChannelKind kind) const {
-        return (!probing_ || bristled_) &&
-               (kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
-                kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction);
+        if (!bristled_) return !probing_ && kind == ChannelKind::friction_force;
+        return kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
+               kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
     }
 
     double value(const SegmentInterval& s, Channel channel, double t);
@@ -89,6 +90,7 @@ class StepChannels {
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
     bool bristled_ = false;                       // it has a bristle
+    bool at_rest_ = false;                        // all rates at the nodes are below the absolute tolerance
     double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };
 

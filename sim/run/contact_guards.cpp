@@ -6,6 +6,8 @@
 
 #include "sim/contact/constants.hpp"
 #include "sim/dynamics/failure.hpp"
+#include "sim/observe/constants.hpp"
+#include "sim/observe/variation.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -41,9 +43,22 @@ std::optional<double> first_dip_of_samples(Value&& value, const Instants& time, 
     return std::nullopt;
 }
 
+// The force of a collocation step, a polynomial, is positive all through it.                              (S59)
+bool presses_throughout(const TouchSamples& touch) {
+    const double* force = touch.force;
+    const double h = touch.t[TouchSamples::kCount - 1] - touch.t[0];
+    Lanes nodes;
+    for (int k = 0; k < kNodes; ++k) nodes[k] = force[k + 1];
+    Variation variation;
+    variation.add_polynomial(nodes, h);
+    variation.add_missed(nodes, force[0], force[TouchSamples::kCount - 1], h);
+    return *std::min_element(force, force + TouchSamples::kCount) > variation.strays(kWidestNodeGap * h);
+}
+
 }  // namespace
 
 Event ContactGuards::first_lift(const Segment& segment) {
+    if (segment.touch() && presses_throughout(*segment.touch())) return {};
     const int count = std::max(4, probe_.pieces(segment));
     const Instants time{segment.t0, segment.t1, count};
     const auto force = [&](double t) { return probe_.contact(segment, t, false).force; };
