@@ -43,7 +43,7 @@ TEST(Reader, TheShippedDefaultSaysInUnitsWhatTheDefaultsAreInNumbers) {
     scene.outputs.clear();
     EXPECT_EQ(to_json(scene), to_json([&] {
                   empty.problem.beam.damping_ratio = {0};
-                  empty.units.degrees = true;
+                  empty.units = {true, render::SpeedUnit::radians};
                   return empty;
               }()));
 }
