@@ -52,9 +52,10 @@ static std::vector<double> largest_of_episodes(const LabelNeeds& needs, double m
     for (std::size_t first = 0, end; first < needs.arrows.size(); first = end) {
         end = first + 1;
         while (end < needs.arrows.size() && needs.frames[end] - needs.frames[end - 1] <= most_apart) ++end;
-        const auto all = std::ranges::subrange(needs.arrows.begin() + std::ptrdiff_t(first),
-                                               needs.arrows.begin() + std::ptrdiff_t(end));
-        const double most = std::ranges::max_element(all, {}, &ForceArrow::force)->force;
+        const auto begin = needs.arrows.begin();
+        const double most =
+            std::ranges::max_element(begin + std::ptrdiff_t(first), begin + std::ptrdiff_t(end), {}, &ForceArrow::force)
+                ->force;
         std::fill(out.begin() + std::ptrdiff_t(first), out.begin() + std::ptrdiff_t(end), most);
     }
     return out;
