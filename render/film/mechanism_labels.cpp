@@ -183,8 +183,9 @@ class LabelPlacer {
         for (const auto& [angle, way] : places) {
             const Box letter = about(at.px({0, 0}) + way, size);
             if (!at.box.contains(letter)) continue;
-            const double visible = frames_visible(
-                letter, cameras, [&](const sim::Pose& pose) { return side() * drawn_angle(pose) >= angle; });
+            const double visible = frames_visible(letter, cameras, [&, least = angle](const sim::Pose& pose) {
+                return side() * drawn_angle(pose) >= least;
+            });
             if (visible > most) best = way, most = visible;
         }
         return best;

@@ -9,6 +9,7 @@
 
 #include "render/draw/canvas.hpp"
 #include "render/film/layout.hpp"
+#include "render/plot/labels.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::render {

@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "render/film/film.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
