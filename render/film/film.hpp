@@ -131,7 +131,8 @@ struct Callout {
 // Display units of angles and rotational speeds; SI otherwise.
 struct Units {
     bool degrees = false;
-    SpeedUnit speed = SpeedUnit::automatic;  // in charts that of the angles
+    SpeedUnit speed = SpeedUnit::automatic;
+    SpeedUnit speed_in_charts() const;  // automatic: as angles, per second
     // Factor from an SI unit to the one that is shown, and that one.
     double factor(const std::string& si) const;
     std::string unit(const std::string& si) const;

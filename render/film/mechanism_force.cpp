@@ -1,6 +1,5 @@
 // The arrow of the contact force, its label, and the leader line between them.
 #include <algorithm>
-#include <ranges>
 #include <string>
 
 #include "render/film/label_visibility.hpp"

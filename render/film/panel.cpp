@@ -152,15 +152,19 @@ void FilmContext::place_logo() {
     line.w -= wide + (places.scales ? 40 : 24) * unit;
 }
 
+SpeedUnit Units::speed_in_charts() const {
+    return speed == SpeedUnit::automatic && degrees ? SpeedUnit::degrees : speed;
+}
+
 double Units::factor(const std::string& si) const {
-    if (si == "rad/s" && speed != SpeedUnit::automatic) return factor_of(speed);
-    return degrees && (si == "rad" || si == "rad/s") ? factor_of(SpeedUnit::degrees) : 1;
+    if (si == "rad/s") return factor_of(speed_in_charts());
+    return si == "rad" && degrees ? factor_of(SpeedUnit::degrees) : 1;
 }
 
 std::string Units::unit(const std::string& si) const {
     if (si == "m/s^2") return "m/s²";
-    if (factor(si) == 1) return si;
-    return si == "rad" ? "°" : name_of(speed == SpeedUnit::rpm ? speed : SpeedUnit::degrees);
+    if (si == "rad/s") return name_of(speed_in_charts());
+    return si == "rad" && degrees ? "°" : si;
 }
 
 double FilmContext::shown_factor(Channel channel) const {

@@ -88,11 +88,11 @@ static std::vector<const Node*> compared_sets(const Node& scene) {
     return out;
 }
 
-bool in_degrees(std::string_view text) {
+static bool in_degrees(std::string_view text) {
     return text.find("deg") != std::string_view::npos || text.find("°") != std::string_view::npos;
 }
 
-render::SpeedUnit speed_unit(std::string_view text) {
+static render::SpeedUnit speed_unit(std::string_view text) {
     return text.ends_with("rpm") ? render::SpeedUnit::rpm
            : in_degrees(text)    ? render::SpeedUnit::degrees
            : text.empty()        ? render::SpeedUnit::automatic

@@ -98,14 +98,10 @@ double ExponentialSegment::work_on_decay(std::size_t i, bool fast, const Polynom
 
 // The motion that follows the forcing f without vibration: Σ c_j f⁽ʲ⁾, a polynomial.
 ExponentialSegment::Polynomial ExponentialSegment::steady_motion(std::size_t i) const {
-    const Oscillator& o = form_->oscillators[i];
-    const double w2 = o.omega * o.omega;
     Polynomial steady, derived = Polynomial::through(f[i]);
-    double c = 1 / w2, before = 0;
-    for (int k = 0; k < kNodes; ++k) {
+    for (const double c : following(form_->oscillators[i])) {
         steady.add(c, derived);
         derived = derived.derivative(h);
-        before = std::exchange(c, -(2 * o.gamma * c + before) / w2);
     }
     return steady;
 }

@@ -10,12 +10,7 @@ FastVibrations::FastVibrations(const ModalForm& form, double h) : form_(&form) {
     if (!form.by_arrays()) return;
     const auto n = static_cast<std::size_t>(form.n);
     for (std::size_t i = 0; i < n && !any(); ++i)
-        if (form.oscillators[i].omega * h > kFastRadians && hardly_damped(i)) first_ = i;
-}
-
-bool FastVibrations::hardly_damped(std::size_t i) const {
-    const Oscillator& o = form_->oscillators[i];
-    return o.gamma <= kMostDampingOfFast * o.omega;
+        if (form.oscillators[i].omega * h > kFastRadians && hardly_damped(form.oscillators[i])) first_ = i;
 }
 
 double FastVibrations::stiffness(std::size_t i) const { return form_->coupling(i, i, spin, second); }

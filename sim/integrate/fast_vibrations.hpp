@@ -20,7 +20,7 @@ class FastVibrations {
 
     bool any() const { return first_ != kNone; }
     std::size_t first() const { return first_; }  // `kNone` if there is none
-    bool contains(std::size_t mode) const { return mode >= first_ && hardly_damped(mode); }
+    bool contains(std::size_t mode) const { return mode >= first_ && hardly_damped(form_->oscillators[mode]); }
     double lag(std::size_t mode) const;        // of the vibration, in the mean of the step [rad/s]
     double stiffness(std::size_t mode) const;  // κ, in the mean of the step [1/s²]
     static constexpr std::size_t kNone = std::numeric_limits<std::size_t>::max();
@@ -28,8 +28,6 @@ class FastVibrations {
     double spin = 0, second = 0;  // means of Θ̇² and Y in the step: f = Θ̇² (B/m) q + Y (G/m) q + …
 
   private:
-    bool hardly_damped(std::size_t mode) const;
-
     const ModalForm* form_ = nullptr;
     std::size_t first_ = kNone;
 };

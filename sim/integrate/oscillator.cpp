@@ -54,23 +54,38 @@ void respond_by_decays(const Decays& d, const double* power, double tau, double*
     for (int j = 0; j < kNodes; ++j) r[2 + j] = power[j + 1] * (slow[j] - fast[j]) / d.apart();
 }
 
-// q and v at a point of a step, over the nodal forcing, of the polynomial motion Σ c_j f⁽ʲ⁾ that follows it.    (S52b)
-void follow_forcing(const Oscillator& o, double h, std::size_t point, Lanes& q, Lanes& v) {
+// q and v at a point of a step, over the nodal forcing, of the polynomial motion that follows it.               (S52b)
+void follow_forcing(const Oscillator& o, const StepTable::Powers& inverse, std::size_t point, Lanes& q, Lanes& v) {
     const std::array<Lanes, kNodes>& derive = Collocation::get().derive[point];
-    const double w2 = o.omega * o.omega;
-    double inverse[kNodes];  // 1/hʲ
-    inverse[0] = 1;
-    for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    const std::array<double, kNodes> c = following(o);
     q = v = Lanes{};
-    double c = 1 / w2, before = 0;
     for (std::size_t j = 0; j < kNodes; ++j) {
-        q += (c * inverse[j]) * derive[j];
-        if (j + 1 < kNodes) v += (c * inverse[j + 1]) * derive[j + 1];
-        before = std::exchange(c, -(2 * o.gamma * c + before) / w2);
+        q += (c[j] * inverse[j]) * derive[j];
+        if (j + 1 < kNodes) v += (c[j] * inverse[j + 1]) * derive[j + 1];
     }
 }
 
+// 1/hʲ
+StepTable::Powers inverse_powers(double h) {
+    StepTable::Powers inverse{1};
+    for (std::size_t j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    return inverse;
+}
+
 }  // namespace
+
+bool hardly_damped(const Oscillator& o) { return o.gamma <= kMostDampingOfFast * o.omega; }
+
+std::array<double, kNodes> following(const Oscillator& o) {
+    const double w2 = o.omega * o.omega;
+    std::array<double, kNodes> out;
+    double c = 1 / w2, before = 0;
+    for (double& each : out) {
+        each = c;
+        before = std::exchange(c, -(2 * o.gamma * c + before) / w2);
+    }
+    return out;
+}
 
 bool decays(const Oscillator& o) { return o.gamma > kTwoDecays * o.omega; }
 
@@ -160,10 +175,7 @@ void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vec
     const Collocation& gauss = Collocation::get();
     h = length;
     rows.resize(oscillators.size());
-    // Scaled derivatives: derive/hʲ times the responses.
-    double inverse[kNodes];
-    inverse[0] = 1;
-    for (int j = 1; j < kNodes; ++j) inverse[j] = inverse[j - 1] / h;
+    const Powers inverse = inverse_powers(h);  // scaled derivatives: derive/hʲ times the responses
     responses_.resize(groups.size() * (kNodes + 1) * kResponse);
     for (std::size_t g = 0; g < groups.size(); ++g)
         for (std::size_t k = 0; k <= kNodes; ++k) {
@@ -173,11 +185,11 @@ void StepTable::build(const std::vector<Oscillator>& oscillators, const std::vec
     for (std::size_t i = 0; i < oscillators.size(); ++i) build_row(i, oscillators[i], inverse);
 }
 
-void StepTable::build_row(std::size_t i, const Oscillator& o, const double* inverse) {
+void StepTable::build_row(std::size_t i, const Oscillator& o, const Powers& inverse) {
     const Collocation& gauss = Collocation::get();
     Row& row = rows[i];
     const double w2 = o.omega * o.omega, damping = 2 * o.gamma;
-    if (o.omega * h > kAliasedRadians) follow_forcing(o, h, 0, row.steady, row.steady_rate);
+    if (o.omega * h > kAliasedRadians) follow_forcing(o, inverse, 0, row.steady, row.steady_rate);
     // From point to point, each by the expansion at its start.
     double qq = 1, qv = 0, vq = 0, vv = 1;
     Lanes q{}, v{};
@@ -220,15 +232,16 @@ void StepTable::build_row(std::size_t i, const Oscillator& o, const double* inve
 void StepTable::build_projected(const std::vector<Oscillator>& oscillators, const StepTable& table) {
     h = table.h;
     rows = table.rows;
+    const Powers inverse = inverse_powers(h);
     for (std::size_t i = 0; i < rows.size(); ++i) {
         const Oscillator& o = oscillators[i];
-        if (o.omega * h > kAliasedRadians && o.gamma <= kMostDampingOfFast * o.omega) project_row(o, rows[i]);
+        if (o.omega * h > kAliasedRadians && hardly_damped(o)) project_row(o, inverse, rows[i]);
     }
 }
 
 // The free vibration by ∫₀ʰ ℓ_k s = ∫₀ʰ ℓ_{7−k}(u) s(h − u) du, which are the weights of the end; forced motion follows
 // the forcing but for a free vibration.
-void StepTable::project_row(const Oscillator& o, Row& row) const {
+void StepTable::project_row(const Oscillator& o, const Powers& inverse, Row& row) const {
     const Collocation& gauss = Collocation::get();
     Lanes s, ds;
     for (int k = 0; k < kNodes; ++k) {
@@ -241,7 +254,7 @@ void StepTable::project_row(const Oscillator& o, Row& row) const {
     row.vv = ds;
     for (int k = 0; k < kNodes; ++k) {
         Lanes q, v;
-        follow_forcing(o, h, static_cast<std::size_t>(k) + 1, q, v);
+        follow_forcing(o, inverse, static_cast<std::size_t>(k) + 1, q, v);
         for (std::size_t l = 0; l < kNodes; ++l) {
             const int node = static_cast<int>(l);
             row.q[l][k] = q[node] - row.qq[k] * row.steady[node] - row.qv[k] * row.steady_rate[node];

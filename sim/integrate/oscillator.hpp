@@ -14,6 +14,10 @@ struct Oscillator {
     double gamma = 0;  // γ [1/s], >= 0
 };
 
+bool hardly_damped(const Oscillator& oscillator);  // ζ <= kMostDampingOfFast
+// c_j of the polynomial motion Σ c_j f⁽ʲ⁾ that follows a polynomial forcing without vibration [s^{2+j}].
+std::array<double, kNodes> following(const Oscillator& oscillator);
+
 // Well beyond critical damping q is the sum of two decays, ẋ = −rx ± f/(fast − slow), separated by
 // x_slow = (q̇ + fast q)/(fast − slow), x_fast = −(q̇ + slow q)/(fast − slow).                              (S52a)
 struct Decays {
@@ -50,6 +54,7 @@ struct StepTable {
         // that follows the forcing without vibration.                                                        (S52b)
         Lanes steady, steady_rate;
     };
+    using Powers = std::array<double, kNodes>;  // 1/hʲ
     double h = 0;
     std::vector<Row> rows;
     // `groups`: the same oscillators packed in lanes.
@@ -59,8 +64,8 @@ struct StepTable {
     void build_projected(const std::vector<Oscillator>& oscillators, const StepTable& table);
 
   private:
-    void build_row(std::size_t i, const Oscillator& oscillator, const double* inverse);  // [j]: 1/hʲ
-    void project_row(const Oscillator& oscillator, Row& row) const;
+    void build_row(std::size_t i, const Oscillator& oscillator, const Powers& inverse);
+    void project_row(const Oscillator& oscillator, const Powers& inverse, Row& row) const;
 
     std::vector<Lanes> responses_;  // kept for its memory
 };
