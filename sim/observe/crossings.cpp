@@ -25,6 +25,8 @@ void each_sign_change(StepChannels& step, const SegmentInterval& s, Channel chan
             value -= level;
             largest = std::max(largest, std::fabs(value));
         }
+        // A start from rest is no crossing, whatever its rounding: no step before it tells the sign.
+        if (part.from == 0 && std::fabs(values[0]) <= kSignRounding * largest) values[0] = 0;
         const Variation variation = step.variation(part, channel, values);
         const auto [low, high] = std::ranges::minmax(values);
         if (std::max(low, -high) > variation.strays(kWidestNodeGap * (part.to - part.from))) continue;

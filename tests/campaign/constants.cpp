@@ -1,7 +1,7 @@
 // Perturbs each numerical constant of the tables sim/*/constants.hpp, up and down, and compares motions, extrema,
 // orbits and sweeps: results must not depend on it beyond what the tolerance allows.
 //
-//   campaign_constants [--verbose] [NAME...]
+//   campaign_constants [--verbose] [--twice] [NAME...]      --twice: by a factor of 2 instead of 1.1
 //
 // It is linked with a build of sim/ whose constants are variables (campaign/constants.py). The allowed change of a
 // result is its change in a problem whose numbers differ by kPerturbation, times kReserve. Prints the constants that
@@ -38,9 +38,9 @@ namespace beamcam::sim::testing {
 namespace {
 
 constexpr double kRtol = 1e-9;
+constexpr double kAtol = 1e-3 * kRtol;
 constexpr double kPerturbation = 10 * kRtol;
 constexpr double kReserve = 30;
-constexpr double kFactor = 1.1;  // of a constant; a whole number changes by one at least
 
 struct Constant {
     const char *table, *name;
@@ -73,7 +73,7 @@ Problem machine(ModelKind model, int modes) {
     p.cam->speed = 5;
     p.initial.angle = 0.5;
     p.solver.rtol = kRtol;
-    p.solver.atol = 1e-3 * kRtol;
+    p.solver.atol = kAtol;
     return p;
 }
 
@@ -156,6 +156,19 @@ std::vector<Case> cases() {
     bounces.contact.model = ContactModel::restitution;
     bounces.contact.restitution = 0.5;
     bounces.cam->speed = 0;
+    Problem& held = motion("held by restitution", machine(first_order, 8), 0.3);
+    held.contact.model = ContactModel::restitution;
+    held.contact.restitution = 0.3;
+    held.initial.shape = InitialShape::resting;
+    held.cam->speed = 1;
+    motion("held, with friction", held, 0.3).contact.friction = CoulombFriction{0.3, 0.01};
+    motion("bristles", machine(first_order, 4), 0.32).contact.friction = StickSlipFriction{};
+    motion("Hertz", machine(exact, 2), 0.32).contact.stiffness.reset();
+    motion("prescribed hub", machine(exact, 3), 0.5).hub.drive = SpinUp{6, 0.2};
+    motion("prescribed hub, second order", machine(second_order, 4), 0.5).hub.drive = SpinUp{6, 0.2};
+    Problem& soft_beam = motion("soft beam", machine(second_order, 4), 0.5);
+    soft_beam.beam.youngs_modulus /= 100;
+    soft_beam.hub.drive = SpinUp{3, 0.4};
     const Problem pressed = PressedBeam().problem(45);
     all.push_back({"orbit", pressed, of_orbits});
     all.push_back({"sweep", pressed, [](const Problem& at) { return of_sweep(at, 60); }});
@@ -192,15 +205,15 @@ Results allowed(const Results& before, const Results& shifted) {
     Results out;
     for (std::size_t i = 0; i < before.size(); ++i) {
         const double moved = i < shifted.size() ? std::fabs(shifted[i] - before[i]) : 0;
-        out.push_back(kReserve * (moved + kRtol * (std::fabs(before[i]) + 1e-6)));
+        out.push_back(kReserve * (moved + kRtol * std::fabs(before[i]) + kAtol));
     }
     return out;
 }
 
 template <class T>
-T moved(T value, bool up) {
-    if constexpr (std::is_floating_point_v<T>) return up ? value * kFactor : value / kFactor;
-    const T by = std::max<T>(1, static_cast<T>(std::abs(static_cast<double>(value)) / 10));
+T moved(T value, double factor, bool up) {
+    if constexpr (std::is_floating_point_v<T>) return up ? value * factor : value / factor;
+    const T by = std::max<T>(1, static_cast<T>(std::abs(static_cast<double>(value)) * (1 - 1 / factor)));
     return up ? value + by : value - by;
 }
 
@@ -210,10 +223,13 @@ T moved(T value, bool up) {
 int main(int argc, char** argv) {
     using namespace beamcam::sim::testing;
     bool verbose = false;
+    double factor = 1.1;  // of a constant; a whole number changes by one at least
     std::vector<std::string> names;
     for (int i = 1; i < argc; ++i)
         if (std::strcmp(argv[i], "--verbose") == 0)
             verbose = true;
+        else if (std::strcmp(argv[i], "--twice") == 0)
+            factor = 2;
         else
             names.emplace_back(argv[i]);
     const std::vector<Case> all = cases();
@@ -234,7 +250,7 @@ int main(int argc, char** argv) {
             std::visit(
                 [&](auto* value) {
                     const auto kept = *value;
-                    *value = moved(kept, up);
+                    *value = moved(kept, factor, up);
                     for (std::size_t i = 0; i < all.size(); ++i) {
                         double changed = std::numeric_limits<double>::infinity();
                         try {
@@ -254,7 +270,7 @@ int main(int argc, char** argv) {
             fmt::print("{:<10} {:<24} {:8.2g} {} {}\n", constant.table, constant.name, most, where,
                        most > 1 ? "DEPENDS" : "");
     }
-    fmt::print("{} constants perturbed by {:g}: results depend on {}, none of the cases feels {}\n", count, kFactor,
+    fmt::print("{} constants perturbed by {:g}: results depend on {}, none of the cases feels {}\n", count, factor,
                depends, idle);
     return depends > 0 ? 1 : 0;
 }

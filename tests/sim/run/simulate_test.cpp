@@ -204,6 +204,29 @@ TEST(Start, StaticBeamReleasedFromADriveBeginsAtRest) {
     EXPECT_LT(tip.max - tip.min, 1e-9 * std::fabs(tip.min));  // held, it stays in equilibrium
 }
 
+// Also where rounding makes the first rate positive.
+TEST(Start, FromRestIsNoApex) {
+    for (const ModelKind model : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
+        for (const Basis basis : {Basis::hub_beam, Basis::cantilever})
+            for (const int modes : {1, 2, 3, 5})
+                for (const double damping : {0.0, 0.01, 1.5})
+                    for (int degrees = -80; degrees <= 60; degrees += 10) {
+                        Problem p;
+                        p.cam.reset();
+                        p.beam.model = model;
+                        p.beam.basis = basis;
+                        p.beam.modes = modes;
+                        p.beam.damping_ratio = {damping};
+                        p.hub.inertia = 0.01;
+                        p.initial.angle = degrees * std::numbers::pi / 180;
+                        Request request;
+                        request.end_time = 0.01;
+                        request.apexes = true;
+                        for (const Apex& apex : simulate(p, request).apexes)
+                            EXPECT_GT(apex.t, 1e-6) << modes << " modes at " << degrees << " degrees";
+                    }
+}
+
 TEST(Cam, OfEitherDirectionGivesTheMirroredWork) {
     // Centred and rough: the work of the cam on the beam's friction changes sign with the speed, to first order.
     Problem p;
