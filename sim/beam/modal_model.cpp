@@ -7,89 +7,25 @@
 
 namespace beamcam::sim {
 
-namespace {
-
-double diagonal_entry(double x, double b4, double y, double y1, double y2, double y3) {
-    return 0.25 * (x * (y1 * y1 - 2 * y2 * y + y3 * y3 / b4) + 3 * y1 * y - y2 * y3 / b4);
-}
-
-// Σ_j A_ij(x) q_j with A_ij the antiderivative of φ_i′φ_j′, from φ⁗ = β⁴φ and by parts:          (S5a)
-//   i ≠ j: (β_i⁴ φ_i φ_j′ − φ_i‴ φ_j″ + φ_i″ φ_j‴ − β_j⁴ φ_i′ φ_j)/(β_i⁴ − β_j⁴)
-//   i = j: ¼[x(φ′² − 2φ″φ + φ‴²/β⁴) + 3φ′φ − φ″φ‴/β⁴]
-// The inner loops run over i, so that compilers vectorize them without a change of the order of summation.
-void antiderivative(const ModalModel::Tables& tables, double x, const double* y, const double* y1, const double* y2,
-                    const double* y3, const double* q, double* out) {
-    const std::size_t n = tables.beta4.size();
-    double s0[kMaxModes] = {}, s1[kMaxModes] = {}, s2[kMaxModes] = {}, s3[kMaxModes] = {};
-    for (std::size_t j = 0; j < n; ++j) {
-        const double* difference = tables.difference.col(static_cast<Eigen::Index>(j)).data();
-        for (std::size_t i = 0; i < n; ++i) {
-            const double c = difference[i] * q[j];
-            s0[i] += c * tables.beta4[j] * y[j];
-            s1[i] += c * y1[j];
-            s2[i] += c * y2[j];
-            s3[i] += c * y3[j];
-        }
-    }
-    for (std::size_t i = 0; i < n; ++i) {
-        const double b4 = tables.beta4[i];
-        out[i] = diagonal_entry(x, b4, y[i], y1[i], y2[i], y3[i]) * q[i] +
-                 (b4 * y[i] * s1[i] - y3[i] * s2[i] + y2[i] * s3[i] - y1[i] * s0[i]);
-    }
-}
-
-}  // namespace
-
 ModalModel::ModalModel(const Problem& problem) : Model(problem), kind_(problem.beam.model) {
     auto tables = std::make_shared<Tables>();
     const Basis basis = resolved_basis(problem);
     tables->shapes = Shapes::of(problem);
     tables->m = modal_matrices(problem, tables->shapes, basis);
     ModalMatrices& m = tables->m;
-    tables->foreshortening = kind_ != ModelKind::zeroth_order && kind_ != ModelKind::rigid;
+    if (kind_ != ModelKind::zeroth_order && kind_ != ModelKind::rigid) tables->foreshortening.emplace(tables->shapes);
     tables->B = tables->foreshortening ? Eigen::MatrixXd(m.M - m.D) : m.M;
     coupled_ = basis == Basis::cantilever && modes_ > 0;
     for (int i = 0; i < modes_; ++i) hub_row_[1 + i] = m.slope[i];
-
-    if (tables->foreshortening) {
-        tables->difference = tables->root = Eigen::MatrixXd::Zero(modes_, modes_);
-        for (int i = 0; i < modes_; ++i) tables->beta4.push_back(std::pow(tables->shapes.beta(i), 4));
-        for (int i = 0; i < modes_; ++i)
-            for (int j = 0; j < modes_; ++j)
-                if (i != j)
-                    tables->difference(i, j) =
-                        1 / (tables->beta4[static_cast<std::size_t>(i)] - tables->beta4[static_cast<std::size_t>(j)]);
-        Local here;
-        tables->shapes.evaluate(0, here.y, here.y1, here.y2, here.y3);
-        Eigen::VectorXd unit_coordinate = Eigen::VectorXd::Zero(modes_), column(modes_);
-        for (int j = 0; j < modes_; ++j) {
-            unit_coordinate[j] = 1;
-            antiderivative(*tables, 0, here.y, here.y1, here.y2, here.y3, unit_coordinate.data(), column.data());
-            tables->root.col(j) = column;
-            unit_coordinate[j] = 0;
-        }
-    }
     bq_ = gq_ = Eigen::VectorXd::Zero(modes_);
     tables_ = tables;
     build_damping(problem);
 }
 
 void ModalModel::shortening_matrix(double x, double* h) const {
-    Local here;
-    tables_->shapes.evaluate(x, here.y, here.y1, here.y2, here.y3);
-    const auto n = static_cast<std::size_t>(modes_);
-    for (std::size_t j = 0; j < n; ++j) {
-        const double b4j = tables_->beta4[j];
-        for (std::size_t i = 0; i < n; ++i) {
-            const double b4 = tables_->beta4[i];
-            const auto r = static_cast<Eigen::Index>(i), c = static_cast<Eigen::Index>(j);
-            const double value =
-                i == j ? diagonal_entry(x, b4, here.y[i], here.y1[i], here.y2[i], here.y3[i])
-                       : tables_->difference(r, c) * (b4 * here.y[i] * here.y1[j] - here.y3[i] * here.y2[j] +
-                                                      here.y2[i] * here.y3[j] - b4j * here.y1[i] * here.y[j]);
-            h[j * n + i] = value - tables_->root(r, c);
-        }
-    }
+    ShapesAt here;
+    here.evaluate(tables_->shapes, x);
+    tables_->foreshortening->matrix(here, h);
 }
 
 void ModalModel::state_changed() {
@@ -106,23 +42,14 @@ void ModalModel::state_changed() {
 const ModalModel::Local& ModalModel::at(double x) const {
     Local& here = x == 0 ? root_ : x == length_ ? tip_ : local_;
     if (here.x != x) {
-        tables_->shapes.evaluate(x, here.y, here.y1, here.y2, here.y3);
-        here.x = x;
+        here.evaluate(tables_->shapes, x);
         here.shortened = false;
     }
-    if (tables_->foreshortening && !here.shortened) shorten(here);
+    if (tables_->foreshortening && !here.shortened) {
+        here.shortened = true;
+        if (x != 0) tables_->foreshortening->times(here, xi_ + 1, here.shortening);  // no shortening at the root
+    }
     return here;
-}
-
-void ModalModel::shorten(Local& here) const {
-    here.shortened = true;
-    if (here.x != 0) shorten(here, xi_ + 1, here.shortening);  // no shortening at the root
-}
-
-void ModalModel::shorten(const Local& here, const double* q, double* hq) const {
-    antiderivative(*tables_, here.x, here.y, here.y1, here.y2, here.y3, q, hq);
-    for (int j = 0; j < modes_; ++j)
-        for (int i = 0; i < modes_; ++i) hq[i] -= tables_->root(i, j) * q[j];
 }
 
 // first-order (S14), zeroth-order: D = G = 0, paper (S15):
@@ -221,7 +148,7 @@ void ModalModel::point(double x, BeamPoint& p) const {
 
 void ModalModel::jacobian(double x, double* jx, double* jy, double* jchi) const {
     const Local& here = at(x);
-    const bool shortening = tables_->foreshortening;
+    const bool shortening = foreshortening();
     double v = 0, v1 = 0, u = 0;
     for (int i = 0; i < modes_; ++i) {
         v += here.y[i] * xi_[1 + i];
@@ -254,7 +181,7 @@ Vec2 ModalModel::convective(double x) const {
     double bend = 0;
     if (tables_->foreshortening) {
         double h_rate[kMaxModes] = {};
-        shorten(here, rate_ + 1, h_rate);
+        tables_->foreshortening->times(here, rate_ + 1, h_rate);
         for (int i = 0; i < modes_; ++i) bend -= rate_[1 + i] * h_rate[i];
         bend -= radius_ * alpha_dot_ * alpha_dot_;
     }

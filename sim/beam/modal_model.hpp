@@ -5,8 +5,9 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
+#include <optional>
 
+#include "sim/beam/foreshortening.hpp"
 #include "sim/beam/modal_matrices.hpp"
 #include "sim/beam/model.hpp"
 #include "sim/beam/shapes.hpp"
@@ -32,36 +33,28 @@ class ModalModel final : public Model {
     // ---- for integrators that use the form of the equations ----
     ModelKind kind() const { return kind_; }
     bool coupled() const { return coupled_; }  // U ≠ 0
-    bool foreshortening() const { return tables_->foreshortening; }
+    bool foreshortening() const { return tables_->foreshortening.has_value(); }
     const ModalMatrices& matrices() const { return tables_->m; }
     const Eigen::MatrixXd& inertia_matrix() const { return tables_->B; }
     const Shapes& shapes() const { return tables_->shapes; }
-    // H(x) = ∫₀ˣφ′φ′ᵀ (S5a), column-major N².
+    // H(x) of a model with foreshortening, column-major N².
     void shortening_matrix(double x, double* h) const;
 
+  private:
     // What does not depend on the state; shared by clones.
     struct Tables {
         ModalMatrices m;
         Eigen::MatrixXd B;  // (S14): M − D, or M without foreshortening
         Shapes shapes;
-        std::vector<double> beta4;
-        Eigen::MatrixXd difference;  // 1/(β_i⁴ − β_j⁴), zero on the diagonal
-        Eigen::MatrixXd root;        // the antiderivative of φ_i′φ_j′ at x = 0
-        bool foreshortening = true;
+        std::optional<Foreshortening> foreshortening;
     };
-
-  private:
-    // The shapes at one x and H(x)q, cached because `point` and `jacobian` both need them.
-    struct Local {
-        double x = -1;
-        double y[kMaxModes], y1[kMaxModes], y2[kMaxModes], y3[kMaxModes];
+    // Cached because `point` and `jacobian` both need them.
+    struct Local : ShapesAt {
         bool shortened = false;             // `shortening` is that of the present state
         double shortening[kMaxModes] = {};  // H(x) q (S5a)
     };
     void state_changed() override;
     const Local& at(double x) const;
-    void shorten(Local& here) const;
-    void shorten(const Local& here, const double* q, double* hq) const;  // hq ← H(x) q
 
     ModelKind kind_;
     std::shared_ptr<const Tables> tables_;

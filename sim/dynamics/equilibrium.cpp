@@ -5,56 +5,11 @@
 #include <cmath>
 #include <limits>
 
-#include "sim/base/linear_algebra.hpp"
 #include "sim/dynamics/constants.hpp"
+#include "sim/dynamics/newton.hpp"
 
 namespace beamcam::sim {
 namespace {
-
-// Half the difference of f between x + step and x − step.
-template <class F>
-Eigen::VectorXd central_difference(F&& f, const Eigen::VectorXd& x, const Eigen::VectorXd& step) {
-    Eigen::VectorXd plus(x.size()), minus(x.size());
-    f(x + step, plus);
-    f(x - step, minus);
-    return 0.5 * (plus - minus);
-}
-
-// Newton's method with a Jacobian by finite differences. scale[i] and size[i] are the natural magnitudes of unknown i
-// and of residual i, which make quantities of different units comparable; `difference` is a share of the scale.
-template <class F>
-bool newton(F&& function, Eigen::VectorXd& x, const Eigen::VectorXd& scale, const Eigen::VectorXd& size,
-            double difference = kNewtonDifference) {
-    const Eigen::Index n = x.size();
-    Eigen::VectorXd f(n), g(n);
-    Eigen::MatrixXd jacobian(n, n);
-    const auto residual = [&](const Eigen::VectorXd& at, Eigen::VectorXd& r) {
-        function(at, r);
-        r = r.cwiseQuotient(size).eval();
-    };
-    residual(x, f);
-    for (int iteration = 0; iteration < kMaxNewtonSteps; ++iteration) {
-        for (Eigen::Index j = 0; j < n; ++j) {
-            const Eigen::VectorXd step = difference * scale[j] * Eigen::VectorXd::Unit(n, j);
-            jacobian.col(j) = central_difference(residual, x, step) / difference;
-        }
-        const Eigen::VectorXd dx = solve(jacobian, -f).cwiseProduct(scale);
-        if (!dx.allFinite()) return false;
-        double factor = 1;  // damping: halved until the residual does not grow
-        const double before = f.norm();
-        for (int half = 0;; ++half, factor *= 0.5) {
-            const Eigen::VectorXd tried = x + factor * dx;
-            residual(tried, g);
-            if (g.norm() <= before || half > kMaxHalvings) {
-                x = tried;
-                f = g;
-                break;
-            }
-        }
-        if ((factor * dx).cwiseQuotient(scale).cwiseAbs().maxCoeff() < kNewtonConverged) return true;
-    }
-    return f.norm() < kBalanced;
-}
 
 // Static forces of the model at ξ, without contact. They are valid even if `assemble` finds the inertia not positive.
 void static_force(Model& model, const Eigen::VectorXd& xi, Eigen::VectorXd& f) {
