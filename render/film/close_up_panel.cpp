@@ -4,16 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
+#include "render/film/close_up_readings.hpp"
 #include "render/film/panel.hpp"
 #include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 namespace {
 
-constexpr const char* kWidest = "00.0\u00A0mN";  // of the readings of forces
-constexpr double kBelow = 1.35, kAbove = 1.9;    // displayed heights, relative to the largest penetration
+constexpr double kBelow = 1.35, kAbove = 1.9;  // displayed heights, relative to the largest penetration
 
 class CloseUpPanel final : public FilmPanel {
   public:
@@ -48,36 +49,10 @@ class CloseUpPanel final : public FilmPanel {
         draw_heading(canvas, context_, {plot_.x, box_.y, plot_.w, plot_.h},
                      first_that_fits(canvas, {whole + whose, brief + whose, brief, ""}, bold, room));
         canvas.rectangle(plot_);
-        canvas.fill(p.tint(p.grid, 0.35));
+        canvas.fill(close_up_background(p));
         if (!motion().problem.cam) return;
-        // At least two marks, since one does not show a scale.
-        Ticks marks;
-        for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
-            marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
-        const TextStyle label{.size = context_.tick, .color = p.muted, .align = HAlign::right};
-        for (double v : marks.values) {
-            const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
-            canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
-            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.tick}, fixed(v, marks.decimals), label);
-        }
-        const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
-        const std::string how =
-            context_.translate(fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch));
-        TextStyle note{.size = 16.0 / 17 * context_.tick, .color = p.muted};
-        const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
-        const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
-        canvas.move_to({x1 - w, y - 4 * u});
-        canvas.line_to({x1 - w, y});
-        canvas.line_to({x1, y});
-        canvas.line_to({x1, y - 4 * u});
-        canvas.stroke({p.muted, 1.6 * u, {}, Cap::butt});
-        const std::string length = quantity(bar, "m");
-        canvas.text({x1, y + 3 * u + context_.tick}, length,
-                    {.size = 16.0 / 17 * context_.tick, .color = p.muted, .align = HAlign::right});
-        const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
-        const std::string brief_how = context_.translate(fmt::format("heights in {}m", unit_.symbol));
-        canvas.text({plot_.x, y - 3 * u + context_.tick},
-                    first_that_fits(canvas, {how, brief_how, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
+        draw_heights(canvas);
+        draw_scales(canvas);
     }
 
     void draw(Canvas& canvas, int frame, Style, State*) const override {
@@ -88,7 +63,7 @@ class CloseUpPanel final : public FilmPanel {
             draw_cam(canvas);
             draw_beam(canvas, pose);
         });
-        draw_state(canvas, pose, near);
+        CloseUpReadings{context_, motion(), box_, plot_, unit_}.draw(canvas, pose, at(0, near.gap).y);
     }
 
   private:
@@ -100,6 +75,51 @@ class CloseUpPanel final : public FilmPanel {
     double cam_height(double x) const {
         const double r = motion().problem.cam->radius;
         return std::sqrt(r * r - x * x) - r;
+    }
+
+    void draw_heights(Canvas& canvas) const {
+        const double u = context_.unit;
+        const Palette& p = *context_.palette;
+        // At least two marks, since one does not show a scale.
+        Ticks marks;
+        for (int most = std::clamp(static_cast<int>(plot_.h / (45 * u)), 2, 5); marks.values.size() < 2; ++most)
+            marks = ticks(shown_.low / unit_.factor, shown_.high / unit_.factor, most);
+        for (double v : marks.values) {
+            const double y = std::round(at(0, v * unit_.factor).y) + 0.5;
+            canvas.line({plot_.x - 6 * u, y}, {plot_.x, y}, {p.muted, std::max(1.0, u), {}, Cap::butt});
+            canvas.text({plot_.x - 12 * u, y + 6.0 / 17 * context_.tick}, fixed(v, marks.decimals),
+                        {.size = context_.tick, .color = p.muted, .align = HAlign::right});
+        }
+    }
+
+    // The scale bar of widths, and beside it how heights are enlarged.
+    void draw_scales(Canvas& canvas) const {
+        const double u = context_.unit;
+        const TextStyle note{.size = 16.0 / 17 * context_.tick, .color = context_.palette->muted};
+        TextStyle at_right = note;
+        at_right.align = HAlign::right;
+        const double bar = round_down_125(0.5 * half_width_), w = bar / (2 * half_width_) * plot_.w;
+        const double y = plot_.bottom() + 12 * u, x1 = plot_.right();
+        canvas.polyline(std::array<Vec2, 4>{{{x1 - w, y - 4 * u}, {x1 - w, y}, {x1, y}, {x1, y - 4 * u}}});
+        canvas.stroke({note.color, 1.6 * u, {}, Cap::butt});
+        const std::string length = quantity(bar, "m");
+        canvas.text({x1, y + 3 * u + context_.tick}, length, at_right);
+        const double left = plot_.w - std::max(w, canvas.measure(length, note).w) - 20 * u;
+        const double stretch = (plot_.h / (shown_.high - shown_.low)) / (plot_.w / (2 * half_width_));
+        const std::string whole = context_.translate(
+                              fmt::format("heights in {}m, ×{:.2g} against widths", unit_.symbol, stretch)),
+                          brief = context_.translate(fmt::format("heights in {}m", unit_.symbol));
+        canvas.text({plot_.x, y - 3 * u + context_.tick},
+                    first_that_fits(canvas, {whole, brief, fmt::format("{}m", unit_.symbol), ""}, note, left), note);
+    }
+
+    // Fills the area between the line and this height [px].
+    static void fill_to(Canvas& canvas, const std::vector<Vec2>& line, double y, Color color) {
+        canvas.polyline(line);
+        canvas.line_to({line.back().x, y});
+        canvas.line_to({line.front().x, y});
+        canvas.close();
+        canvas.fill(color);
     }
 
     std::vector<Vec2> rim() const {
@@ -114,11 +134,7 @@ class CloseUpPanel final : public FilmPanel {
     void draw_cam(Canvas& canvas) const {
         const Palette& p = *context_.palette;
         const std::vector<Vec2> edge = rim();
-        canvas.polyline(edge);
-        canvas.line_to({edge.back().x, plot_.bottom() + 4});
-        canvas.line_to({edge.front().x, plot_.bottom() + 4});
-        canvas.close();
-        canvas.fill(p.steel);
+        fill_to(canvas, edge, plot_.bottom() + 4, p.steel);
         canvas.polyline(edge);
         canvas.stroke({p.steel_edge, 2 * context_.unit});
     }
@@ -162,11 +178,7 @@ class CloseUpPanel final : public FilmPanel {
         const std::vector<Vec2> heights = face(pose);
         std::vector<Vec2> edge;
         for (Vec2 h : heights) edge.push_back(at(h.x, h.y));
-        canvas.polyline(edge);
-        canvas.line_to({edge.back().x, plot_.y - 4});
-        canvas.line_to({edge.front().x, plot_.y - 4});
-        canvas.close();
-        canvas.fill(p.motion.faded(0.30));
+        fill_to(canvas, edge, plot_.y - 4, p.motion.faded(0.30));
         // The overlap.
         std::vector<Vec2> over, under;
         for (Vec2 h : heights)
@@ -206,86 +218,6 @@ class CloseUpPanel final : public FilmPanel {
         canvas.fill(p.contact);
         arrow(near.force, {0, -1});
         arrow(std::abs(near.friction), {near.friction > 0 ? 1.0 : -1.0, 0});
-    }
-
-    void draw_state(Canvas& canvas, const sim::Pose& pose, const sim::Nearest& near) const {
-        const Palette& p = *context_.palette;
-        const double u = context_.unit;
-        const bool deep = near.gap < 0;
-        const double size = std::abs(near.gap);
-        const std::string amount = size < 1e-3 * unit_.factor          ? quantity(0, unit_, "m", 1)
-                                   : unit_.factor != 1e-6 || size >= 1 ? quantity(size, "m")
-                                   : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
-                                                 : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
-        draw_reading(canvas, {plot_.right(), box_.y + 26 * u}, context_.translate(deep ? "penetration" : "gap"), amount,
-                     "00.0\u00A0mm",
-                     {.size = context_.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
-        draw_corner(canvas, pose, near);
-    }
-
-    // Up to three lines in the upper right corner, on a plate that hides the line of the beam's face.
-    void draw_corner(Canvas& canvas, const sim::Pose& pose, const sim::Nearest& near) const {
-        const Palette& p = *context_.palette;
-        const double u = context_.unit;
-        const std::string count = collision_counter(pose.t);
-        const double room = plot_.w - canvas.measure(context_.translate("beam"), {.size = context_.tick}).w - 40 * u;
-        TextStyle style{.size = context_.tick, .color = p.ink, .align = HAlign::right}, strong = style;
-        strong.weight = Weight::medium;
-        const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
-        const double read =
-            canvas.measure(context_.translate("friction "), strong).w + canvas.measure(kWidest, strong).w;
-        const bool has_force = near.touching && near.force > 0 && plot_.h >= 120 * u && read <= room;
-        const bool has_count = counted > 0 && counted < room, has_friction = has_force && near.friction != 0;
-        if (!has_count && !has_force) return;
-        const auto line = [&](int k) { return plot_.y + 2 * u + (1.1 + 1.3 * k) * context_.tick; };
-        const double right = plot_.right() - 10 * u,
-                     wide = std::max(has_count ? counted : 0, has_force ? read : 0) + 8 * u,
-                     bottom = line(has_friction ? 2
-                                   : has_force  ? 1
-                                                : 0) +
-                              0.4 * context_.tick;
-        const Color background = p.tint(p.grid, 0.35);
-        const bool over_beam = at(0, near.gap).y > (plot_.y + bottom) / 2;
-        canvas.rectangle(
-            {right - wide, plot_.y + 3 * u, plot_.right() - 3 * u - right + wide, bottom - plot_.y - 3 * u});
-        canvas.fill(over_beam ? mix(background, p.motion, 0.30) : background);
-        if (has_count) canvas.text({right, line(0)}, count, style);
-        if (has_force)
-            draw_reading(canvas, {right, line(1)}, context_.translate("force"), reading(near.force, "N"), kWidest,
-                         strong);
-        if (has_friction)
-            draw_reading(canvas, {right, line(2)}, context_.translate("friction"),
-                         reading(std::abs(near.friction), "N"), kWidest, strong);
-    }
-
-    // Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
-    static void draw_reading(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number,
-                             const char* widest, TextStyle style) {
-        style.align = HAlign::right;
-        canvas.text(right, number, style);
-        const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
-        canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);
-    }
-
-    // "collision 2 · impact 3 of 5", from the first touch of a collision until shortly after its last.
-    std::string collision_counter(double t) const {
-        const std::vector<sim::Impact>& all = motion().impacts;
-        const auto after = std::ranges::upper_bound(all, t, {}, &sim::Impact::t_start);
-        if (after == all.begin()) return {};
-        const sim::Impact& last = *(after - 1);
-        int of = 0, number = 0;
-        double end = t;  // of the last impact
-        for (const sim::Impact& i : all) {
-            if (i.collision != last.collision) continue;
-            ++of;
-            if (i.t_start <= last.t_start) ++number;
-            end = i.t_end.value_or(std::numeric_limits<double>::infinity());
-        }
-        const double over = end + sim::collision_gap(motion().problem);
-        if (t > over) return {};
-        const std::string counted = fmt::format("collision {} · impact {}", last.collision + 1, number);
-        // The collision may go on after the end of the motion.
-        return context_.translate(over <= motion().end ? fmt::format("{} of {}", counted, of) : counted);
     }
 
     const FilmContext& context_;

@@ -3,9 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
+#include "render/film/force_curve.hpp"
 #include "render/plot/channel_label.hpp"
 
 namespace beamcam::render {
@@ -30,62 +30,9 @@ std::string colored(const std::string& markup, Color color) {
 
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
 
-using ForceRow = std::array<double, 2>;  // instant, force
-
-// Instant of the maximum between rows: the vertex of the parabola through the highest row and its neighbours.
-double instant_of_peak(const ForceRow& before, const ForceRow& highest, const ForceRow& after) {
-    const double left = highest[0] - before[0], right = after[0] - highest[0];
-    const double rise = (highest[1] - before[1]) / left, fall = (after[1] - highest[1]) / right;  // rise >= 0 >= fall
-    const double lean = rise - fall > 0 ? (rise * right + fall * left) / (rise - fall) : 0;
-    const double least = 0.01 * std::min(left, right);
-    double shift = 0.5 * lean;
-    if (std::abs(shift) < least) shift = lean < 0 ? -least : least;  // not at the row, which keeps its value
-    return highest[0] + std::clamp(shift, -0.9 * left, 0.9 * right);
-}
-
-// The force from the tables of chart and trace, plus the peaks between rows, each beside its nearest row; an impact
-// between two rows becomes a triangle. Rows keep their values, because they are at the instants of frames. An impact
-// that does not end within the rows gets no peak.
-void force_rows(const FilmContext& context, int member, figure::Series& curve) {
-    const Motion& one = context.motion(member);
-    std::vector<ForceRow> rows;
-    for (const sim::Table* table : {&one.chart, &one.trace}) {
-        const auto *t = column(*table, {ChannelKind::t, 0}), *force = column(*table, {ChannelKind::contact_force, 0});
-        if (!t || !force) continue;
-        for (std::size_t i = 0; i < table->rows(); ++i)
-            if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
-    }
-    const auto by_time = [&] { std::ranges::stable_sort(rows, {}, [](const ForceRow& r) { return r[0]; }); };
-    by_time();
-    rows.erase(std::unique(rows.begin(), rows.end(), [](const ForceRow& a, const ForceRow& b) { return a[0] == b[0]; }),
-               rows.end());
-    const auto sampled = static_cast<std::ptrdiff_t>(rows.size());
-    for (const sim::Impact& i : one.impacts) {
-        if (!i.force_peak || !i.t_end || sampled == 0 || *i.t_end > rows[static_cast<std::size_t>(sampled) - 1][0])
-            continue;
-        const auto begin = rows.begin(), end = begin + sampled;
-        const auto first = std::ranges::lower_bound(begin, end, i.t_start, {}, [](const ForceRow& r) { return r[0]; });
-        const auto last = std::ranges::upper_bound(first, end, *i.t_end, {}, [](const ForceRow& r) { return r[0]; });
-        const auto highest = std::max_element(first, last, [](const auto& p, const auto& q) { return p[1] < q[1]; });
-        if (highest == last || !((*highest)[1] > 0)) {
-            const ForceRow touch{i.t_start, 0}, peak{(i.t_start + *i.t_end) / 2, *i.force_peak}, release{*i.t_end, 0};
-            rows.insert(rows.end(), {touch, peak, release});
-        } else if (*i.force_peak > (*highest)[1] && highest != begin && highest + 1 != end) {
-            const double at = instant_of_peak(*(highest - 1), *highest, *(highest + 1));
-            rows.push_back({at, *i.force_peak});
-        }
-    }
-    std::erase_if(rows, [&](const auto& r) { return r[0] < context.span.low || r[0] > context.span.high; });
-    by_time();
-    for (const auto& r : rows) curve.add(r[0], r[1]);
-}
-
 figure::Series curve_of(const FilmContext& context, int member, Channel channel) {
+    if (is_force(channel)) return force_curve(context.motion(member), context.span);
     figure::Series curve;
-    if (is_force(channel)) {
-        force_rows(context, member, curve);
-        return curve;
-    }
     const Motion& one = context.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
     if (t && v) curve.x = *t, curve.y = *v;

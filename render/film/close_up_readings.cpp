@@ -1,0 +1,95 @@
+#include "render/film/close_up_readings.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "render/plot/ticks.hpp"
+
+namespace beamcam::render {
+namespace {
+
+constexpr const char* kWidest = "00.0\u00A0mN";  // of the readings of forces
+
+// Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
+void draw_reading(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number, const char* widest,
+                  TextStyle style) {
+    style.align = HAlign::right;
+    canvas.text(right, number, style);
+    const double room = std::max(canvas.measure(number, style).w, canvas.measure(widest, style).w);
+    canvas.text(right - Vec2{room + 0.4 * style.size, 0}, word, style);
+}
+
+// "collision 2 · impact 3 of 5", from the first touch of a collision until shortly after its last.
+std::string collision_counter(const Motion& motion, double t) {
+    const std::vector<sim::Impact>& all = motion.impacts;
+    const auto after = std::ranges::upper_bound(all, t, {}, &sim::Impact::t_start);
+    if (after == all.begin()) return {};
+    const sim::Impact& last = *(after - 1);
+    int of = 0, number = 0;
+    double end = t;  // of the last impact
+    for (const sim::Impact& i : all) {
+        if (i.collision != last.collision) continue;
+        ++of;
+        if (i.t_start <= last.t_start) ++number;
+        end = i.t_end.value_or(std::numeric_limits<double>::infinity());
+    }
+    const double over = end + sim::collision_gap(motion.problem);
+    if (t > over) return {};
+    const std::string counted = fmt::format("collision {} · impact {}", last.collision + 1, number);
+    // The collision may go on after the end of the motion.
+    return over <= motion.end ? fmt::format("{} of {}", counted, of) : counted;
+}
+
+}  // namespace
+
+void CloseUpReadings::draw(Canvas& canvas, const sim::Pose& pose, double face) const {
+    const sim::Nearest& near = *pose.nearest;
+    const Palette& p = *context.palette;
+    const double u = context.unit;
+    const bool deep = near.gap < 0;
+    const double size = std::abs(near.gap);
+    const std::string amount = size < 1e-3 * unit.factor          ? quantity(0, unit, "m", 1)
+                               : unit.factor != 1e-6 || size >= 1 ? quantity(size, "m")
+                               : size < 1e-3 ? fmt::format("{}\u00A0µm", fixed(size * 1e6, size < 1e-5 ? 1 : 0))
+                                             : fmt::format("{}\u00A0mm", fixed(size * 1e3, size < 0.1 ? 1 : 0));
+    draw_reading(canvas, {plot.right(), box.y + 26 * u}, context.translate(deep ? "penetration" : "gap"), amount,
+                 "00.0\u00A0mm",
+                 {.size = context.heading(), .color = deep ? p.contact : p.motion, .weight = Weight::medium});
+    draw_corner(canvas, pose, face);
+}
+
+void CloseUpReadings::draw_corner(Canvas& canvas, const sim::Pose& pose, double face) const {
+    const sim::Nearest& near = *pose.nearest;
+    const Palette& p = *context.palette;
+    const double u = context.unit;
+    const std::string count = context.translate(collision_counter(motion, pose.t));
+    const double room = plot.w - canvas.measure(context.translate("beam"), {.size = context.tick}).w - 40 * u;
+    TextStyle style{.size = context.tick, .color = p.ink, .align = HAlign::right}, strong = style;
+    strong.weight = Weight::medium;
+    const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
+    const double read = canvas.measure(context.translate("friction "), strong).w + canvas.measure(kWidest, strong).w;
+    const bool has_force = near.touching && near.force > 0 && plot.h >= 120 * u && read <= room;
+    const bool has_count = counted > 0 && counted < room, has_friction = has_force && near.friction != 0;
+    if (!has_count && !has_force) return;
+    const auto line = [&](int k) { return plot.y + 2 * u + (1.1 + 1.3 * k) * context.tick; };
+    const double right = plot.right() - 10 * u, wide = std::max(has_count ? counted : 0, has_force ? read : 0) + 8 * u,
+                 bottom = line(has_friction ? 2
+                               : has_force  ? 1
+                                            : 0) +
+                          0.4 * context.tick;
+    const Color background = close_up_background(p);
+    const bool over_beam = face > (plot.y + bottom) / 2;
+    canvas.rectangle({right - wide, plot.y + 3 * u, plot.right() - 3 * u - right + wide, bottom - plot.y - 3 * u});
+    canvas.fill(over_beam ? mix(background, p.motion, 0.30) : background);
+    if (has_count) canvas.text({right, line(0)}, count, style);
+    if (has_force)
+        draw_reading(canvas, {right, line(1)}, context.translate("force"), reading(near.force, "N"), kWidest, strong);
+    if (has_friction)
+        draw_reading(canvas, {right, line(2)}, context.translate("friction"), reading(std::abs(near.friction), "N"),
+                     kWidest, strong);
+}
+
+}  // namespace beamcam::render

@@ -1,0 +1,25 @@
+// The numbers of a close-up: the penetration or the gap, which collision and impact it is, the forces.
+#pragma once
+
+#include "render/film/panel.hpp"
+
+namespace beamcam::render {
+
+struct CloseUpReadings {
+    const FilmContext& context;
+    const Motion& motion;
+    Box box, plot;       // of the panel, and of its plot [px]
+    const Prefix& unit;  // of heights
+
+    // `face`: the height of the beam's face at the contact [px].
+    void draw(Canvas& canvas, const sim::Pose& pose, double face) const;
+
+  private:
+    // Up to three lines in the upper right corner, on a plate that hides the line of the beam's face.
+    void draw_corner(Canvas& canvas, const sim::Pose& pose, double face) const;
+};
+
+// Of its plot.
+inline Color close_up_background(const Palette& p) { return p.tint(p.grid, 0.35); }
+
+}  // namespace beamcam::render

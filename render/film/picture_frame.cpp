@@ -1,0 +1,84 @@
+#include "render/film/picture_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace beamcam::render {
+namespace {
+
+constexpr double kSmallestUnit = 0.5;  // 16 design pixels of text are 8 px, the smallest readable size
+// Size of axis labels: a fiftieth of the picture's height is readable from the back of a lecture room.
+constexpr double kTickShare = 0.0204, kLeastTick = 17, kMostTick = 26;  // of the shorter side; [design px]
+
+constexpr double kScales = 560;      // width of two colour scales [design px]
+constexpr double kCaptionBand = 75;  // height: two lines of captions [design px]
+
+}  // namespace
+
+Box whole(const Box& b) {
+    const double x = std::round(b.x), y = std::round(b.y);
+    return {x, y, std::max(1.0, std::round(b.right()) - x), std::max(1.0, std::round(b.bottom()) - y)};
+}
+
+Box plot_area(const Box& box, double u, double tick) {
+    const double more = tick - kLeastTick * u, left = 70 * u + 2.4 * more, below = 44 * u + more;
+    return whole({box.x + left, box.y + 46 * u, box.w - left - 8 * u, box.h - 46 * u - below});
+}
+
+bool has_column(double w, double h, double u) { return w >= 1150 * u && h >= 480 * u; }
+double widening(double w, double u) {
+    return std::clamp(w - 1600 * u, 0.0, 200 * u) +
+           0.6 * std::max(0.0, w - 2200 * u);  // very wide pictures: wide charts instead of empty space
+}
+
+PictureFrame picture_frame(int width, int height, bool beside, const Shown& shown) {
+    PictureFrame f;
+    Layout& out = f.out;
+    f.wide = width >= 1.4 * height;
+    out.unit = shown.size * std::max(kSmallestUnit, f.wide ? std::min(width / 1920.0, height / 1080.0)
+                                                           : std::min(width, height) / 1240.0);
+    const double u = out.unit, w = width, h = height;
+    out.tick = std::clamp(shown.size * kTickShare * std::min(w, h), kLeastTick * u, kMostTick * u);
+    const double margin = f.margin = std::min(64 * u, 0.04 * std::min(w, h) + 12 * u);
+    f.top = margin * 0.8, f.bottom = h - margin * 0.7, f.right = w - margin;
+
+    const bool has_title = shown.title && w >= 320 * u && h >= 300 * u,
+               has_parameters = shown.parameters && w >= 560 * u && h >= 480 * u;
+    const bool has_clock = (shown.clock || shown.legend || shown.logo) && w >= 230 * u && h >= 190 * u;
+    const bool is_large = w >= (f.wide ? 1150 : 660) * u && h >= 600 * u, has_scales = shown.legend && is_large;
+    if (has_title) {
+        out.title = Box{margin, f.top, w - 2 * margin, 54 * u};
+        f.top += 54 * u;
+    }
+    if (has_parameters) {
+        const double column = beside && f.wide && has_column(w, h, u) ? kPanelColumn * u + widening(w, u) + 40 * u : 0;
+        out.parameters = Box{margin, f.top, w - 2 * margin - column, 36 * u};
+        f.top += 36 * u;
+    }
+    if (shown.accuracy && is_large) {
+        out.note = Box{margin, f.bottom - 26 * u, w - 2 * margin, 26 * u};
+        f.bottom -= 34 * u;
+    }
+    const bool apart = has_scales && !f.wide;  // beside the clock there is not enough space
+    if (apart) {
+        out.scales = Box{w - margin - kScales * u, f.bottom - 56 * u, kScales * u, 56 * u};
+        f.bottom -= 64 * u;
+    }
+    if (has_clock) {
+        out.clock = Box{margin, f.bottom - 56 * u, w - 2 * margin, 56 * u};
+        f.bottom -= 56 * u;
+    }
+    if (has_scales && !apart) {
+        out.scales = Box{w - margin - kScales * u, out.clock->y, kScales * u, 56 * u};
+        out.clock->w = out.scales->x - 30 * u - out.clock->x;
+    }
+    if (has_title || has_parameters) f.top += 10 * u;
+    if (has_clock) f.bottom -= 10 * u;
+    if (shown.captions) {
+        out.captions = Box{margin, f.bottom - kCaptionBand * u, w - 2 * margin, kCaptionBand * u};
+        f.bottom -= (kCaptionBand + 10) * u;
+    }
+    return f;
+}
+
+}  // namespace beamcam::render
