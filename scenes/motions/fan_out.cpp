@@ -28,58 +28,85 @@ int thread_count(int requested) {
     return requested > 0 ? requested : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
-int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate) {
-    std::atomic<long> next{0};
-    std::mutex failure_mutex;
-    std::exception_ptr failure;
-    const int most = static_cast<int>(std::clamp<long>(crew.most, 1, std::max<long>(count, 1)));
-    std::mutex others_mutex;
-    std::vector<std::thread> others;  // to join
-    std::atomic<int> working{1};
-    std::function<void()> work;
+namespace {
 
-    const auto start_another = [&] {
-        const std::lock_guard lock(others_mutex);
-        if (working >= most) return;
+// The threads of one fan_out.
+class Threads {
+  public:
+    Threads(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate)
+        : count_(count),
+          most_(static_cast<int>(std::clamp<long>(crew.most, 1, std::max<long>(count, 1)))),
+          crew_(crew),
+          make_worker_(make_worker),
+          gate_(gate) {}
+
+    int run() {
+        for (int i = 1; i < std::min(crew_.first, most_); ++i) start_another();
+        work();
+        join();
+        if (failure_) std::rethrow_exception(failure_);
+        return working_;
+    }
+
+  private:
+    void start_another() {
+        const std::lock_guard lock(mutex_);
+        if (working_ >= most_) return;
         try {
-            others.emplace_back(work);
-            ++working;
+            others_.emplace_back([this] { work(); });
+            ++working_;
         } catch (const std::system_error&) {
             // fewer threads do the same work
         }
-    };
-    work = [&] {
+    }
+
+    void work() {
         try {
-            const Worker worker = make_worker();
-            for (long k = next++; k < count; k = next++) {
+            const Worker worker = make_worker_();
+            for (long k = next_++; k < count_; k = next_++) {
                 stop_if_interrupted();
                 worker(k);
-                if (crew.more && working < most && next < count && crew.more()) start_another();
+                if (crew_.more && working_ < most_ && next_ < count_ && crew_.more()) start_another();
             }
         } catch (const Gate::Closed&) {
             // the thread that closed it reports the reason
         } catch (...) {
-            const std::lock_guard lock(failure_mutex);
-            if (!failure) failure = std::current_exception();
-            next = count;
-            gate.close();
+            const std::lock_guard lock(mutex_);
+            if (!failure_) failure_ = std::current_exception();
+            next_ = count_;
+            gate_.close();
         }
-    };
-
-    for (int i = 1; i < std::min(crew.first, most); ++i) start_another();
-    work();
-    for (;;) {  // a running thread may start another one
-        std::thread thread;
-        {
-            const std::lock_guard lock(others_mutex);
-            if (others.empty()) break;
-            thread = std::move(others.back());
-            others.pop_back();
-        }
-        thread.join();
     }
-    if (failure) std::rethrow_exception(failure);
-    return working;
+
+    void join() {
+        for (;;) {  // a running thread may start another one
+            std::thread thread;
+            {
+                const std::lock_guard lock(mutex_);
+                if (others_.empty()) return;
+                thread = std::move(others_.back());
+                others_.pop_back();
+            }
+            thread.join();
+        }
+    }
+
+    const long count_;
+    const int most_;
+    const Crew& crew_;
+    const std::function<Worker()>& make_worker_;
+    Gate& gate_;
+    std::atomic<long> next_{0};
+    std::atomic<int> working_{1};
+    std::mutex mutex_;  // of the next two
+    std::vector<std::thread> others_;
+    std::exception_ptr failure_;
+};
+
+}  // namespace
+
+int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_worker, Gate& gate) {
+    return Threads(count, crew, make_worker, gate).run();
 }
 
 void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
