@@ -75,12 +75,8 @@ std::string accuracy_text(const sim::Accuracy& a) {
 
 sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scene) {
     sim::AccuracyRequest request;
-    request.end_time = args.until ? seconds_argument("--until", *args.until) : scene.end_time;
-    if (!(request.end_time > 0)) throw UsageError("--until must be positive");
-    if (args.target) {
-        request.target = quantity_argument("--target", *args.target, dimension::kAngle);
-        if (!(request.target > 0)) throw UsageError("--target must be positive");
-    }
+    request.end_time = args.until ? positive_argument("--until", *args.until, dimension::kTime) : scene.end_time;
+    if (args.target) request.target = positive_argument("--target", *args.target, dimension::kAngle);
     request.repeats = args.repeats;
     request.longest_run = args.longest;
     return request;

@@ -19,7 +19,6 @@ struct CollectArguments {
 
 void act(const CollectArguments& args) {
     require_ending("-o", args.file, {".nc", ".csv", ".npz"});
-    if (args.file == "-") throw UsageError("-o -: name a file that ends in .nc, .csv or .npz");
     output::Manifest manifest(args.common.force);
     manifest.require_replaceable(args.file);
     CollectedSweep all = collect({args.parts.begin(), args.parts.end()});

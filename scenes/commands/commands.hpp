@@ -19,17 +19,18 @@
 namespace beamcam::scenes {
 
 // In the order of --help.
-using AddCommand = void(Grammar& grammar);
-AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_check,
-    add_plan, add_cache, add_concat, add_sheet, add_init, add_examples, add_schema, add_keys, add_hash, add_diff,
-    add_test, add_accept, add_info, add_doctor, add_accuracy, add_figure, add_paper, add_stress, add_completion,
-    add_manual;
-inline constexpr AddCommand* kCommands[] = {
-    add_run,    add_render, add_simulate, add_sweep,      add_collect, add_lyapunov, add_orbits,   add_modes,
-    add_check,  add_plan,   add_cache,    add_concat,     add_sheet,   add_init,     add_examples, add_schema,
-    add_keys,   add_hash,   add_diff,     add_test,       add_accept,  add_info,     add_doctor,   add_accuracy,
-    add_figure, add_paper,  add_stress,   add_completion, add_manual,
-};
+#define BEAMCAM_COMMANDS(entry)                                                                                     \
+    entry(run) entry(render) entry(simulate) entry(sweep) entry(collect) entry(lyapunov) entry(orbits) entry(modes) \
+        entry(check) entry(plan) entry(cache) entry(concat) entry(sheet) entry(init) entry(examples) entry(schema)  \
+            entry(keys) entry(hash) entry(diff) entry(test) entry(accept) entry(info) entry(doctor) entry(accuracy) \
+                entry(figure) entry(paper) entry(stress) entry(completion) entry(manual)
+
+#define BEAMCAM_COMMAND(name) void add_##name(Grammar& grammar);
+BEAMCAM_COMMANDS(BEAMCAM_COMMAND)
+#undef BEAMCAM_COMMAND
+#define BEAMCAM_COMMAND(name) add_##name,
+inline constexpr void (*kCommands[])(Grammar&) = {BEAMCAM_COMMANDS(BEAMCAM_COMMAND)};
+#undef BEAMCAM_COMMAND
 
 // ---- options that several commands share --------------------------------------------------------
 
@@ -76,10 +77,12 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension);
 // The same, not negative.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
-double seconds_argument(const char* option, const std::string& text);
+// The same, positive.
+double positive_argument(const char* option, const std::string& text, const Dimension& dimension);
 std::string ending_of(const std::string& file);  // ".png"
-// Throws UsageError unless `file` is "-" or ends in one of these.
+// Throws UsageError unless `file` ends in one of these, or unless it is "-" where that is possible.
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
+void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings);
 inline constexpr std::initializer_list<const char*> kCaptionEndings{".txt", ".md", ".tex"};
 
 }  // namespace beamcam::scenes

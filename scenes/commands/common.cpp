@@ -151,15 +151,23 @@ double quantity_argument(const char* option, const std::string& text, const Dime
     return value;
 }
 
-double seconds_argument(const char* option, const std::string& text) {
-    return quantity_argument(option, text, dimension::kTime);
+double positive_argument(const char* option, const std::string& text, const Dimension& dimension) {
+    const double value = signed_argument(option, text, dimension);
+    if (!(value > 0)) throw UsageError(fmt::format("{} {}: must be positive", option, text));
+    return value;
 }
 
 std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
 
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
-    if (file == "-" || std::ranges::find(endings, ending_of(file)) != endings.end()) return;
+    if (file == "-")
+        throw UsageError(fmt::format("{} -: name a file that ends in {}", option, fmt::join(endings, " or ")));
+    if (std::ranges::find(endings, ending_of(file)) != endings.end()) return;
     throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
+}
+
+void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
+    if (file != "-") require_ending(option, file, endings);
 }
 
 }  // namespace beamcam::scenes

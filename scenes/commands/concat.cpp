@@ -16,11 +16,9 @@ struct ConcatArguments {
 };
 
 void act(const ConcatArguments& args) {
-    if (args.file == "-") throw UsageError("-o -: films go to files; name one with the ending of the segments");
-    const std::string ending = std::filesystem::path(args.file).extension().string();
     require_ending("-o", args.file, {".mp4", ".mov", ".webm", ".mkv"});
     for (const std::string& segment : args.segments) {
-        if (std::filesystem::path(segment).extension() != ending)
+        if (ending_of(segment) != ending_of(args.file))
             throw UsageError(
                 fmt::format("-o {}: {} is another kind of film; the film and its segments must have the same ending",
                             args.file, segment));

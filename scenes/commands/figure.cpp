@@ -88,8 +88,6 @@ Node output_node(const FigureArguments& args) {
 }
 
 FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
-    if (args.file == "-")
-        throw UsageError("-o -: figures go to files; name one that ends in .pdf, .svg, .eps, .png or .tif");
     require_ending("-o", args.file, kFigureEndings);
     if (args.figure == "series" && !args.channels.any())
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
@@ -105,12 +103,10 @@ FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
         keys.compare.front().problem = scene.problem;  // with the values of --set
     for (SeriesPanel& panel : figure.series.panels) panel.logarithmic = panel.logarithmic || args.logarithmic;
     if (args.data) {
-        if (*args.data == "-") throw UsageError("--data -: name a file that ends in .csv");
         require_ending("--data", *args.data, {".csv"});
         figure.data_file = *args.data;
     }
     if (args.caption) {
-        if (*args.caption == "-") throw UsageError("--caption -: name a file that ends in .txt, .md or .tex");
         require_ending("--caption", *args.caption, kCaptionEndings);
         figure.caption_file = *args.caption;
     }

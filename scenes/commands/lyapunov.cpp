@@ -56,8 +56,7 @@ void act(const LyapunovArguments& args) {
     request.count = args.count;
     request.blocks = args.blocks;
     request.transient = args.transient ? transient_argument(*args.transient, scene.problem) : 20;
-    request.duration = args.duration ? seconds_argument("--duration", *args.duration) : 100;
-    if (!(request.duration > 0)) throw UsageError("--duration must be positive");
+    request.duration = args.duration ? positive_argument("--duration", *args.duration, dimension::kTime) : 100;
     output::Manifest manifest(args.common.force);
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(run_options(args.common, "").progress);

@@ -163,7 +163,7 @@ void reject_unused_options(const OrbitsArguments& args) {
 void require_writable_files(const OrbitsArguments& args, output::Manifest& manifest) {
     require_writable("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, manifest);
     if (args.scene_file) {
-        if (*args.scene_file == "-") throw UsageError("--scene -: name a file; the film is named after it");
+        require_ending("--scene", *args.scene_file, {".json"});
         require_writable("--scene", {*args.scene_file}, {".json"}, manifest);
     }
 }

@@ -56,7 +56,6 @@ FigureOutput vector_still(const RenderArguments& args, const PictureOutput& film
 // With the keys that it has in common with `film`.
 Output output_for_file(const RenderArguments& args, PictureOutput film) {
     const std::string ending = ending_of(args.file);
-    if (args.file == "-") throw UsageError("-o -: pictures go to files; name one that ends in .mp4 or .png");
     require_ending(
         "-o", args.file,
         {".mp4", ".webm", ".mov", ".mkv", ".gif", ".apng", ".webp", ".png", ".pdf", ".svg", ".eps", ".html", ".glb"});

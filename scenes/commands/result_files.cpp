@@ -39,7 +39,7 @@ void add_result_options(Command& app, ResultFiles& files, Common& common, const 
 void require_writable(const char* option, const std::vector<std::string>& files,
                       std::initializer_list<const char*> endings, output::Manifest& manifest) {
     for (const std::string& file : files) {
-        require_ending(option, file, endings);
+        require_ending_or_stdout(option, file, endings);
         if (file == "-") continue;
         manifest.require_replaceable(file);
         output::AtomicFile(manifest.target(file));  // created and removed: fails here where it cannot be written
@@ -71,7 +71,7 @@ double transient_argument(const std::string& text, const sim::Problem& problem) 
     const QuantityText read = parse_quantity(text);
     const bool plain = read.quantity && same(read.quantity->dimension, dimension::kNone),
                turns = plain || (read.quantity && same(read.quantity->dimension, dimension::kAngle));
-    if (!turns || (plain && read.quantity->value == 0)) return seconds_argument("--transient", text);
+    if (!turns || (plain && read.quantity->value == 0)) return quantity_argument("--transient", text, dimension::kTime);
     if (!problem.cam || problem.cam->speed == 0)
         throw UsageError(fmt::format("--transient {}: the cam does not turn; write a time such as \"30 s\"", text));
     const double angle = plain ? 2 * std::numbers::pi * read.quantity->value : read.quantity->value;

@@ -91,7 +91,7 @@ render::Image sheet_of(const SheetArguments& args) {
 }
 
 void act(const SheetArguments& args) {
-    require_ending("-o", args.file, {".png"});
+    require_ending_or_stdout("-o", args.file, {".png"});
     output::Manifest manifest(args.common.force);
     if (args.file != "-") manifest.require_replaceable(args.file);
     const std::string bytes = output::encode_png(sheet_of(args));

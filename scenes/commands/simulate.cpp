@@ -22,7 +22,7 @@ struct SimulateArguments {
 
 TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& scene) {
     const std::string file = args.trajectory.value_or("-");
-    require_ending("--trajectory", file, {".csv", ".npz"});
+    require_ending_or_stdout("--trajectory", file, {".csv", ".npz"});
     auto table = std::get<TrajectoryOutput>(read_output(object_node({{"type", TrajectoryOutput::kType}}),
                                                         {&args.rate, &args.times, &args.channels}, scene, args.scene,
                                                         args.common));
@@ -31,7 +31,6 @@ TrajectoryOutput trajectory_output(const SimulateArguments& args, const Scene& s
 }
 
 ShapesOutput shapes_output(const SimulateArguments& args, const Scene& scene) {
-    if (*args.shapes == "-") throw UsageError("--shapes -: name a file that ends in .csv or .npz");
     require_ending("--shapes", *args.shapes, {".csv", ".npz"});
     auto shapes = std::get<ShapesOutput>(read_output(object_node({{"type", ShapesOutput::kType}}),
                                                      {&args.rate, &args.times}, scene, args.scene, args.common));
@@ -47,12 +46,12 @@ std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene&
         outputs.push_back(trajectory_output(args, scene));
     if (args.shapes) outputs.push_back(shapes_output(args, scene));
     if (args.impacts) {
-        require_ending("--impacts", *args.impacts, {".json", ".csv"});
+        require_ending_or_stdout("--impacts", *args.impacts, {".json", ".csv"});
         outputs.push_back(ImpactsOutput{*args.impacts});
     }
     if (args.summary || outputs.empty() || args.horizon) {
         const std::string file = args.summary.value_or("-");
-        require_ending("--summary", file, {".json"});
+        require_ending_or_stdout("--summary", file, {".json"});
         outputs.push_back(SummaryOutput{file, args.horizon});
     }
     return outputs;

@@ -178,7 +178,6 @@ void act(const StressArguments& args) {
     if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
     output::Manifest manifest(args.common.force);
     for (const std::string& file : args.files) {
-        if (file == "-") throw UsageError("-o -: the table is always printed on standard output; name a file");
         require_ending("-o", file, {".csv", ".json", ".png"});
         manifest.require_replaceable(file);
     }

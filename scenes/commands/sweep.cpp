@@ -99,7 +99,7 @@ sim::CamSpan span_argument(const char* option, const std::string& text) {
     else if (same(read.quantity->dimension, dimension::kAngle))  // "200 turns"
         span.turns = std::round(read.quantity->value / (2 * std::numbers::pi));
     else
-        span.time = seconds_argument(option, text);
+        span.time = quantity_argument(option, text, dimension::kTime);
     return span;
 }
 
@@ -184,8 +184,7 @@ std::string command_of(const SweepArguments& args) {
 // Parts of a sweep are NetCDF files, which `collect` can join.
 void check_parts(const SweepArguments& args) {
     if (!args.shard && !args.emit) return;
-    if (args.file.empty() || args.file == "-")
-        throw UsageError("parts of a sweep are NetCDF files; name one with -o FILE.nc");
+    if (args.file.empty()) throw UsageError("parts of a sweep are NetCDF files; name one with -o FILE.nc");
     require_ending("-o", args.file, {".nc"});
     if (args.diagram || args.film)
         throw UsageError("--diagram, --film: a part has no diagram or film; collect the parts first");
@@ -215,7 +214,7 @@ std::vector<PlannedFile> planned_files(const Plan& plan) {
 void act(const SweepArguments& args) {
     check_parts(args);
     reject_unused_options(args);
-    if (!args.file.empty()) require_ending("-o", args.file, {".csv", ".npz", ".nc"});
+    if (!args.file.empty()) require_ending_or_stdout("-o", args.file, {".csv", ".npz", ".nc"});
     if (args.diagram) require_ending("--diagram", *args.diagram, kFigureEndings);
     if (args.film) require_ending("--film", *args.film, kSweepFilmEndings);
     if (args.caption) require_ending("--caption", *args.caption, kCaptionEndings);

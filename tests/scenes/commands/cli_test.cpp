@@ -85,6 +85,10 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "figure s.json schematic -o a.pdf --column brill",
                                   "figure s.json schematic -o a.pdf --width 3",
                                   "figure s.json schematic -o a.pdf --data a.txt",
+                                  "figure s.json schematic -o a.pdf --data -",
+                                  "sweep s.json --over cam.speed=1:2:2 --diagram -",
+                                  "sweep s.json --over cam.speed=1:2:2 --film -",
+                                  "collect a.nc -o -",
                                   "paper"}) {
         const Finished finished = shell(folder, std::string("$BEAMCAM ") + arguments);
         EXPECT_EQ(finished.code, 2) << arguments << "\n" << finished.err;
