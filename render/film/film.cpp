@@ -150,7 +150,6 @@ Film::Film(std::shared_ptr<const FilmSetup> setup) : Film(std::make_shared<const
 Film::Film(std::shared_ptr<const Prepared> prepared) : prepared_(std::move(prepared)) {}
 Film::~Film() = default;
 Film::Film(Film&&) noexcept = default;
-Film& Film::operator=(Film&&) noexcept = default;
 
 Film Film::for_thread() const { return Film(prepared_); }
 int Film::frames() const { return prepared_->context.frames(); }

@@ -190,7 +190,6 @@ class Film {
     explicit Film(std::shared_ptr<const FilmSetup> setup);
     ~Film();
     Film(Film&&) noexcept;
-    Film& operator=(Film&&) noexcept;
 
     Film for_thread() const;
 

@@ -34,13 +34,12 @@ std::vector<Vec2> averaged(const std::vector<std::optional<Vec2>>& all, int half
 SeenFrame::SeenFrame(const MechanismCameras& cameras, int k)
     : frame(k), at(cameras.view(k)), projection(cameras.perspective(at, k)) {}
 
-OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now, const ForceArrow* arrow) {
+OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now) {
     SweptRegion parts(now.at, std::move(room),
                       now.projection ? std::vector{*now.projection} : std::vector<Perspective>());
     const sim::Pose pose = now.at.context.pose(now.at.member, now.frame);
     parts.add_shape(
         mechanism_shape(now.at.problem(), pose, now.at.drawn(now.at.member, pose), now.at.look, now.at.palette));
-    if (arrow) parts.add_arrow(*arrow);
     return std::move(parts.room);
 }
 

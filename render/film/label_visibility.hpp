@@ -20,8 +20,8 @@ struct SeenFrame {
     std::optional<Perspective> projection;
 };
 
-// Covers the bodies and the arrow of the force.
-OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now, const ForceArrow* arrow = nullptr);
+// Covers the bodies.
+OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now);
 bool meets_body(const Box& box, const SeenFrame& now);
 // The free place of a label nearest to the preferred box. `by`: of the solid view; `base`: in the flat view [px].
 LabelPlace placed_near(const MechanismView& at, const Perspective* by, const OccupancyGrid& room, const Box& preferred,

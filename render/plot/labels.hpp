@@ -16,7 +16,7 @@ const char* name_of(SpeedUnit unit);                        // "°/s"
 // Pieces of the parameter line, most important first: "L = 1 m", "R = 100 mm", "2 modes", …
 std::vector<std::string> parameter_pieces(const sim::Problem& problem, SpeedUnit unit = {});
 // The pieces that all problems share.
-std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit = {});
+std::vector<std::string> common_pieces(const std::vector<const sim::Problem*>& problems, SpeedUnit unit);
 
 // "0.5 rad/s", "−300 rpm": without SI prefixes, with three digits, or with this number of decimals. `speed` in rad/s.
 std::string turning_speed(double speed, SpeedUnit unit, std::optional<int> decimals = {});

@@ -113,13 +113,14 @@ double OccupancyGrid::covered(const Box& box) const {
     return 1 - inside + inside * (cells > 0 ? weight(c) / cells : 0);
 }
 
-std::vector<Box> OccupancyGrid::covered_boxes(double least) const {
+std::vector<Box> OccupancyGrid::covered_boxes() const {
+    constexpr double kCounted = 0.5;
     std::vector<Box> out;
     for (int row = 0; row < rows_; ++row) {
         const auto cell = cells_.begin() + static_cast<std::ptrdiff_t>(row) * columns_;
         for (int i = 0, end; i < columns_; i = end) {
-            for (end = i; end < columns_ && (cell[end] >= least) == (cell[i] >= least);) ++end;
-            if (cell[i] >= least) out.push_back({area_.x + i * cell_, top_of(row), (end - i) * cell_, cell_});
+            for (end = i; end < columns_ && (cell[end] >= kCounted) == (cell[i] >= kCounted);) ++end;
+            if (cell[i] >= kCounted) out.push_back({area_.x + i * cell_, top_of(row), (end - i) * cell_, cell_});
         }
     }
     return out;

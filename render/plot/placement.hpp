@@ -22,8 +22,8 @@ class OccupancyGrid {
     double cost(const Box& box) const;
     // The covered share of the box, if all weights are 1; the outside of the area counts as covered.
     double covered(const Box& box) const;
-    // The runs of covered cells of each row; cells with less than `least` do not count.
-    std::vector<Box> covered_boxes(double least = 0.5) const;
+    // The runs of covered cells of each row; cells with a weight below a half do not count.
+    std::vector<Box> covered_boxes() const;
     // The first free place, else the one that is covered least. `places` must not be empty.
     Box choose(std::span<const Box> places) const;
     // The free place nearest to the wanted one, moved by whole cells; if none is free, one that is covered little and

@@ -66,7 +66,7 @@ class Stretching {
             advance();
             if (done_ == settling_) replace_annihilated(v, left, integrator);
         }
-        integrator.set_tangents(v, true);
+        integrator.set_canonical(v);
         return instant(done_ + 1);
     }
 
@@ -127,7 +127,7 @@ class Stretching {
         for (Eigen::Index i = 0; i < v.cols(); ++i)
             if (left[i] == 0) v.col(i) = first_.col(i);
         orthonormalize(v);
-        integrator.set_tangents(v, true);
+        integrator.set_canonical(v);
         integrator.keep_on_cam();
         v = integrator.tangents(true);
         orthonormalize(v, kNoRank);

@@ -96,9 +96,9 @@ Eigen::MatrixXd TangentIntegrator::tangents(bool canonical) const {
     return all;
 }
 
-void TangentIntegrator::set_tangents(const Eigen::MatrixXd& tangents, bool canonical) {
+void TangentIntegrator::set_canonical(const Eigen::MatrixXd& tangents) {
     tangents_ = tangents;
-    if (canonical) tangents_.row(n_) /= inertia_share();
+    tangents_.row(n_) /= inertia_share();
 }
 
 }  // namespace beamcam::sim

@@ -45,7 +45,7 @@ class TangentIntegrator final : public Integrator {
     }
     // The tangents; `canonical`: with the momentum ∂T/∂ξ̇ in place of ξ̇ (S73).
     Eigen::MatrixXd tangents(bool canonical = false) const;
-    void set_tangents(const Eigen::MatrixXd& tangents, bool canonical = false);
+    void set_canonical(const Eigen::MatrixXd& tangents);
 
     // In sustained contact: the same projection at the present instant.
     void keep_on_cam() {
