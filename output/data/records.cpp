@@ -1,11 +1,12 @@
 #include "output/data/records.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 
+#include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
-#include "output/files/numbers.hpp"
 #include "output/json/tree.hpp"
 
 namespace beamcam::output {
@@ -64,12 +65,6 @@ Node array_of(const std::vector<Record>& records) {
         for_each_field(record, [&object](const std::string& name, const auto& value) { add(object, name, value); });
         return object;
     });
-}
-
-void append_cell(std::string& line, double value) { append_number(line, value); }
-void append_cell(std::string& line, int value) { line += std::to_string(value); }
-void append_cell(std::string& line, const std::optional<double>& value) {
-    if (value) append_number(line, *value);
 }
 
 Node units(const sim::Problem& problem) {
@@ -145,29 +140,25 @@ std::string impacts_json(const sim::Result& result) {
     return to_text(out);
 }
 
-std::string impacts_csv(const sim::Result& result) {
-    std::string text;
-    const sim::Impact& first = result.impacts.empty() ? sim::Impact{} : result.impacts.front();
-    for_each_field(first, [&text](const std::string& name, const auto&) {
-        if (!text.empty()) text += ',';
-        text += name;
-    });
-    text += '\n';
+// The impacts alone.
+static NamedTable impacts_table(const sim::Result& result) {
+    NamedTable table;
+    for_each_field(result.impacts.empty() ? sim::Impact{} : result.impacts.front(),
+                   [&table](const std::string& name, const auto&) { table.names.push_back(name); });
+    table.columns.resize(table.names.size());
     for (const sim::Impact& impact : result.impacts) {
-        std::string line;
-        for_each_field(impact, [&line](const std::string& name, const auto& value) {
-            if (name != "t_start") line += ',';
-            append_cell(line, value);
+        auto column = table.columns.begin();
+        for_each_field(impact, [&column](const std::string&, const std::optional<double>& value) {
+            (column++)->push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
         });
-        text += line + '\n';
     }
-    return text;
+    return table;
 }
 
 void write_impacts(const Target& file, const sim::Result& result) {
     const std::string ending = file.path.extension().string();
     if (ending == ".json") return write_file(file, impacts_json(result));
-    if (ending == ".csv") return write_file(file, impacts_csv(result));
+    if (ending == ".csv") return write_table(file, impacts_table(result));
     throw UnsupportedOption("cannot write " + file.path.string() + ": impacts end in .json or .csv");
 }
 

@@ -18,9 +18,8 @@
 namespace beamcam::output {
 
 std::string impacts_json(const sim::Result& result);  // {"impacts": […], "collisions": […]}
-std::string impacts_csv(const sim::Result& result);   // the impacts alone
 
-// The ending decides: .json or .csv. Throws UnsupportedOption for others, IoError.
+// The ending decides: .json, or .csv with the impacts alone. Throws UnsupportedOption for others, IoError.
 void write_impacts(const Target& file, const sim::Result& result);
 
 // `extrema`: the channels of Request::extrema, in the order of result.extrema. "units" lists all channels of the

@@ -4,7 +4,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"

@@ -6,7 +6,6 @@
 // show over white.
 #pragma once
 
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>

@@ -1,6 +1,5 @@
 #include "output/film/video.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <condition_variable>
 #include <deque>

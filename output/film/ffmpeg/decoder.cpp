@@ -1,6 +1,5 @@
 // Decodes films by libavformat, libavcodec and libswscale.
 #include <algorithm>
-#include <cmath>
 #include <memory>
 #include <new>
 #include <string>

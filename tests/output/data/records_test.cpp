@@ -75,8 +75,10 @@ TEST(ImpactsJson, ARunWithoutImpactsHasEmptyLists) {
 }
 
 TEST(ImpactsCsv, HasTheSameNamesAndEmptyCells) {
+    Scratch scratch;
+    write_impacts(scratch / "i.csv", one_collision());
     EXPECT_EQ(
-        impacts_csv(one_collision()),
+        read_file(scratch / "i.csv"),
         "t_start,t_end,x,cam_angle,v_n_before,v_t_before,v_n_after,v_t_after,duration,force_peak,penetration_peak,"
         "impulse_n,impulse_t,restitution,energy_lost,collision\n"
         "0.25,0.375,0.10000000000000001,0,-2,0,1.3999999999999999,0,0.125,,0,0,0,0.69999999999999996,0,0\n"
@@ -86,9 +88,7 @@ TEST(ImpactsCsv, HasTheSameNamesAndEmptyCells) {
 TEST(Impacts, AreWrittenByTheirEnding) {
     Scratch scratch;
     write_impacts(scratch / "i.json", one_collision());
-    write_impacts(scratch / "i.csv", one_collision());
     EXPECT_EQ(read_file(scratch / "i.json"), impacts_json(one_collision()));
-    EXPECT_EQ(read_file(scratch / "i.csv"), impacts_csv(one_collision()));
     EXPECT_THROW(write_impacts(scratch / "i.txt", one_collision()), UnsupportedOption);
 }
 
