@@ -3,7 +3,6 @@
 // paints: the formulas for opaque and translucent colours are the same, rounding included.
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <string>

@@ -10,7 +10,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <vector>
 
 #include "render/draw/canvas.hpp"
 #include "render/draw/geometry.hpp"

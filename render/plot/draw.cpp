@@ -6,7 +6,6 @@
 #include <memory>
 
 #include "render/base/error.hpp"
-#include "render/draw/markup.hpp"
 #include "render/plot/figure.hpp"
 #include "render/plot/panel.hpp"
 

@@ -1,7 +1,6 @@
 // The texts around a plot on a page: labels of the axes, common factors, letter and title, and the colour bar.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <vector>
 

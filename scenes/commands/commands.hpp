@@ -6,7 +6,6 @@
 #include <optional>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "output/files/standard_output.hpp"
@@ -19,18 +18,17 @@
 namespace beamcam::scenes {
 
 // In the order of --help.
-#define BEAMCAM_COMMANDS(entry)                                                                                     \
-    entry(run) entry(render) entry(simulate) entry(sweep) entry(collect) entry(lyapunov) entry(orbits) entry(modes) \
-        entry(check) entry(plan) entry(cache) entry(concat) entry(sheet) entry(init) entry(examples) entry(schema)  \
-            entry(keys) entry(hash) entry(diff) entry(test) entry(accept) entry(info) entry(doctor) entry(accuracy) \
-                entry(figure) entry(paper) entry(stress) entry(completion) entry(manual)
-
-#define BEAMCAM_COMMAND(name) void add_##name(Grammar& grammar);
-BEAMCAM_COMMANDS(BEAMCAM_COMMAND)
-#undef BEAMCAM_COMMAND
-#define BEAMCAM_COMMAND(name) add_##name,
-inline constexpr void (*kCommands[])(Grammar&) = {BEAMCAM_COMMANDS(BEAMCAM_COMMAND)};
-#undef BEAMCAM_COMMAND
+using AddCommand = void(Grammar& grammar);
+AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_check,
+    add_plan, add_cache, add_concat, add_sheet, add_init, add_examples, add_schema, add_keys, add_hash, add_diff,
+    add_test, add_accept, add_info, add_doctor, add_accuracy, add_figure, add_paper, add_stress, add_completion,
+    add_manual;
+inline constexpr AddCommand* kCommands[] = {
+    add_run,    add_render, add_simulate, add_sweep,      add_collect, add_lyapunov, add_orbits,   add_modes,
+    add_check,  add_plan,   add_cache,    add_concat,     add_sheet,   add_init,     add_examples, add_schema,
+    add_keys,   add_hash,   add_diff,     add_test,       add_accept,  add_info,     add_doctor,   add_accuracy,
+    add_figure, add_paper,  add_stress,   add_completion, add_manual,
+};
 
 // ---- options that several commands share --------------------------------------------------------
 

@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "output/files/errors.hpp"
 #include "output/files/standard_output.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"

@@ -11,7 +11,6 @@
 #include "scenes/format/description.hpp"
 #include "scenes/format/overrides.hpp"
 #include "scenes/format/reader.hpp"
-#include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -62,9 +62,9 @@ struct Tally {
 };
 
 std::string place(const sim::Campaign& campaign, const sim::StressCase& one) {
-    const sim::CaseGrid& plate = campaign.grids[one.grid];
-    return fmt::format("{}; {} {}; {} {}{}{}", plate.title, plate.row_title, plate.rows[one.row], plate.column_title,
-                       plate.columns[one.column], one.variant.empty() ? "" : "; ", one.variant);
+    const sim::CaseGrid& grid = campaign.grids[one.grid];
+    return fmt::format("{}; {} {}; {} {}{}{}", grid.title, grid.row_title, grid.rows[one.row], grid.column_title,
+                       grid.columns[one.column], one.variant.empty() ? "" : "; ", one.variant);
 }
 
 // The cause without its numbers, so that alike causes are counted together.
@@ -119,9 +119,9 @@ std::string stress_csv(const sim::Campaign& campaign, const std::vector<sim::Str
     for (std::size_t i = 0; i < results.size(); ++i) {
         const sim::StressCase& one = campaign.cases[i];
         const sim::StressResult& r = results[i];
-        const sim::CaseGrid& plate = campaign.grids[one.grid];
-        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", quoted(plate.title), quoted(plate.rows[one.row]),
-                            quoted(plate.columns[one.column]), quoted(one.variant), name(r.outcome),
+        const sim::CaseGrid& grid = campaign.grids[one.grid];
+        text += fmt::format("{},{},{},{},{},{},{},{},{},{},{}\n", quoted(grid.title), quoted(grid.rows[one.row]),
+                            quoted(grid.columns[one.column]), quoted(one.variant), name(r.outcome),
                             std::isnan(r.closure) ? "" : fmt::format("{:.6g}", r.closure), r.steps_per_second, r.steps,
                             r.impacts, r.reached, quoted(r.message));
     }
@@ -129,7 +129,7 @@ std::string stress_csv(const sim::Campaign& campaign, const std::vector<sim::Str
 }
 
 std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    Node plates = array_node(campaign.grids, [](const sim::CaseGrid& grid) {
+    Node grids = array_node(campaign.grids, [](const sim::CaseGrid& grid) {
         return object_node({{"title", grid.title},
                             {"row_title", grid.row_title},
                             {"column_title", grid.column_title},
@@ -152,7 +152,7 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
                                            {"reached", r.reached},
                                            {"words", r.message}}));
     }
-    return to_text(object_node({{"plates", std::move(plates)}, {"cases", std::move(cases)}}));
+    return to_text(object_node({{"plates", std::move(grids)}, {"cases", std::move(cases)}}));
 }
 
 // ---- the command ---------------------------------------------------------------------------------

@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "output/files/numbers.hpp"
-#include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"

@@ -8,7 +8,6 @@
 
 #include "render/draw/markup.hpp"
 #include "render/plot/ticks.hpp"
-#include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
 

@@ -8,7 +8,6 @@
 #include <optional>
 #include <utility>
 
-#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/figures/swept_points.hpp"

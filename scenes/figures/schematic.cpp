@@ -3,7 +3,6 @@
 #include <cmath>
 #include <numbers>
 #include <optional>
-#include <utility>
 #include <variant>
 
 #include "scenes/figures/figure_types.hpp"

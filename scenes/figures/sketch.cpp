@@ -1,7 +1,6 @@
 #include "scenes/figures/sketch.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
 #include <utility>
 #include <vector>

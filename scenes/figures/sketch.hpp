@@ -1,7 +1,6 @@
 // Shapes of drawings in the order in which they are drawn, and the disc of a cam with its symbols.
 #pragma once
 
-#include <string>
 #include <utility>
 #include <vector>
 

@@ -1,5 +1,4 @@
 // The mechanism at several instants, or a still picture of it at one, in lines.
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>

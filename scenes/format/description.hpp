@@ -2,7 +2,6 @@
 // Schema, the reference and `beamcam keys` are written from it.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

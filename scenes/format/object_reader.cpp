@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "scenes/format/suggest.hpp"
-#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 

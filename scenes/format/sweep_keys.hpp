@@ -1,7 +1,6 @@
 // What the keys and the options of a sweep share: the notations of samples and seeds, and the checks of a sweep.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>

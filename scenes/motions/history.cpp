@@ -4,11 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 
 #include "output/files/atomic_file.hpp"
-#include "scenes/motions/identity.hpp"
 
 namespace beamcam::scenes {
 namespace {

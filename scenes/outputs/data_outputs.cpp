@@ -11,7 +11,6 @@
 #include "output/files/standard_output.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/value_formats.hpp"
-#include "scenes/outputs/run_context.hpp"
 #include "scenes/plan/planner.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/film_times.hpp"

@@ -2,7 +2,6 @@
 // among its references.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>

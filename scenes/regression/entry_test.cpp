@@ -7,7 +7,6 @@
 
 #include "output/film/picture_source.hpp"
 #include "render/base/error.hpp"
-#include "scenes/outputs/run_context.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -1,7 +1,6 @@
 // Measured data of the scene's motion: columns of a file that correspond to channels.
 #pragma once
 
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

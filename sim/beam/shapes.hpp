@@ -7,7 +7,6 @@
 // y(L) = ±2 (S4).
 #pragma once
 
-#include <Eigen/Core>
 #include <vector>
 
 #include "sim/problem/problem.hpp"

@@ -7,7 +7,6 @@
 #pragma once
 
 #include <memory>
-#include <optional>
 
 #include "sim/base/ode.hpp"
 #include "sim/beam/drive.hpp"

@@ -1,6 +1,5 @@
 // Impulses of the contact on the system: its response to them, and the jumps of its state.
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "sim/base/assert.hpp"

@@ -1,10 +1,8 @@
 // The motions that RigidMotion applies to, and their start.
-#include <algorithm>
 #include <cmath>
 
 #include "sim/sweep/constants.hpp"
 #include "sim/sweep/rigid_motion.hpp"
-#include "sim/sweep/sampler.hpp"
 
 namespace beamcam::sim {
 namespace {

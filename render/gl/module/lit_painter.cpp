@@ -1,6 +1,5 @@
 #include "render/gl/module/lit_painter.hpp"
 
-#include <algorithm>
 #include <cstddef>
 #include <vector>
 
