@@ -54,19 +54,21 @@ void NaturalModes::weigh(Model& model, double gravity) {
 void NaturalModes::bound_shapes(Model& model, double bending_stiffness, double radius) {
     const Eigen::Index count = shapes.rows(), places = kPlacesPerWave * count;
     const double none[kMaxSize] = {};
-    Eigen::VectorXd x(count), y(count), rotation(count), bending(count);
+    Eigen::VectorXd x(count), y(count), rotation(count);
     Eigen::ArrayXd displacement = Eigen::ArrayXd::Zero(count), slope = displacement, curvature = displacement;
+    const auto place = [&](Eigen::Index k) {
+        return model.length() * static_cast<double>(k) / static_cast<double>(places);
+    };
+    model.set(none, none);
     for (Eigen::Index k = 0; k <= places; ++k) {
-        const double at = model.length() * static_cast<double>(k) / static_cast<double>(places);
-        model.set(none, none);
-        model.jacobian(at, x.data(), y.data(), rotation.data());
+        model.jacobian(place(k), x.data(), y.data(), rotation.data());
         displacement = displacement.max((shapes.transpose() * y).array().abs());
         slope = slope.max((shapes.transpose() * rotation).array().abs());
-        for (Eigen::Index i = 1; i < count; ++i) {
-            model.set(shapes.col(i).data(), none);
-            bending[i] = model.bending_moment(at) / bending_stiffness;
-        }
-        curvature = curvature.max(bending.array().abs());
+    }
+    for (Eigen::Index i = 1; i < count; ++i) {
+        model.set(shapes.col(i).data(), none);
+        for (Eigen::Index k = 0; k <= places; ++k)
+            curvature[i] = std::max(curvature[i], std::fabs(model.bending_moment(place(k)) / bending_stiffness));
     }
     const Eigen::VectorXd hub = shapes.transpose() * Eigen::Map<const Eigen::VectorXd>(model.hub_row(), count);
     for (Eigen::Index i = 1; i < count; ++i) {

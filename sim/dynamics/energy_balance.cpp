@@ -3,7 +3,7 @@
 
 namespace beamcam::sim {
 
-System::EnergyBalance System::current_energy_balance(const double* y, const ContactState& c) {
+System::EnergyBalance System::balance_without_beam(const double* y, const ContactState& c) const {
     const double* ledger = y + controlled;
     double normal = 0, bristle_energy = 0;
     if (phase_.touching) {
@@ -16,13 +16,18 @@ System::EnergyBalance System::current_energy_balance(const double* y, const Cont
     }
     // The work done on the contact is stored or lost (S38).
     EnergyBalance b;
-    b.energies = model_->energies();
     b.contact = normal + bristle_energy;
     b.loss_structural = ledger[kLossStructural];
     b.loss_contact = ledger[kNormalWork] - normal;
     b.loss_friction = ledger[kFrictionWork] - bristle_energy;
     b.work_cam = ledger[kWorkCam];
     b.work_drive = ledger[kWorkDrive];
+    return b;
+}
+
+System::EnergyBalance System::current_energy_balance(const double* y, const ContactState& c) {
+    EnergyBalance b = balance_without_beam(y, c);
+    b.energies = model_->energies();
     return b;
 }
 

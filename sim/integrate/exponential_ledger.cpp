@@ -175,9 +175,13 @@ double ExponentialSegment::drive_boundary(double t, const double* y) const {
     return hub.rate * momentum - hub.acceleration * follow;
 }
 
-void ExponentialSegment::ledger_at(double t, double s, const Lanes& weights, double* y) const {
+void ExponentialSegment::set_ledger(const Lanes& weights, double* y) const {
+    for (int k = 0; k < kLedgerSize; ++k)
+        y[controlled_ + static_cast<std::size_t>(k)] = ledger0[k] + h * sum(weights * rate[k]);
+}
+
+void ExponentialSegment::add_vibration_work(double t, double s, double* y) const {
     double* ledger = y + controlled_;
-    for (int k = 0; k < kLedgerSize; ++k) ledger[k] = ledger0[k] + h * sum(weights * rate[k]);
     if (form_->damped)
         for (std::size_t i = 0; i < n_; ++i) ledger[kLossStructural] += structural_loss(i, s, y);
     if (drive_.has_torque()) ledger[kWorkDrive] += torque_on_vibration(s, y);

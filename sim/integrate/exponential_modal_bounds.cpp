@@ -10,12 +10,13 @@
 
 namespace beamcam::sim {
 
-void ModalBounds::Mode::set_frequencies(double jerk) {
+void ModalBounds::Mode::set_frequencies(double third, double fourth) {
     const auto frequency = [](double largest, double first, double second) {
         return largest > 0 ? std::max(first / largest, std::sqrt(second / largest)) : 0;
     };
     q_frequency = frequency(amplitude, rate, acceleration);
-    rate_frequency = frequency(rate, acceleration, jerk);
+    rate_frequency = frequency(rate, acceleration, third);
+    acceleration_frequency = frequency(acceleration, third, fourth);
 }
 
 // Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
@@ -155,7 +156,8 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
     const Lanes turning = o.omega + magnitude(lag_[g]), square = turning * turning;
     acceleration =
         smaller(smaller(acceleration, square * x.value + o.damping * speed), x.second + forcing.second / o.square);
-    const Lanes jerk = square * speed + forcing.rate + o.damping * acceleration;
+    const Lanes third = square * speed + forcing.rate + o.damping * acceleration,
+                fourth = square * acceleration + forcing.second + o.damping * third;
     const Lanes vibrations = smaller(2 * amplitude, free_vibrations(g));
     for (std::size_t i = first; i < first + count; ++i) {
         const int lane = static_cast<int>(i - first);
@@ -165,7 +167,7 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
         mode.amplitude = amplitude[lane];
         mode.rate = speed[lane];
         mode.acceleration = acceleration[lane];
-        mode.set_frequencies(jerk[lane]);
+        mode.set_frequencies(third[lane], fourth[lane]);
         const Oscillator& oscillator = form_->oscillators[i];
         if (!(oscillator.omega > 0))
             mode.swings[0] = mode.swings[1] = {};

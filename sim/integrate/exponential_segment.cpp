@@ -66,8 +66,8 @@ void ExponentialSegment::load(double begin, double end_time, std::span<const dou
     changed();
 }
 
-std::unique_ptr<StoredSegment> make_stored_exponential(const Problem& problem) {
-    System system(problem);
+std::unique_ptr<StoredSegment> make_stored_exponential(const System& of) {
+    System system(of);
     auto form = ModalForm::of(system);
     if (!form) throw std::invalid_argument("the trajectory does not belong to this problem");
     return std::make_unique<ExponentialSegment>(std::move(form), system.drive(), system.size);
@@ -215,7 +215,7 @@ double ExponentialSegment::coordinate(double t, std::size_t index, double* y) co
 }
 
 void ExponentialSegment::coordinates(double t, double* y) const {
-    if (!form_->by_arrays() || t == t1) return value_without_ledger(t, y);
+    if (!form_->by_arrays() || t == t1) return value_without_vibration_work(t, y);
     const double s = (t - t0) / h;
     y[0] = frame_angle(t);
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
@@ -226,11 +226,10 @@ void ExponentialSegment::coordinates(double t, double* y) const {
     }
 }
 
-void ExponentialSegment::value(double t, double* y) const { evaluate(t, ledger_changes, y); }
-void ExponentialSegment::value_without_ledger(double t, double* y) const { evaluate(t, false, y); }
+void ExponentialSegment::value(double t, double* y) const { evaluate(t, true, y); }
+void ExponentialSegment::value_without_vibration_work(double t, double* y) const { evaluate(t, false, y); }
 
-// With the ledger at t, or that of the start of the step.
-void ExponentialSegment::evaluate(double t, bool ledger, double* y) const {
+void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) const {
     if (t == t1) {
         std::copy(end.begin(), end.end(), y);
         return;
@@ -253,11 +252,14 @@ void ExponentialSegment::evaluate(double t, bool ledger, double* y) const {
         y[0] = theta0 + h * integral(hub().turn, s);
         rates[0] = theta_dot_at(p0 + h * integral(hub().momentum, s), y + 1);
     }
-    std::copy_n(ledger0, kLedgerSize, y + controlled_);
     Lanes weights;
-    if (ledger || has_bristle()) Collocation::get().weights_to(s, weights);
+    if (ledger_changes || has_bristle()) Collocation::get().weights_to(s, weights);
     if (has_bristle()) y[2 * (n_ + 1)] = touching ? bristle0 + h * sum(weights * bristle_rate) : end[2 * (n_ + 1)];
-    if (ledger) ledger_at(t, s, weights, y);
+    if (ledger_changes)
+        set_ledger(weights, y);
+    else
+        std::copy_n(ledger0, kLedgerSize, y + controlled_);
+    if (ledger_changes && vibration_work) add_vibration_work(t, s, y);
     form_->to_coordinates(y);
 }
 

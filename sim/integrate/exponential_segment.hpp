@@ -20,7 +20,7 @@ class ExponentialSegment final : public StoredSegment {
   public:
     ExponentialSegment(std::shared_ptr<const ModalForm> modal_form, const DriveLaw& drive_law, int state_size);
     void value(double t, double* y) const override;
-    void value_without_ledger(double t, double* y) const override;
+    void value_without_vibration_work(double t, double* y) const override;
     double coordinate(double t, std::size_t index, double* y) const override;
     void coordinates(double t, double* y) const override;
     const MotionBounds* bounds() const override;
@@ -52,7 +52,7 @@ class ExponentialSegment final : public StoredSegment {
     double bristle0 = 0;         // z at t0, if the state has it
     Lanes bristle_rate{};        // ż at the nodes
     double ledger0[kLedgerSize] = {};
-    Lanes rate[kLedgerSize] = {};  // of the ledger at the nodes, without the parts that `ledger_at` adds
+    Lanes rate[kLedgerSize] = {};  // of the ledger at the nodes, without the work of vibration
     bool ledger_changes = false;   // in this step
     bool touching = false;
     TouchSamples samples;     // if touching
@@ -60,7 +60,8 @@ class ExponentialSegment final : public StoredSegment {
     std::vector<double> end;  // y at t1
 
     // Fills the ledger in y at t, from the rest of y.
-    void ledger_at(double t, double s, const Lanes& weights, double* y) const;
+    void set_ledger(const Lanes& weights, double* y) const;
+    void add_vibration_work(double t, double s, double* y) const;
     // The part of the drive's work that has a closed form, at t.
     double drive_boundary(double t, const double* y) const;
     bool has_bristle() const { return controlled_ > 2 * (n_ + 1); }
@@ -88,7 +89,7 @@ class ExponentialSegment final : public StoredSegment {
     bool has_fast(std::size_t group) const { return (group + 1) * kNodes > left_out.first(); }
     void expand(int point) const;
     void follow_forcing(std::size_t group, Lanes& value, Lanes& slope) const;
-    void evaluate(double t, bool ledger, double* y) const;
+    void evaluate(double t, bool vibration_work, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     struct Polynomial;

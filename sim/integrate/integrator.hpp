@@ -16,6 +16,8 @@
 
 namespace beamcam::sim {
 
+class System;
+
 // Kinds of segments that can be stored as numbers and evaluated again (trajectory.hpp).
 enum class SegmentKind : int { none = 0, rk8 = 1, taylor = 2, exponential = 3 };
 
@@ -46,7 +48,8 @@ struct ModalBounds {
     struct Mode {
         double low = 0, high = 0;                          // of q [m]
         double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
-        double q_frequency = 0, rate_frequency = 0;        // |q̈| ≤ q_frequency² amplitude, so for q̇ [rad/s]
+        // |q̈| ≤ q_frequency² amplitude, so for q̇ and q̈ [rad/s]
+        double q_frequency = 0, rate_frequency = 0, acceleration_frequency = 0;
         // A free vibration or decay since the start of the step, which no polynomial through the nodes follows: bounds
         // of it and its derivatives there, and its frequency. After the time τ they are at most overshoot·e^(−fading τ)
         // times as large, and no larger.
@@ -57,8 +60,9 @@ struct ModalBounds {
             }
         };
         static constexpr int kSwings = 2;
-        Swing swings[kSwings];              // the vibration, or both decays
-        void set_frequencies(double jerk);  // from the bounds of q, q̇, q̈ and that of q⃛
+        Swing swings[kSwings];  // the vibration, or both decays
+        // From the bounds of q, q̇, q̈ and those of the next two derivatives.
+        void set_frequencies(double third, double fourth);
     };
     std::vector<Mode> modes;
     std::span<const Lanes> q, rate, force;  // at the Gauss nodes: q, q̇ and q̈ + 2γq̇ + ω²q
@@ -74,11 +78,12 @@ class Segment {
     virtual ~Segment() = default;
     // All components at t in [t0, t1].
     virtual void value(double t, double* y) const = 0;
-    // The same bits of all but the ledger, whose entries are undefined: where vibration is damped, it costs the most.
-    virtual void value_without_ledger(double t, double* y) const { value(t, y); }
+    // The same bits of all but the structural loss and the work of the drive, which are undefined: where vibration is
+    // damped, they cost the most.
+    virtual void value_without_vibration_work(double t, double* y) const { value(t, y); }
     // One of the first `coordinates` of them, `y` for scratch: the same bits.
     virtual double coordinate(double t, std::size_t index, double* y) const {
-        value(t, y);
+        value_without_vibration_work(t, y);
         return y[index];
     }
     // All of the coordinates, the first components: the same bits. Others are undefined.
@@ -103,10 +108,10 @@ class StoredSegment : public Segment {
     virtual void load(double begin, double end, std::span<const double> numbers) = 0;
 };
 // Throws std::invalid_argument for `none` and unknown kinds.
-std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Problem& problem);
+std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const System& system);
 std::unique_ptr<StoredSegment> make_stored_rk8(int size);
 std::unique_ptr<StoredSegment> make_stored_taylor(int size);
-std::unique_ptr<StoredSegment> make_stored_exponential(const Problem& problem);
+std::unique_ptr<StoredSegment> make_stored_exponential(const System& system);
 
 // Why no step was accepted; `finite`: its error could be estimated.
 inline const char* step_failure_reason(bool finite) {

@@ -28,8 +28,10 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
         s.rate[kImpulseT] = load->friction;
     }
     Lanes weights;
-    Collocation::get().weights_to((s.t1 - s.t0) / s.h, weights);
-    s.ledger_at(s.t1, (s.t1 - s.t0) / s.h, weights, s.end.data());
+    const double share = (s.t1 - s.t0) / s.h;
+    Collocation::get().weights_to(share, weights);
+    s.set_ledger(weights, s.end.data());
+    s.add_vibration_work(s.t1, share, s.end.data());
 }
 
 // Power of the drive at the nodes, without the part that `drive_boundary` has in closed form       (S55)

@@ -31,8 +31,16 @@ const ContactState& ChannelEvaluator::contact() {
 }
 
 const System::EnergyBalance& ChannelEvaluator::energy_balance() {
-    if (!balance_known_) set_balance_with(system_.contact_stores_energy() ? contact() : ContactState{});
+    if (!balance_known_) {
+        set_energy_balance(balance_without_beam());
+        balance_.energies = model().energies();
+    }
     return balance_;
+}
+
+System::EnergyBalance ChannelEvaluator::balance_without_beam() {
+    if (balance_known_) return balance_;
+    return system_.balance_without_beam(y_.data(), system_.contact_stores_energy() ? contact() : ContactState{});
 }
 
 // In contact the whole balance needs the gap.
@@ -49,6 +57,13 @@ void ChannelEvaluator::set_contact(const ContactState& contact) {
     forces_known_ = !system_.phase().touching || system_.friction().none();
 }
 
+void ChannelEvaluator::set_gap(double gap, double force) {
+    ContactState c;
+    c.gap = gap;
+    c.force = force;
+    set_contact(c);
+}
+
 void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) {
     balance_ = balance;
     balance_known_ = true;
@@ -57,18 +72,6 @@ void ChannelEvaluator::set_energy_balance(const System::EnergyBalance& balance) 
 void ChannelEvaluator::set_energies(const Energies& energies) {
     energies_ = energies;
     energies_known_ = true;
-}
-
-void ChannelEvaluator::set_gap(double gap, double force) {
-    ContactState c;
-    c.gap = gap;
-    c.force = force;
-    set_balance_with(c);
-}
-
-void ChannelEvaluator::set_balance_with(const ContactState& c) {
-    model();
-    set_energy_balance(system_.current_energy_balance(y_.data(), c));
 }
 
 // A prescribed hub has the angle of its drive.
@@ -142,11 +145,11 @@ double ChannelEvaluator::value_with_cam(ChannelKind kind) {
         case ChannelKind::cam_angle:
             return system_.cam(t_).angle;
         case ChannelKind::energy_contact:
-            return energy_balance().contact;
+            return balance_without_beam().contact;
         case ChannelKind::loss_contact:
-            return energy_balance().loss_contact;
+            return balance_without_beam().loss_contact;
         case ChannelKind::loss_friction:
-            return energy_balance().loss_friction;
+            return balance_without_beam().loss_friction;
         case ChannelKind::work_cam:
             return ledger(kWorkCam);
         default:

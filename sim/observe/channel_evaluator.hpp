@@ -29,12 +29,12 @@ class ChannelEvaluator {
     // Each of these spares a computation whose result at this instant is available.
     void set_energy_balance(const System::EnergyBalance& balance);
     void set_energies(const Energies& energies);
-    void set_gap(double gap, double force);
+    void set_gap(double gap, double force);  // of the contact, all that the energy balance needs
     void set_contact(const ContactState& contact);
     const ContactState& contact();
 
   private:
-    void set_balance_with(const ContactState& c);
+    System::EnergyBalance balance_without_beam();  // at least
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double tip(ChannelKind kind);
     double value_with_cam(ChannelKind kind);

@@ -185,7 +185,7 @@ void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Ca
         const bool nodes_only = step.kind == SegmentKind::exponential && step.sampled.balance;
         if (nodes_only && channels_[c].kind == ChannelKind::energy_residual) continue;
         std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
-        if (!stored) stored = make_stored_segment(step.kind, step_.system().problem());
+        if (!stored) stored = make_stored_segment(step.kind, step_.system());
         const SegmentInterval s{stored.get(), step.from, step.to, false};
         if (loaded_ != &step) {
             loaded_ = &step;

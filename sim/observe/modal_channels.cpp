@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "sim/integrate/collocation.hpp"
 #include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
@@ -140,28 +141,18 @@ double ModalChannels::drift(ChannelKind kind) const {
     }
 }
 
-// How far all vibrations carry the channel from a line within the part.
-double ModalChannels::vibration_strays(Channel channel) const {
-    if (channel.kind == ChannelKind::q && basis_.are_coordinates()) {
-        const int j = channel.index - 1;
-        return bounds_.groups[static_cast<std::size_t>(j / kNodes)].q_strays[j % kNodes];
-    }
-    const double h = bounds_.part.length();
-    const bool tip = is_of_tip(channel.kind);
+// How far the channel is from a line between two of its values, so long after one another: all vibrations carry it.
+double ModalChannels::line_strays(Channel channel, double length) const {
     Lanes total{};
     sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations& m) {
-        if (s.q) {
-            const Lanes q = s.shift ? m.amplitude * strays((m.q_frequency + *s.shift) * h) : m.q_strays;
-            total += *s.q * q;
-        }
-        if (s.rate) {
-            const Lanes rate = s.shift ? m.rate * strays((m.rate_frequency + *s.shift) * h) : m.rate_strays;
-            total += *s.rate * rate;
-        }
+        const Lanes shift = s.shift.value_or(Lanes{});
+        if (s.q) total += *s.q * m.amplitude * strays((m.q_frequency + shift) * length);
+        if (s.rate) total += *s.rate * m.rate * strays((m.rate_frequency + shift) * length);
+        const Lanes products = strays(larger(m.q_frequency, m.rate_frequency) * (kProductFrequency * length));
         for (const auto& mixed : {s.mixed, s.mixed_rate})
-            if (mixed) total += tip ? *mixed * (m.product_strays + 1.0) : *mixed * m.product_strays;  // 1: see `tip`
+            if (mixed) total += *mixed * products;
     });
-    return sum(total);
+    return 0.5 * drift(channel.kind) * length + sum(total);
 }
 
 // Calls add(amplitude, frequency), in lanes, with every vibration that a polynomial of degree 7 over the part does not
@@ -170,7 +161,6 @@ template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
     if (depends_on_gap(channel.kind) && channel.kind != ChannelKind::gap && !touch()) return;
     const double least = kFollowedRadians / bounds_.part.length();
-    const bool held = system_.phase().held;
     const auto add_above = [&](const Lanes& amplitude, const Lanes& frequency) {
         add(where_above(frequency, least, amplitude), frequency);
     };
@@ -186,8 +176,7 @@ void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
             else if (s.rate)
                 add_above(*s.rate * v.rate, shifted);
             if (s.acceleration) add_above(*s.acceleration * v.second, v.frequency);
-            // In sustained contact deflections may vibrate far less than rates.
-            if (s.mixed) add_above(*s.mixed * (held ? v.share : v.share_with_rates), kProductFrequency * v.frequency);
+            if (s.mixed) add_above(*s.mixed * v.share, kProductFrequency * v.frequency);
             if (s.mixed_rate) add_above(*s.mixed_rate * v.share_with_rates, kProductFrequency * v.frequency);
         }
     });
@@ -222,13 +211,14 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
     }
     if (touch() && depends_on_gap(kind)) return contact_range(channel);
     if (depends_on_gap(kind) && kind != ChannelKind::gap) return {0, 0};
-    const double stray = 0.5 * drift(kind) * bounds_.part.length() + vibration_strays(channel);
+    const double stray = line_strays(channel, bounds_.part.length()) + (is_of_tip(kind) ? estimate_error(channel) : 0);
     range = {range.low - stray, range.high + stray};
     if (kind == ChannelKind::q && basis_.are_coordinates()) {
         const Range mode = mode_range(channel);
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
     if (kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
+    if (kind == ChannelKind::gap) range.low = std::max(range.low, std::min({first, last, 0.0}));  // no touch within
     return within(kind, range);
 }
 
@@ -257,7 +247,7 @@ double ModalChannels::estimate_error(Channel channel) const {
 
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
     const bool separation = channel.kind == ChannelKind::separation || channel.kind == ChannelKind::separation_paper;
-    if (separation && bounds_.part.whole) {
+    if (separation && !system_.drive().prescribed()) {
         if (!separation_) separation_ = separation_range();
         return separation_;
     }
@@ -267,40 +257,50 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
     Variation variation;
     variation.add_polynomial(nodes, h);
     variation.add_missed(nodes, first, last, h);
-    const double stray = strays_between_nodes(channel, variation) + estimate_error(channel);
+    const double stray = estimate_error(channel) +
+                         std::min(strays_between_nodes(channel, variation), line_strays(channel, kWidestNodeGap * h));
     Range range{std::min(first, last), std::max(first, last)};
     for (int k = 0; k < kNodes; ++k) range = {std::min(range.low, nodes[k]), std::max(range.high, nodes[k])};
     return Range{range.low - stray, range.high + stray};
 }
 
-// θ̈ = Θ̈ + h·q̈ times the arm, and gravity. Before the first node and after the last the line through the two
-// nearest goes on: there vibrations leave it by at most 5/4 of what they do between two nodes.
+// θ̈ = Θ̈ + h·q̈ times the arm, and gravity. Lines through the nodes of the step; before the first node and after the
+// last the line through the two nearest goes on: there vibrations leave it by at most 5/4 of what they do between
+// nodes.
 ModalChannels::Range ModalChannels::separation_range() const {
     const ModalBounds& modes = *bounds_.part.modes;
-    Lanes nodes{};
+    const double length = kWidestNodeGap * modes.h, least = kFollowedRadians / modes.h;
+    Lanes nodes{}, vibrations{}, unresolved{};
     for (std::size_t i = 0; i < modes_.size(); ++i) {
         const ModeBasis::Mode& m = modes_[i];
         nodes += m.turn * (modes.force[i] - m.damping * modes.rate[i] - m.omega * m.omega * modes.q[i]);
     }
+    for (std::size_t g = 0; g < bounds_.groups.size(); ++g) {
+        const ModeVibrations& m = bounds_.groups[g];
+        const Lanes& turn = basis_.groups[g].h;
+        vibrations += turn * m.acceleration * strays(m.acceleration_frequency * length);
+        for (int k = 0; k < m.free_count; ++k) {
+            const ModeVibrations::Free& v = m.free[k];
+            unresolved += where_above(v.frequency, least, turn * v.second) * strays(v.frequency * length);
+        }
+    }
     Variation variation;
     variation.add_polynomial(nodes, modes.h);
-    const double length = kWidestNodeGap * modes.h, least = kFollowedRadians / bounds_.part.length();
-    double between = variation.strays(length);
-    for (std::size_t g = 0; g < bounds_.groups.size(); ++g)
-        for (int k = 0; k < bounds_.groups[g].free_count; ++k) {
-            const ModeVibrations::Free& v = bounds_.groups[g].free[k];
-            const Lanes amplitude = where_above(v.frequency, least, basis_.groups[g].h * v.second);
-            between += sum(amplitude * strays(v.frequency * length));
-        }
-    const double stray = kBeyondNodes * between + bounds_.part.motion->theta_ddot;
-    const auto beyond = [&](int last, int before) {
-        return nodes[last] + (kBeyondNodes - 1) * (nodes[last] - nodes[before]);
-    };
+    const double between = std::min(variation.strays(length) + sum(unresolved), sum(vibrations)),
+                 stray = kBeyondNodes * between + bounds_.part.motion->theta_ddot;
     Range range{0, 0};
     const auto add = [&](double value) { range = {std::min(range.low, value), std::max(range.high, value)}; };
-    for (int k = 0; k < kNodes; ++k) add(nodes[k]);
-    add(beyond(0, 1));
-    add(beyond(kNodes - 1, kNodes - 2));
+    const Lanes& at = Collocation::get().c;
+    const double first = bounds_.part.elapsed / modes.h, last = first + bounds_.part.length() / modes.h;
+    const auto add_on_line = [&](double s) {
+        int k = 0;
+        while (k < kNodes - 2 && at[k + 1] < s) ++k;
+        add(nodes[k] + (nodes[k + 1] - nodes[k]) * ((s - at[k]) / (at[k + 1] - at[k])));
+    };
+    add_on_line(first);
+    add_on_line(last);
+    for (int k = 0; k < kNodes; ++k)
+        if (at[k] > first && at[k] < last) add(nodes[k]);
     const double pull = 1.5 * sensitivity_.gravity() / basis_.length;
     return {-bounds_.arm * (stray - range.low + pull), bounds_.arm * (range.high + stray + pull)};
 }

@@ -49,7 +49,7 @@ class ModalChannels {
 
   private:
     double drift(ChannelKind kind) const;
-    double vibration_strays(Channel channel) const;
+    double line_strays(Channel channel, double length) const;
     double estimate_error(Channel channel) const;
     double strays_between_nodes(Channel channel, const Variation& polynomial) const;
     template <class Add>

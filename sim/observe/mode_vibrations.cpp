@@ -13,6 +13,7 @@ void pack_mode(const ModalBounds::Mode& mode, double elapsed, int lane, ModeVibr
     group.acceleration[lane] = mode.acceleration;
     group.q_frequency[lane] = mode.q_frequency;
     group.rate_frequency[lane] = mode.rate_frequency;
+    group.acceleration_frequency[lane] = mode.acceleration_frequency;
     for (int k = 0; k < ModalBounds::Mode::kSwings; ++k) {
         const ModalBounds::Mode::Swing& swing = mode.swings[k];
         const double left = swing.left(elapsed);
@@ -27,16 +28,13 @@ void pack_mode(const ModalBounds::Mode& mode, double elapsed, int lane, ModeVibr
 
 }  // namespace
 
-void set_vibrations(const ModalBounds& bounds, double elapsed, double h, std::vector<ModeVibrations>& groups) {
+void set_vibrations(const ModalBounds& bounds, double elapsed, std::vector<ModeVibrations>& groups) {
     for (std::size_t i = 0; i < bounds.modes.size(); ++i) {
         const int lane = static_cast<int>(i % kNodes);
         if (lane == 0) groups[i / kNodes].free_count = 0;
         pack_mode(bounds.modes[i], elapsed, lane, groups[i / kNodes]);
     }
     for (ModeVibrations& group : groups) {
-        group.q_strays = group.amplitude * strays(group.q_frequency * h);
-        group.rate_strays = group.rate * strays(group.rate_frequency * h);
-        group.product_strays = strays(larger(group.q_frequency, group.rate_frequency) * (kProductFrequency * h));
         for (int k = 0; k < group.free_count; ++k) {
             ModeVibrations::Free& free = group.free[k];
             const Lanes of_values = free.value / group.amplitude, of_rates = free.rate / group.rate;

@@ -10,11 +10,9 @@ namespace beamcam::sim {
 
 // Lanes beyond the last mode are zero.
 struct ModeVibrations {
-    Lanes amplitude{}, rate{}, acceleration{};  // of |q|, |q̇|, |q̈|
-    Lanes q_frequency{}, rate_frequency{};      // as in ModalBounds
-    Lanes q_strays{}, rate_strays{};            // of q, q̇ from a line within the part
-    Lanes product_strays{};                     // of products of modes of amplitude 1
-    struct Free {                               // a vibration that the nodes do not resolve
+    Lanes amplitude{}, rate{}, acceleration{};                        // of |q|, |q̇|, |q̈|
+    Lanes q_frequency{}, rate_frequency{}, acceleration_frequency{};  // as in ModalBounds
+    struct Free {                                                     // a vibration that the nodes do not resolve
         Lanes value{}, rate{}, second{}, frequency{};
         Lanes share{}, share_with_rates{};  // of the amplitudes of products of modes, and of those with rates
     };
@@ -22,8 +20,8 @@ struct ModeVibrations {
     int free_count = 0;
 };
 
-// Of the part of a step that begins `elapsed` after its start and lasts for h.
-void set_vibrations(const ModalBounds& bounds, double elapsed, double h, std::vector<ModeVibrations>& groups);
+// Of the part of a step that begins `elapsed` after its start.
+void set_vibrations(const ModalBounds& bounds, double elapsed, std::vector<ModeVibrations>& groups);
 
 // Largest distance of a vibration of amplitude 1 from a straight line while it turns by these radians.
 BEAMCAM_INLINE Lanes strays(const Lanes& radians) { return smaller(Lanes{} + 2.0, radians * radians * 0.125); }

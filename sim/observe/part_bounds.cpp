@@ -14,7 +14,7 @@ PartBounds::PartBounds(System& system, const ModeBasis& basis)
 
 void PartBounds::set(const Part& of) {
     part = of;
-    set_vibrations(*part.modes, part.elapsed, part.length(), groups);
+    set_vibrations(*part.modes, part.elapsed, groups);
     sum_modes();
     const DriveLaw& drive = system_.drive();
     torque = drive.has_torque() ? std::max(std::fabs(drive.torque(part.from)), std::fabs(drive.torque(part.to))) : 0;

@@ -74,12 +74,13 @@ ModalBounds::Mode PolynomialBounds::bound(std::size_t i, double h, Lanes& rate, 
     const ModeBasis::Mode& of = basis_.modes[i];
     const Lanes acceleration = derivative(rate, h);
     force = acceleration + of.damping * rate + (of.omega * of.omega) * q_[i];
-    const double jerk = kNodeOvershoot * largest(derivative(acceleration, h));
+    const Lanes jerk = derivative(acceleration, h);
+    const double third = kNodeOvershoot * largest(jerk), fourth = kNodeOvershoot * largest(derivative(jerk, h));
     ModalBounds::Mode mode;
     mode.acceleration = kNodeOvershoot * largest(acceleration);
     mode.amplitude = bound_between(largest_of(q_[i], first_[i + 1], last_[i + 1]), mode.acceleration, h);
-    mode.rate = bound_between(largest_of(rate, first_rate_[i + 1], last_rate_[i + 1]), jerk, h);
-    mode.set_frequencies(jerk);
+    mode.rate = bound_between(largest_of(rate, first_rate_[i + 1], last_rate_[i + 1]), third, h);
+    mode.set_frequencies(third, fourth);
     double low = std::min(first_[i + 1], last_[i + 1]), high = std::max(first_[i + 1], last_[i + 1]);
     for (int k = 0; k < kNodes; ++k) {
         low = std::min(low, q_[i][k]);

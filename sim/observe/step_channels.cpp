@@ -28,23 +28,14 @@ bool is_energy(ChannelKind kind) {
            kind == ChannelKind::energy_elastic;
 }
 
-bool needs_ledger(ChannelKind kind) {
-    switch (kind) {
-        case ChannelKind::loss_structural:
-        case ChannelKind::loss_contact:
-        case ChannelKind::loss_friction:
-        case ChannelKind::work_cam:
-        case ChannelKind::work_drive:
-        case ChannelKind::energy_residual:
-            return true;
-        default:
-            return false;
-    }
+bool needs_vibration_work(ChannelKind kind) {
+    return kind == ChannelKind::loss_structural || kind == ChannelKind::work_drive ||
+           kind == ChannelKind::energy_residual;
 }
 
 // Of the state, all that the channel needs.
 void evaluate_state(const SegmentInterval& s, ChannelKind kind, double t, double* y) {
-    needs_ledger(kind) ? s.segment->value(t, y) : s.segment->value_without_ledger(t, y);
+    needs_vibration_work(kind) ? s.segment->value(t, y) : s.segment->value_without_vibration_work(t, y);
 }
 
 StepChannels::Samples copied(const double* samples) {
@@ -84,6 +75,7 @@ void StepChannels::set_phase(const Phase& phase) {
 void StepChannels::begin(const SegmentInterval& s) {
     const Phase& phase = evaluator_.system().phase();
     probing_ = !(phase.touching && phase.held);
+    rubbing_ = !probing_ && !evaluator_.system().friction().none();
     bristled_ = phase.touching && evaluator_.system().has_bristle();
     if (bounded_from_ != s.from || bounded_to_ != s.to) bound(s);
     bounded_from_ = s.from;
@@ -253,13 +245,13 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
     return values;
 }
 
-// Puts the state of the sample into `y_`. Those without the ledger are kept for other channels.
+// Puts the state of the sample into `y_`. Those without the work of vibration are kept for other channels.
 void StepChannels::place_sample(const SegmentInterval& s, ChannelKind kind, std::size_t k, SampledStates& sampled) {
     if (polynomial_) {
         y_ = polynomial_states_[k];
         return;
     }
-    if (needs_ledger(kind)) return evaluate_state(s, kind, sample_time(s, k), y_.data());
+    if (needs_vibration_work(kind)) return evaluate_state(s, kind, sample_time(s, k), y_.data());
     std::vector<double>& state = sampled.states[k].y;
     if (state.empty()) {
         state.resize(y_.size());

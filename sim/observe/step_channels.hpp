@@ -20,7 +20,7 @@ class StepChannels {
     using Samples = std::array<double, kSamples>;
     // What channels share at a sample, each computed when first needed.
     struct SampledState {
-        std::vector<double> y;  // without the ledger
+        std::vector<double> y;  // without the work of vibration
         std::optional<ContactState> contact;
         std::optional<Energies> energies;
     };
@@ -46,7 +46,7 @@ class StepChannels {
     bool rounding_only(ChannelKind kind);
     // The channel depends on the state of a bristle, or on a contact that the law does not describe.
     bool unlike_law(ChannelKind kind) const {
-        if (!bristled_) return !probing_ && kind == ChannelKind::friction_force;
+        if (!bristled_) return rubbing_ && kind == ChannelKind::friction_force;
         return kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
                kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
     }
@@ -90,6 +90,7 @@ class StepChannels {
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
     bool bristled_ = false;                       // it has a bristle
+    bool rubbing_ = false;                        // it lasts, under a constraint, with friction
     bool at_rest_ = false;                        // all rates at the nodes are below the absolute tolerance
     double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };

@@ -81,7 +81,7 @@ class RecordReader {
 // Hands records to the recorders.
 class Player {
   public:
-    Player(const Problem& problem, RecorderSet& recorders) : problem_(problem), recorders_(recorders) {}
+    Player(const Problem& problem, RecorderSet& recorders) : system_(problem), recorders_(recorders) {}
 
     // False after the last record that matters to the recorders.
     bool play(RecordKind kind, NumberReader& in) {
@@ -124,7 +124,7 @@ class Player {
         const auto summary = has_summary ? read<SegmentSummary>(in) : SegmentSummary{};
         const auto kind = in.next<SegmentKind>();
         std::unique_ptr<StoredSegment>& segment = segments_[kind];
-        if (!segment) segment = make_stored_segment(kind, problem_);
+        if (!segment) segment = make_stored_segment(kind, system_);
         segment->load(t0, t1, in.rest());
         recorders_.record(*segment, from, to, event, source_, has_summary ? &summary : nullptr);
         // Events at the same instant still belong to a request that ends here.
@@ -137,7 +137,7 @@ class Player {
         return y_;
     }
 
-    const Problem& problem_;
+    const System system_;
     RecorderSet& recorders_;
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> segments_;
     RunStatistics statistics_;
@@ -248,17 +248,16 @@ void Trajectory::play(const Problem& problem, RecorderSet& recorders) const {
     if (!recorders.done()) throw std::invalid_argument("the trajectory ends before the request");
 }
 
-std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const Problem& problem) {
-    const int size = System(problem).size;
+std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const System& system) {
     switch (kind) {
         case SegmentKind::none:
             break;
         case SegmentKind::rk8:
-            return make_stored_rk8(size);
+            return make_stored_rk8(system.size);
         case SegmentKind::taylor:
-            return make_stored_taylor(size);
+            return make_stored_taylor(system.size);
         case SegmentKind::exponential:
-            return make_stored_exponential(problem);
+            return make_stored_exponential(system);
     }
     throw std::invalid_argument("the trajectory has a segment of unknown kind");
 }

@@ -29,7 +29,7 @@ class SegmentProbe {
     }
     // Only foot, gap and gap rate, in flight.
     ContactState gap(const Segment& segment, double t, bool search) {
-        segment.value_without_ledger(t, y_.data());
+        segment.value_without_vibration_work(t, y_.data());
         return gap_.evaluate(t, y_.data(), search);
     }
     double frame_angle(const Segment& segment, double t) { return segment.coordinate(t, 0, y_.data()); }

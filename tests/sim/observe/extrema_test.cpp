@@ -189,6 +189,14 @@ TEST(Extrema, OfImpulsiveContactAndRestExceedEverySample) {
     expect_true_extrema(p, 1.2, 8'000);
 }
 
+TEST(Extrema, OfImpactsOfManyModesExceedEverySample) {
+    SKIP_UNDER_SANITIZERS();
+    Problem p = turning_cam(ModelKind::first_order, 8);
+    p.contact.model = ContactModel::restitution;
+    p.contact.friction = CoulombFriction{0.3, 1e-2};
+    expect_true_extrema(p, 0.4, 40'000);
+}
+
 TEST(Extrema, OfStickSlipExceedEverySample) {
     SKIP_UNDER_SANITIZERS();
     Problem p = turning_cam(ModelKind::first_order, 2);
@@ -254,6 +262,19 @@ TEST(Extrema, OfRoundingAreNotSearched) {
     p.contact.model = ContactModel::restitution;
     p.contact.restitution = 0.2;
     EXPECT_LE(searches_times_256(p, 1.2, {{ChannelKind::gap}}), 20);
+}
+
+// Undamped vibration comes near its extrema again and again; the steps between impacts are many and short.
+TEST(Extrema, OfManyUndampedModesNeedFewSearches) {
+    SKIP_UNDER_SANITIZERS();
+    Problem p = turning_cam(ModelKind::first_order, 20, 0);
+    p.contact.model = ContactModel::restitution;
+    const std::vector<Channel> channels{{ChannelKind::theta_dot},
+                                        {ChannelKind::tip_rate},
+                                        {ChannelKind::gap},
+                                        {ChannelKind::separation},
+                                        {ChannelKind::friction_force}};
+    EXPECT_LE(searches_times_256(p, 0.5, channels), 40);
 }
 
 // A beam that follows the cam without leaving it.
