@@ -82,6 +82,17 @@ with tempfile.TemporaryDirectory() as folder:
         subprocess.run([sys.argv[1], "render", "s.json", "-q", "--force", "-o", "s.html", "--set", f"cam={{\"speed\": {speed}}}"], cwd=folder, check=True)
         browser(folder, 0, f"--screenshot={folder}/page.png")
         marks[speed] = marked(f"{folder}/page.png")
+    subprocess.run([sys.argv[1], "render", "s.json", "-q", "--force", "-o", "s.html", "--set", "hub.radius=0.3"], cwd=folder, check=True)
+    browser(folder, 0, f"--screenshot={folder}/page.png")
+    with open(f"{folder}/s.html") as file:
+        named = dict(re.findall(r'"(steel|ink)":"#(\w{6})"', file.read()))
+    pixels = pixels_of(f"{folder}/page.png")
+    steel, ink = ([divmod(i, WIDTH) for i, pixel in enumerate(pixels) if pixel == bytes.fromhex(named[name])] for name in ("steel", "ink"))
+    (top, _), (bottom, _), left, right = min(steel), max(steel), min(x for _, x in steel), max(x for _, x in steel)
+    reach = (max(y for y, x in ink if left <= x <= right) - (top + bottom) / 2) / ((bottom - top) / 2)
+    print(reach)
+    if not 1.02 < reach < 1.25:
+        sys.exit(f"the support of a large hub reaches {reach} times the hub's radius below its axis")
     arrow = {speed: marks[speed] - marks[0] for speed in (-3, 3)}
     left = min(x for x, _ in arrow[3] | arrow[-3]) + 14
     heads = {speed: sum(x < left for x, _ in places) for speed, places in arrow.items()}

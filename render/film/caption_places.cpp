@@ -9,11 +9,13 @@ namespace beamcam::render {
 namespace {
 
 constexpr std::size_t kCaptionLines = 6;
-constexpr double kFreeBelow = 40;     // free space below captions [design px]
-constexpr double kBetweenPlates = 8;  // [design px]
-constexpr double kFromAnchor = 46;    // distance of a caption from its anchor [design px]
-constexpr double kRounding = 1e-6;    // [px]
-// The distances that are worth not covering moving parts, and not crossing the disc with the leader line [design px].
+constexpr double kFreeBelow = 40;      // free space below captions [design px]
+constexpr double kBetweenPlates = 8;   // [design px]
+constexpr double kFromAnchor = 46;     // distance of a caption from its anchor [design px]
+constexpr double kRounding = 1e-6;     // [px]
+constexpr double kNearContact = 2e-3;  // of the beam's length: a gap that looks like contact
+// The distances that are worth not covering moving parts, and not crossing the disc or a label with the leader line
+// [design px].
 constexpr double kCovering = 1e4, kCrossing = 1e3;
 
 }  // namespace
@@ -90,6 +92,19 @@ Vec2 CaptionPlaces::contact_foot() const {
     return s.beam.contact ? s.px(s.beam.contact->on_disc) : foot_of({.kind = Anchor::Kind::tip});
 }
 
+std::optional<Vec2> CaptionPlaces::leader_foot(const Callout& callout) const {
+    if (kind_of(callout) == Anchor::Kind::all) return std::nullopt;
+    const bool near = s.pose.nearest && s.pose.nearest->gap < kNearContact * s.at.problem().beam.length;
+    if (is_at_contact(callout) && s.at.problem().cam && !near) return std::nullopt;
+    const Vec2 foot = is_at_contact(callout) ? contact_foot() : foot_of(*callout.anchor);
+    return s.at.shows(foot) ? std::optional(foot) : std::nullopt;
+}
+
+CaptionLeader CaptionPlaces::leader_of(const Callout& callout, const Box& plate, Vec2 foot) const {
+    return is_at_contact(callout) ? leader_around_disc(s, labels_, plate, foot)
+                                  : straight_leader(s, labels_, plate, foot);
+}
+
 Box CaptionPlaces::plate_of(const Callout& callout) const {
     const auto index = static_cast<std::size_t>(&callout - s.at.context.setup->callouts.data());
     if (const auto& kept = s.at.labels->captions[index]) return *kept;
@@ -107,12 +122,12 @@ Box CaptionPlaces::placed(const Callout& callout, const std::vector<Box>& moving
     keep_inside(first);
     std::vector<Box> bodies = others;
     add_bodies(bodies);
-    std::optional<Vec2> foot;  // of the leader line
-    if (!is_at_contact(callout) && kind_of(callout) != Anchor::Kind::all) foot = foot_of(*callout.anchor);
-    if (kind_of(callout) == Anchor::Kind::tip || kind_of(callout) == Anchor::Kind::place)
-        bodies.push_back(Box{foot->x, foot->y, 0, 0}.inset(-24 * u));
-    std::optional<Box> found = free_plate(first, foot, bodies, moving);
-    if (!found) found = free_plate(first, foot, others, moving);
+    if (kind_of(callout) == Anchor::Kind::tip || kind_of(callout) == Anchor::Kind::place) {
+        const Vec2 foot = foot_of(*callout.anchor);
+        bodies.push_back(Box{foot.x, foot.y, 0, 0}.inset(-24 * u));
+    }
+    std::optional<Box> found = free_plate(callout, first, bodies, moving);
+    if (!found) found = free_plate(callout, first, others, moving);
     return found.value_or(first);
 }
 
@@ -209,7 +224,7 @@ bool CaptionPlaces::crosses_cam(Vec2 from, Vec2 to) const {
 
 // The nearest place clear of what is taken and of labels, unless the camera is near rather below or beside than above,
 // and over as little as possible of what moves. None if there is none.
-std::optional<Box> CaptionPlaces::free_plate(const Box& first, std::optional<Vec2> foot, const std::vector<Box>& taken,
+std::optional<Box> CaptionPlaces::free_plate(const Callout& callout, const Box& first, const std::vector<Box>& taken,
                                              const std::vector<Box>& moving) const {
     const double gap = kBetweenPlates * u, lowest = box.bottom() - kFreeBelow * u;
     const auto is_free = [&](const Box& plate) {
@@ -224,7 +239,11 @@ std::optional<Box> CaptionPlaces::free_plate(const Box& first, std::optional<Vec
                     std::max(0.0, std::min(plate.bottom(), other.bottom()) - std::max(plate.y, other.y));
         return area / (plate.w * plate.h);
     };
-    const auto crosses = [&](const Box& plate) { return foot && crosses_cam(plate.centre(), *foot); };
+    const std::optional<Vec2> foot = leader_foot(callout);
+    const auto crosses = [&](const Box& plate) {
+        return foot && ((!is_at_contact(callout) && crosses_cam(plate.centre(), *foot)) ||
+                        leader_of(callout, plate, *foot).crosses_label);
+    };
     if (is_free(first) && covers(first) == 0 && !crosses(first)) return first;
     std::vector<double> lefts{first.x, box.x, box.right() - first.w}, tops{first.y, box.y, lowest - first.h};
     const auto add_beside = [&](const Box& other) {

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "render/film/caption_leader.hpp"
 #include "render/film/mechanism_marks.hpp"
 
 namespace beamcam::render {
@@ -29,11 +30,11 @@ class CaptionPlaces {
     Box placed(const Callout& callout, const std::vector<Box>& moving) const;
     Caption caption_of(const Callout& callout, Vec2 at) const;
     bool is_visible(const Callout& callout) const;  // without space for all, a later caption replaces earlier ones
-    Vec2 foot_of(const Anchor& anchor) const;
-    Vec2 contact_foot() const;
+    // Where the leader line of a caption ends. None if the anchor is out of view; without a contact, none to a cam
+    // [px].
+    std::optional<Vec2> leader_foot(const Callout& callout) const;
+    CaptionLeader leader_of(const Callout& callout, const Box& plate, Vec2 foot) const;
     const TextStyle& style() const { return style_; }
-    // Labels that captions must not hide; the cam's speed first [px].
-    const std::vector<Box>& labels() const { return labels_; }
 
     static Anchor::Kind kind_of(const Callout& c) { return c.anchor ? c.anchor->kind : Anchor::Kind::contact; }
     static bool is_at_contact(const Callout& c) { return kind_of(c) == Anchor::Kind::contact; }
@@ -50,15 +51,17 @@ class CaptionPlaces {
     Box first_plate(const Callout& callout) const;
     Box plate_at_anchor(const Callout& callout) const;
     Box plate_at_contact(const Callout& callout) const;
+    Vec2 foot_of(const Anchor& anchor) const;
+    Vec2 contact_foot() const;
     double space_for_later(const Callout& callout) const;
-    std::optional<Box> free_plate(const Box& first, std::optional<Vec2> foot, const std::vector<Box>& taken,
+    std::optional<Box> free_plate(const Callout& callout, const Box& first, const std::vector<Box>& taken,
                                   const std::vector<Box>& moving) const;
 
     const MechanismScene& s;
     const double u;
     const Box& box;
     TextStyle style_;
-    std::vector<Box> labels_;
+    std::vector<Box> labels_;                       // that captions must not hide [px]
     mutable std::map<const Callout*, Box> plates_;  // cached
 };
 

@@ -79,7 +79,9 @@ void ImpactRings::find(const MechanismView& at) {
         const Vec2 n = b.contact->normal;
         const double place = std::clamp(impact.x / at.problem().beam.length, 0.0, 1.0);
         const Vec2 left = b.left[station(b, place)];
+        const auto struck = std::ranges::upper_bound(times, impact.t_start) - times.begin();
         rings_.push_back({frame,
+                          static_cast<int>(struck),
                           std::atan2(n.y, n.x) - pose.cam_angle,
                           place,
                           {cross(n, left), dot(n, left)},
@@ -113,11 +115,11 @@ std::optional<ForceArrow> ImpactRings::peak(int frame, const DrawnBeam& beam) co
     if (!labelled_) return std::nullopt;
     const Ring* latest = nullptr;
     for (const Ring& r : rings_)
-        if (frame >= r.frame && age(r, frame) < 1 && (!latest || r.frame >= latest->frame || !r.brief)) latest = &r;
+        if (frame >= r.struck && age(r, frame) < 1 && (!latest || r.frame >= latest->frame || !r.brief)) latest = &r;
     if (!latest || !latest->brief) return std::nullopt;
     const Ring* most = latest;
     for (const Ring& r : rings_)
-        if (r.frame <= frame && r.collision == latest->collision && r.peak > most->peak) most = &r;
+        if (r.struck <= frame && r.collision == latest->collision && r.peak > most->peak) most = &r;
     if (!(most->peak > 0)) return std::nullopt;
     const std::size_t i = station(beam, most->place);
     const Vec2 left = beam.left[i], along{left.y, -left.x};

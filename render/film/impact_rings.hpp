@@ -16,12 +16,14 @@ class ImpactRings {
     void find(const MechanismView& at);  // collects the impacts of the motion
     void draw(const MechanismScene& s) const;
     // Peak force of a collision, as long as the ring of its latest contact is visible and that is shorter than two
-    // frames. It acts on the beam: its arrow stays at the place of the beam that was struck, and turns with it.
+    // frames; at the instant of the touch it is still to come. It acts on the beam: its arrow stays at the place of the
+    // beam that was struck, and turns with it.
     std::optional<ForceArrow> peak(int frame, const DrawnBeam& beam) const;
 
   private:
     struct Ring {
         int frame = 0;              // the first frame that shows it
+        int struck = 0;             // the first one after the instant of the touch
         double material_angle = 0;  // on the disc, from its mark [rad]
         double place = 0;           // on the beam, relative to its length
         Vec2 direction;             // of the force, along the beam and to its left

@@ -134,7 +134,11 @@ Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArro
 
 void draw_force_leader(const MechanismScene& s) {
     if (!s.arrow || !names_force(s)) return;
-    draw_leader(s, *s.at.labels->force, s.at.palette.contact, arrow_tip(s.at, s.view, *s.arrow), s.arrow->foot);
+    const LabelPlace& label = *s.at.labels->force;
+    const Vec2 middle = s.label_box(label, s.arrow->foot).centre(), foot = s.px(s.arrow->foot);
+    const Vec2 tip = arrow_tip(s.at, s.view, *s.arrow);
+    const Vec2 end = norm(tip - middle) <= norm(foot - middle) ? tip : foot;  // so that the line crosses no arrow
+    draw_leader(s, label, s.at.palette.contact, end, s.arrow->foot);
 }
 
 void draw_force(const MechanismScene& s) {

@@ -12,7 +12,7 @@ namespace {
 
 using std::numbers::pi;
 constexpr double kFarLetter = 26;       // distance from which θ has a leader line [design px]
-constexpr double kLongestLeader = 200;  // before a moving camera [design px]
+constexpr double kLongestLeader = 200;  // a longer one would only cross the picture [design px]
 
 }  // namespace
 
@@ -20,8 +20,7 @@ void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, 
     const Box box = s.label_box(label, base);
     const Vec2 edge{std::clamp(owner.x, box.x, box.right()), std::clamp(owner.y, box.y, box.bottom())};
     const double way = norm(owner - edge), opacity = label.opacity_at(s.frame);
-    if (opacity <= 0 || way <= far * s.at.unit) return;
-    if (s.at.moved && way > kLongestLeader * s.at.unit) return;
+    if (opacity <= 0 || way <= far * s.at.unit || way > kLongestLeader * s.at.unit) return;
     const Vec2 gap = (owner - edge) * (6 * s.at.unit / way);
     s.canvas.line(edge + gap, owner - gap, {color.faded(0.6 * opacity), 1.2 * s.at.unit});
 }
@@ -185,9 +184,10 @@ void draw_disc_letters(const MechanismScene& s) {
     if (!s.shape.disc) return;
     const Color ink = ink_on_disc(s);
     const DiscShape& d = *s.shape.disc;
-    // On a small disc they keep a readable size.
-    const double size = std::max(22 * s.at.marks, std::min(least_letter(s.at), 0.5 * d.radius)), letter = size / 22;
-    if (size < kReadable || d.radius < 60 * s.at.marks || !s.at.context.setup->view.show.labels) return;
+    // On a small disc they keep a readable size; before a near camera they grow with it to their usual size.
+    const double marks = std::min(s.at.unit, s.at.marks * s.at.zoom());
+    const double size = std::max(22 * marks, std::min(least_letter(s.at), 0.5 * d.radius)), letter = size / 22;
+    if (size < kReadable || d.radius < 60 * marks || !s.at.context.setup->view.show.labels) return;
     const double apart = norm(d.centre - d.axis);
     const Vec2 along = apart > 2 ? (d.centre - d.axis) * (1 / apart) : Vec2{0, -1}, across{along.y, -along.x};
     TextStyle style{.size = size, .color = ink, .align = HAlign::centre};
@@ -199,7 +199,7 @@ void draw_disc_letters(const MechanismScene& s) {
             return;  // cut off by the edge of the panel
         s.canvas.text(middle + Vec2{0, 7 * letter}, name, style);
     };
-    const double dot = s.view ? std::max(d.dot, 4 * s.at.marks) : 4 * s.at.marks;
+    const double dot = s.view ? std::max(d.dot, 4 * marks) : 4 * marks;
     const double beyond = dot + (s.at.ghosts ? 21 : 16) * letter;
     if (beyond + 13 * letter > norm(d.mark - d.centre) - d.mark_radius) {  // B would touch the mark
         put("$B$", d.centre - across * (13 * letter));
@@ -210,7 +210,7 @@ void draw_disc_letters(const MechanismScene& s) {
     // The shaft in the solid view needs more space. If C would come near the rim, where contacts and their rings are,
     // it goes to the side.
     const double off = d.bore + (s.view ? 24 : 16) * letter;
-    put("$C$", d.axis + (apart + off + 24 * s.at.marks <= d.radius ? along * -1 : along * 0.6 + across * 0.8) * off);
+    put("$C$", d.axis + (apart + off + 24 * marks <= d.radius ? along * -1 : along * 0.6 + across * 0.8) * off);
 }
 
 void draw_disc_marks(const MechanismScene& s, const Trace& trace) {

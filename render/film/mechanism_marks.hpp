@@ -47,6 +47,7 @@ void draw_force(const MechanismScene& s);
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now);
 
 // captions.cpp: the texts of events in boxes, with leader lines to their anchors.
+void draw_caption_leaders(const MechanismScene& s);
 void draw_captions(const MechanismScene& s);
 
 // mechanism_ghosts.cpp: other motions drawn into the panel of the first one. Bodies are drawn under its beam, whose

@@ -155,7 +155,6 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
             if (one) draw_bodies(s, style, threads);
         });
     };
-    draw_force_leader(s);  // behind the bodies, so that it crosses no letter
     if (!s.view) {
         draw_angle_arc(s);
         draw_base_line(s);
@@ -163,7 +162,8 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     }
     draw_tip_path(s);  // over the halos of letters, which would interrupt it
     bodies();
-    if (s.view) {  // in the plane of the front of the beam: the mount must not hide them
+    draw_force_leader(s);  // over the beam, so that it reaches its arrow
+    if (s.view) {          // in the plane of the front of the beam: the mount must not hide them
         draw_angle_arc(s);
         draw_cam_speed(s);
     }
@@ -172,7 +172,8 @@ void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int fr
     if (at.member == 0) draw_measured_beams(s);
     rings_.draw(s);
     draw_disc_letters(s);  // over the rings, which would make them hard to read
-    draw_force(s);
+    if (at.member == 0) draw_caption_leaders(s);
+    draw_force(s);  // its label has a halo that interrupts these lines
     if (at.member == 0) draw_captions(s);
 }
 

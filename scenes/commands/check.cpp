@@ -4,6 +4,7 @@
 #include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/reader.hpp"
+#include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -13,15 +14,25 @@ struct CheckArguments {
     std::vector<std::string> scenes;
 };
 
+void warn_of_characters(const Scene& scene) {
+    const std::vector<Output> film{default_film(scene)};
+    for (const Output& each : scene.outputs.empty() ? film : scene.outputs)
+        if (const auto* picture = std::get_if<PictureOutput>(&each))
+            if (const std::string lost = characters_without_font(*picture, scene); !lost.empty())
+                output::print_message("warning: {}\n", lost);
+}
+
 int act(const CheckArguments& args) {
     bool fine = true;
     for (const std::string& path : args.scenes) {
         const Reading reading = read_scene(load_source(path), args.common.overrides);
         output::print_message("{}", reading.report());
-        if (reading.scene)
-            inform(args.common, fmt::format("{}: fine", path));
-        else
+        if (!reading.scene) {
             fine = false;
+            continue;
+        }
+        warn_of_characters(*reading.scene);
+        inform(args.common, fmt::format("{}: fine", path));
     }
     return fine ? kDone : kBadScene;
 }

@@ -248,8 +248,8 @@ std::string accuracy(const Runs& runs, Lang lang) {
     }
     const std::string but = paper ? phrase(lang, ", the model “paper” apart", "（论文模型除外）") : "";
     if (closure == 0) return phrase(lang, "Relative tolerance {}.", "相对容差 {}。", one_digit(rtol));
-    return phrase(lang, "Relative tolerance {}; the energy balance closes to {} of its scale{}.",
-                  "相对容差 {}；能量平衡闭合到其尺度的 {}{}。", one_digit(rtol), one_digit(closure), but);
+    return phrase(lang, "Relative tolerance {}; at the ends of steps the energy balance closes to {} of its scale{}.",
+                  "相对容差 {}；能量平衡在各步末闭合到其尺度的 {}{}。", one_digit(rtol), one_digit(closure), but);
 }
 
 std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {

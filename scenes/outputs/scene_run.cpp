@@ -12,7 +12,6 @@
 #include "render/base/error.hpp"
 #include "render/film/model.hpp"
 #include "render/film/page.hpp"
-#include "render/plot/user_text.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
@@ -234,12 +233,9 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
     if (!p.unreached_events.empty())
         context_.print("warning: {} does not show {}: outside the film\n", p.file,
                        fmt::join(p.unreached_events, " or "));
+    if (const std::string lost = characters_without_font(p, scene_); !lost.empty())
+        context_.print("warning: {}\n", lost);
     if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // without text
-    std::string written = scene_.title;
-    for (const render::Callout& words : p.callouts) written += words.text;
-    for (const Compared& motion : p.compare) written += motion.label;
-    if (const std::string lost = render::characters_without_font(written); !lost.empty())
-        context_.print("warning: {} omits {}: no font has these characters\n", p.file, lost);
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = omitted_text(p, scene_); !what.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));

@@ -7,6 +7,7 @@
 
 #include "render/base/error.hpp"
 #include "render/film/parameter_line.hpp"
+#include "render/plot/user_text.hpp"
 #include "scenes/plan/planner.hpp"
 
 namespace beamcam::scenes {
@@ -82,6 +83,15 @@ std::string omitted_text(const Pictures& p, const Scene& scene) {
     return fmt::format("{}", fmt::join(render::omitted_text(p.size.width, p.size.height, p.layout, members, scene.title,
                                                             problems, p.view.show, scene.units.speed),
                                        "; "));
+}
+
+std::string characters_without_font(const PictureOutput& p, const Scene& scene) {
+    if (p.kind == PictureOutput::Kind::page || p.kind == PictureOutput::Kind::model) return {};  // without text
+    std::string written = scene.title;
+    for (const FilmEvent& event : p.span.events) written += event.text;
+    for (const Compared& motion : p.compare) written += motion.label;
+    const std::string lost = render::characters_without_font(written);
+    return lost.empty() ? lost : fmt::format("{} omits {}: no font has these characters", p.file, lost);
 }
 
 void add_omitted_text(Plan& plan, const Scene& scene) {

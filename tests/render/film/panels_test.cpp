@@ -223,17 +223,18 @@ TEST(Peaks, AreHeldThroughAFreeze) {
     EXPECT_EQ(drawn(film, gone + 1), drawn(bare, gone + 1));
 }
 
-// A freeze at a touch shows one instant of the contact, however long it lasts.
-TEST(Peaks, AreHeldWhereAFreezeShowsTheTouch) {
+// A freeze at a touch shows the instant before any force, as the charts do; the peak of a short contact follows it.
+TEST(Peaks, AreShownAfterAFreezeAtTheTouch) {
     FilmSetup setup = test::flat_film({.duration = 1.2}, 640, 360);
     setup.layout = LayoutNode{};
     setup.impacts = {brief_impact(0.3, 100)};
     setup.poses[18].t = 0.3;
+    setup.poses[18].nearest->force = 0;
     setup.poses.insert(setup.poses.begin() + 18, 30, setup.poses[18]);
-    Film held(setup);
-    setup.impacts[0].t_end = 0.34;
-    Film lasting(setup);
-    for (const int k : {20, 40, 52}) EXPECT_NE(drawn(held, k), drawn(lasting, k)) << k;
+    Film film(setup);
+    const std::size_t none = film.geometry(10).labels.size();
+    for (const int k : {18, 40, 48}) EXPECT_EQ(film.geometry(k).labels.size(), none) << k;
+    for (const int k : {49, 60, 71}) EXPECT_EQ(film.geometry(k).labels.size(), none + 1) << k;
 }
 
 // The label agrees with the chart: after several short contacts of one collision it states the largest.
@@ -1038,6 +1039,35 @@ TEST(Strips, AWindowInAStillHasItsOwnRange) {
     EXPECT_LT(range(1, 0.02), 0.3 * range(1, {}));
     EXPECT_LT(range(1, 0.02), range(20, 0.02));
     EXPECT_LT(range(20, 0.02), 0.8 * range(20, {}));  // the chart also contains the motion before the film
+}
+
+// The tip of a short arrow is inside the beam, over which the line from its label reaches it.
+TEST(ForceArrows, AreReachedByTheLinesOfTheirLabels) {
+    FilmSetup setup = test::flat_film({.duration = 0.8}, 1280, 720);
+    setup.layout = LayoutNode{};
+    const auto touches = [](const sim::Pose& pose) { return pose.nearest && pose.nearest->touching; };
+    const auto first = std::ranges::find_if(setup.poses, touches);
+    ASSERT_NE(first, setup.poses.end());
+    first->nearest->force *= 0.01;
+    setup.impacts.clear();  // no peak is held
+    Film film(setup);
+    const int k = int(first - setup.poses.begin());
+    const FrameGeometry g = film.geometry(k);
+    const Box label = g.labels.back();
+    const Vec2 foot = g.camera.to_pixels(g.beam.contact->on_disc),
+               edge{std::clamp(foot.x, label.x, label.right()), std::clamp(foot.y, label.y, label.bottom())};
+    const double inside = 0.7 * (g.beam.high - g.beam.low) * g.camera.scale;  // the beam, seen from its face
+    ASSERT_GT(norm(edge - foot), 2 * inside);
+    const Vec2 at = foot + (edge - foot) * (inside / norm(edge - foot));
+    const Image image = drawn(film, k);
+    int orange = 0;
+    for (int y = -3; y <= 3; ++y)
+        for (int x = -3; x <= 3; ++x) {
+            const std::uint32_t p =
+                image.pixels[std::size_t(at.y + y) * std::size_t(image.width) + std::size_t(at.x + x)];
+            orange += (p >> 16 & 255) > (p & 255);  // the beam is bluish
+        }
+    EXPECT_GT(orange, 1);
 }
 
 // Arrows are proportional to the force, in the mechanism and in the close-up.

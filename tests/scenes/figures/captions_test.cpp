@@ -74,6 +74,13 @@ TEST(Captions, NameThePaperInItsOwnScenesAlone) {
     EXPECT_THAT(caption_of(kOthers[0], "models"), Not(HasSubstr("paper")));
 }
 
+// Within steps, which the figure "energy" shows too, the balance is interpolated and may be worse.
+TEST(Captions, SayWhereTheEnergyBalanceCloses) {
+    EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "energy"),
+                HasSubstr("at the ends of steps the energy balance closes to"));
+    EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "energy", Lang::zh), HasSubstr("能量平衡在各步末闭合到"));
+}
+
 TEST(Captions, SayNothingOfAFlexibleBeamWhereItIsRigid) {
     for (const char* figure : {"schematic", "free-fall"}) {
         const std::string caption =

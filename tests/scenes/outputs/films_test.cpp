@@ -823,6 +823,8 @@ TEST(Films, CharactersThatNoFontHasAreTold) {
     const Finished run = shell(folder, "$BEAMCAM run s.json");
     EXPECT_EQ(run.code, 0) << run.err;
     EXPECT_THAT(run.err, HasSubstr("omits 🙂: no font has these characters"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json").err, HasSubstr("omits 🙂: no font has these characters"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM check s.json --set title=Fall").err, "s.json: fine\n");
 }
 
 // ---- what finds no room ------------------------------------------------------------------------
