@@ -22,7 +22,7 @@ ContactState GapProbe::evaluate(double t, const double* y, bool search) {
         ++system_.gap_evaluations;
         return c;
     }
-    c = system_.contact(t, y, true);
+    c = system_.contact(t, y, search || !system_.phase().touching);
     x_ = c.at_end ? -1 : c.x;
     return c;
 }
