@@ -135,7 +135,7 @@ class CollisionPanel final : public FilmPanel {
             c.words = context_.translate(fmt::format("Collision {}, ", spans_[which].number));
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
-        c.set_time(time, prefix.factor, fmt::format("$t$ − $t$_{{0}} / {}s", prefix.symbol));
+        c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));
         const double t0 = start(which);
         for (figure::Series curve : curves_) {
             for (Range& pale : curve.pale_within) pale.low -= t0, pale.high -= t0;

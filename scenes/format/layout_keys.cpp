@@ -205,7 +205,7 @@ std::string needs_missing_cam(const sim::Problem& own, const Picture& picture, c
     if (type_of(panel.kind).needs_cam)
         return has_cam(static_cast<std::size_t>(panel.member)) ? "" : type_of(panel.kind).name;
     for (const sim::Channel& channel : panel.channels)
-        if (sim::needs_cam(channel.kind) && !any) return name(channel);
+        if (sim::traits(channel.kind).needs_cam && !any) return name(channel);
     return {};
 }
 

@@ -114,7 +114,7 @@ class MeasurementReader {
 
     void check_channels() {
         for (const auto& [channel, from] : m_.columns)
-            if (sim::needs_cam(channel.kind) && !r_.context().scene.problem.cam)
+            if (sim::traits(channel.kind).needs_cam && !r_.context().scene.problem.cam)
                 fail(r_.has(name(channel)) ? name(channel) : "file",
                      fmt::format("{} is a channel of the contact, but the scene has no cam", name(channel)));
     }

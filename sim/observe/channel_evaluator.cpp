@@ -91,8 +91,11 @@ double ChannelEvaluator::value_of_coordinates(Channel channel, double t, const d
 
 double ChannelEvaluator::value(Channel channel) {
     if (is_of_coordinates(channel)) return value_of_coordinates(channel, t_, y_.data());
-    if (needs_cam(channel.kind)) return system_.has_cam() ? value_with_cam(channel.kind) : kNan;
+    if (traits(channel.kind).needs_cam && !system_.has_cam()) return kNan;
     switch (channel.kind) {
+        case ChannelKind::t:
+        case ChannelKind::q:
+            break;
         case ChannelKind::theta:
             return model().hub_angle();
         case ChannelKind::theta_dot:
@@ -100,20 +103,43 @@ double ChannelEvaluator::value(Channel channel) {
         case ChannelKind::tip_deflection:
         case ChannelKind::tip_rate:
             return tip(channel.kind);
+        case ChannelKind::contact_force:
+            return contact().force;
+        case ChannelKind::friction_force:
+            return contact().friction;
+        case ChannelKind::gap:
+            return contact().gap;
+        case ChannelKind::contact_x:
+            return contact().x;
+        case ChannelKind::contact_s:
+            return place_on_rim();
+        case ChannelKind::cam_angle:
+            return system_.cam(t_).angle;
         case ChannelKind::energy_kinetic:
             return energies().kinetic;
         case ChannelKind::energy_potential:
             return energies().gravity;
         case ChannelKind::energy_elastic:
             return energies().elastic;
+        case ChannelKind::energy_contact:
+            return balance_without_beam().contact;
         case ChannelKind::loss_structural:
             return ledger(kLossStructural);
+        case ChannelKind::loss_contact:
+            return balance_without_beam().loss_contact;
+        case ChannelKind::loss_friction:
+            return balance_without_beam().loss_friction;
+        case ChannelKind::work_cam:
+            return ledger(kWorkCam);
         case ChannelKind::work_drive:
             return ledger(kWorkDrive);
         case ChannelKind::energy_residual:
-        default:
             return energy_balance().total() - start_total_;
+        case ChannelKind::separation:
+        case ChannelKind::separation_paper:
+            return separation(channel.kind);
     }
+    return kNan;
 }
 
 // Across the tangent at the root, which is the hub's direction (S6).
@@ -127,34 +153,11 @@ double ChannelEvaluator::tip(ChannelKind kind) {
     return dot(tip.v - root.v, across) - beam.hub_rate() * dot(span, along);
 }
 
-double ChannelEvaluator::value_with_cam(ChannelKind kind) {
-    switch (kind) {
-        case ChannelKind::contact_force:
-            return contact().force;
-        case ChannelKind::friction_force:
-            return contact().friction;
-        case ChannelKind::gap:
-            return contact().gap;
-        case ChannelKind::contact_x:
-            return contact().x;
-        case ChannelKind::contact_s: {
-            const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
-            const double full = 2 * std::numbers::pi;
-            return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
-        }
-        case ChannelKind::cam_angle:
-            return system_.cam(t_).angle;
-        case ChannelKind::energy_contact:
-            return balance_without_beam().contact;
-        case ChannelKind::loss_contact:
-            return balance_without_beam().loss_contact;
-        case ChannelKind::loss_friction:
-            return balance_without_beam().loss_friction;
-        case ChannelKind::work_cam:
-            return ledger(kWorkCam);
-        default:
-            return separation(kind);
-    }
+// Along the rim from the mark, in the sense in which angles grow.
+double ChannelEvaluator::place_on_rim() {
+    const double turn = std::atan2(contact().normal.y, contact().normal.x) - system_.cam(t_).angle;
+    const double full = 2 * std::numbers::pi;
+    return system_.problem().cam->radius * (turn - full * std::floor(turn / full));
 }
 
 // The paper's eq. (6) and the same with the sign that N ≥ 0 gives: J θ̈ = N x − ½mgL cos θ (S41).

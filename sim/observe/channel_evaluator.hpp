@@ -37,7 +37,7 @@ class ChannelEvaluator {
     System::EnergyBalance balance_without_beam();  // at least
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double tip(ChannelKind kind);
-    double value_with_cam(ChannelKind kind);
+    double place_on_rim();
     double separation(ChannelKind kind);
     void find_hub_acceleration(const ContactState& c);
 

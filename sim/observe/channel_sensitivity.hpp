@@ -118,7 +118,14 @@ void ChannelSensitivity::each_group(Channel channel, Visit&& visit) const {
         case ChannelKind::energy_elastic:
         case ChannelKind::work_drive:
             return visit_energy(channel.kind, visit);
-        default:
+        case ChannelKind::t:
+        case ChannelKind::cam_angle:
+            return;
+        case ChannelKind::loss_structural:  // largest at the end
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+        case ChannelKind::work_cam:         // a polynomial
+        case ChannelKind::energy_residual:  // an error: nodes are enough
             return;
     }
 }

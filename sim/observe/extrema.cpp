@@ -41,7 +41,7 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
     std::shared_ptr<const KeptStep> kept;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         if (std::isnan(first_[c])) continue;
-        if (!follows && !is_estimated(channels_[c].kind)) offer(extrema[c], s.from, first_[c]);
+        if (!follows && !traits(channels_[c].kind).estimated()) offer(extrema[c], s.from, first_[c]);
         offer_end(s, c, extrema[c]);
         if (const auto range = range_within(s, c, extrema[c])) collect(s, c, *range, kept, extrema[c]);
     }
@@ -79,7 +79,7 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
         const double high = bound(range, sign);
         const bool promising = high > kHigherPromise * candidates.promise;
         if (promising) candidates.promise = high;
-        if (promising && is_separation(kind)) {
+        if (promising && traits(kind).separation) {
             offer(e, s.to, step_.value(s, channels_[c], s.to));
             if (is_beaten(range, kind, sign, e)) continue;
         }
@@ -97,9 +97,9 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
 
 // Where the value is an estimate, the true one if the estimate is better.
 void ExtremaFinder::offer_end(const SegmentInterval& s, std::size_t c, Extremum& e) {
-    if (!is_estimated(channels_[c].kind)) {
+    if (!traits(channels_[c].kind).estimated()) {
         offer(e, s.to, last_[c]);
-    } else if (!is_separation(channels_[c].kind) && (last_[c] < e.min || last_[c] > e.max)) {
+    } else if (!traits(channels_[c].kind).separation && (last_[c] < e.min || last_[c] > e.max)) {
         offer(e, s.to, step_.value(s, channels_[c], s.to));
     }
 }
@@ -123,8 +123,8 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
     if (step_.unlike_law(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     const bool rounding = step_.rounding_only(channel.kind);
-    if (rounding && is_separation(channel.kind)) offer(e, s.to, step_.value(s, channel, s.to));
-    if (is_monotone(channel.kind) || rounding) return std::nullopt;
+    if (rounding && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
+    if (traits(channel.kind).monotone || rounding) return std::nullopt;
     const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
     if (mode && is_beaten(modes.mode_range(channel), channel.kind, e)) return std::nullopt;
     const ModalChannels::Range range = modes.range(channel, first_[c], last_[c]);
@@ -132,7 +132,7 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     Lanes nodes;
     if (modes.known_at_nodes(channel, nodes) && offer_nodes(s, nodes, e) && is_beaten(range, channel.kind, e))
         return std::nullopt;
-    if (step_.polynomial() && !is_separation(channel.kind)) return step_.sampled_range(s, channel, sampled_);
+    if (step_.polynomial() && !traits(channel.kind).separation) return step_.sampled_range(s, channel, sampled_);
     if (mode) return range;
     const ModalChannels::Range closer = modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
     return ModalChannels::Range{std::max(range.low, closer.low), std::min(range.high, closer.high)};

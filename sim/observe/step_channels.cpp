@@ -9,33 +9,9 @@
 namespace beamcam::sim {
 namespace {
 
-bool is_of_hub(ChannelKind kind) { return kind == ChannelKind::theta || kind == ChannelKind::theta_dot; }
-
-// While they touch.
-bool needs_gap(ChannelKind kind) {
-    return kind == ChannelKind::energy_contact || kind == ChannelKind::energy_residual ||
-           kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
-}
-
-bool needs_contact(ChannelKind kind) {
-    return kind == ChannelKind::gap || kind == ChannelKind::contact_x || kind == ChannelKind::contact_s ||
-           kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || is_separation(kind);
-}
-
-// Of the beam.
-bool is_energy(ChannelKind kind) {
-    return kind == ChannelKind::energy_kinetic || kind == ChannelKind::energy_potential ||
-           kind == ChannelKind::energy_elastic;
-}
-
-bool needs_vibration_work(ChannelKind kind) {
-    return kind == ChannelKind::loss_structural || kind == ChannelKind::work_drive ||
-           kind == ChannelKind::energy_residual;
-}
-
 // Of the state, all that the channel needs.
 void evaluate_state(const SegmentInterval& s, ChannelKind kind, double t, double* y) {
-    needs_vibration_work(kind) ? s.segment->value(t, y) : s.segment->value_without_vibration_work(t, y);
+    traits(kind).needs_vibration_work ? s.segment->value(t, y) : s.segment->value_without_vibration_work(t, y);
 }
 
 StepChannels::Samples copied(const double* samples) {
@@ -143,14 +119,12 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
 
 bool StepChannels::rounding_only(ChannelKind kind) {
     if (!system().phase().held) return false;
-    if (kind == ChannelKind::gap || kind == ChannelKind::energy_contact) return true;
-    return at_rest_ && (kind == ChannelKind::theta_dot || kind == ChannelKind::tip_rate ||
-                        kind == ChannelKind::energy_kinetic || is_separation(kind));
+    return traits(kind).zero_where_held || (at_rest_ && traits(kind).zero_at_rest);
 }
 
 // The state of a prescribed hub is that of its drive, not the solution.
 bool StepChannels::is_linear(ChannelKind kind) {
-    return is_of_hub(kind) && !(polynomial_ && evaluator_.system().drive().prescribed());
+    return traits(kind).of_hub && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
 // Geometry and forces, except in sustained contact: the probe costs less than a search of the whole beam.
@@ -179,14 +153,14 @@ double StepChannels::value_of_state(Channel channel, double t, SampledState& sam
     if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     const System& system = evaluator_.system();
-    const bool stored = needs_gap(channel.kind) && system.phase().touching;
+    const bool stored = traits(channel.kind).needs_gap && system.phase().touching;
     if (contact) {
         evaluator_.set_contact(*contact);
-    } else if (probing_ && system.has_cam() && (stored || needs_contact(channel.kind))) {
+    } else if (probing_ && system.has_cam() && (stored || traits(channel.kind).needs_contact)) {
         probe_contact(t);
         contact = evaluator_.contact();
     }
-    if (!is_energy(channel.kind)) return evaluator_.value(channel);
+    if (!traits(channel.kind).of_beam_energy) return evaluator_.value(channel);
     if (sampled.energies) evaluator_.set_energies(*sampled.energies);
     sampled.energies = evaluator_.energies();
     return evaluator_.value(channel);
@@ -203,9 +177,9 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
             out[c] = y_[static_cast<std::size_t>(channels[c].index)];
         else if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
-        else if (!is_estimated(channels[c].kind))
+        else if (!traits(channels[c].kind).estimated())
             out[c] = evaluator_.value(channels[c]);
-        else if (!is_separation(channels[c].kind))
+        else if (!traits(channels[c].kind).separation)
             out[c] = modal_channels_.tip(channels[c].kind, y_.data());
         else
             out[c] = evaluator_.system().has_cam() ? 0 : kNan;
@@ -231,7 +205,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
             values[k] = value(s, channel, t);
         } else {
             place_sample(s, channel.kind, k, sampled);
-            if (touch && probing_ && needs_gap(channel.kind)) {
+            if (touch && probing_ && traits(channel.kind).needs_gap) {
                 evaluator_.set(t, y_.data());
                 evaluator_.set_gap(touch->gap[k], touch->force[k]);
                 values[k] = evaluator_.value(channel);
@@ -253,7 +227,7 @@ void StepChannels::place_sample(const SegmentInterval& s, ChannelKind kind, std:
         y_ = polynomial_states_[k];
         return;
     }
-    if (needs_vibration_work(kind)) return evaluate_state(s, kind, sample_time(s, k), y_.data());
+    if (traits(kind).needs_vibration_work) return evaluate_state(s, kind, sample_time(s, k), y_.data());
     std::vector<double>& state = sampled.states[k].y;
     if (state.empty()) {
         state.resize(y_.size());

@@ -53,7 +53,7 @@ class StepChannels {
 
     double value(const SegmentInterval& s, Channel channel, double t);
     // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
-    // (`is_estimated`), the last is zero. `balance`: the energy balance at t if it is available.
+    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available.
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
                 const System::EnergyBalance* balance, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
@@ -96,16 +96,5 @@ class StepChannels {
 };
 
 double sample_time(const SegmentInterval& s, std::size_t k);
-inline bool is_separation(ChannelKind kind) {
-    return kind == ChannelKind::separation || kind == ChannelKind::separation_paper;
-}
-inline bool is_estimated(ChannelKind kind) {
-    return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate || is_separation(kind);
-}
-// Where the contact follows its law these only grow, and the cam turns one way: they are largest and smallest at ends.
-inline bool is_monotone(ChannelKind kind) {
-    return kind == ChannelKind::cam_angle || kind == ChannelKind::loss_structural ||
-           kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
-}
 
 }  // namespace beamcam::sim

@@ -74,7 +74,7 @@ StressResult run_case(const StressCase& one) {
     TableRequest table;
     table.channels = all_channels(one.problem);
     for (int k = 0; k < kChannelSamples; ++k) table.times.push_back(one.end * k / (kChannelSamples - 1));
-    if (!one.problem.cam) std::erase_if(table.channels, [](const Channel& c) { return needs_cam(c.kind); });
+    if (!one.problem.cam) std::erase_if(table.channels, [](const Channel& c) { return traits(c.kind).needs_cam; });
     request.tables.push_back(table);
     request.extrema = {{ChannelKind::theta, 0}, {ChannelKind::tip_deflection, 0}};
     const Progress watch = [start = processor_seconds()](double) { return processor_seconds() - start < kCaseLimit; };

@@ -22,8 +22,9 @@ std::vector<double> instants(double from, double to, int count) {
 std::vector<Channel> searched_channels(const Problem& problem) {
     std::vector<Channel> channels = all_channels(problem);
     const bool cam = problem.cam.has_value();
-    std::erase_if(channels,
-                  [&](Channel c) { return c.kind == ChannelKind::energy_residual || (!cam && needs_cam(c.kind)); });
+    std::erase_if(channels, [&](Channel c) {
+        return c.kind == ChannelKind::energy_residual || (!cam && traits(c.kind).needs_cam);
+    });
     return channels;
 }
 
