@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <stdexcept>
 
 #include "output/data/tables.hpp"
@@ -148,7 +149,8 @@ static NamedTable impacts_table(const sim::Result& result) {
     table.columns.resize(table.names.size());
     for (const sim::Impact& impact : result.impacts) {
         auto column = table.columns.begin();
-        for_each_field(impact, [&column](const std::string&, const std::optional<double>& value) {
+        for_each_field(impact, [&](const std::string&, const std::optional<double>& value) {
+            if (column == table.columns.end()) throw std::logic_error("impacts have different fields");
             (column++)->push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
         });
     }

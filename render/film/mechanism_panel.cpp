@@ -1,9 +1,7 @@
 #include "render/film/mechanism_panel.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <ranges>
 

@@ -1,7 +1,12 @@
 // The standard layout: mechanisms, and charts beside or below them.
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <optional>
+#include <utility>
+#include <vector>
 
+#include "render/film/layout.hpp"
 #include "render/film/picture_frame.hpp"
 
 namespace beamcam::render {

@@ -14,12 +14,12 @@ struct CheckArguments {
     std::vector<std::string> scenes;
 };
 
-void warn_of_characters(const Scene& scene) {
+void warn_of_characters(const std::string& path, const Scene& scene) {
     const std::vector<Output> film{default_film(scene)};
     for (const Output& each : scene.outputs.empty() ? film : scene.outputs)
         if (const auto* picture = std::get_if<PictureOutput>(&each))
             if (const std::string lost = characters_without_font(*picture, scene); !lost.empty())
-                output::print_message("warning: {}\n", lost);
+                output::print_message("{}: warning: {}\n", path, lost);
 }
 
 int act(const CheckArguments& args) {
@@ -31,7 +31,7 @@ int act(const CheckArguments& args) {
             fine = false;
             continue;
         }
-        warn_of_characters(*reading.scene);
+        warn_of_characters(path, *reading.scene);
         inform(args.common, fmt::format("{}: fine", path));
     }
     return fine ? kDone : kBadScene;

@@ -162,7 +162,8 @@ std::string why_panels_are_omitted(const Size& size);
 std::string omitted_text(const Pictures& p, const Scene& scene);
 // The reason for omitted_text.
 std::string why_text_is_omitted(const Size& size);
-// "fall.mp4 omits 🙂: no font has these characters", of title, captions and names; empty if there are none.
+// "fall.mp4 omits 🙂: no font has these characters", of title, captions (also those outside the film)
+// and names; empty if there are none.
 std::string characters_without_font(const PictureOutput& p, const Scene& scene);
 // Adds the omitted texts of all pictures to Plan::skipped, unless fonts are missing.
 void add_omitted_text(Plan& plan, const Scene& scene);

@@ -4,11 +4,15 @@
 
 namespace beamcam::sim {
 
+namespace {
+
 // The antiderivative of φ_i′², of which `i` is the index in `at`.
-static double diagonal_entry(const ShapesAt& at, std::size_t i, double b4) {
+double diagonal_entry(const ShapesAt& at, std::size_t i, double b4) {
     const double y = at.y[i], y1 = at.y1[i], y2 = at.y2[i], y3 = at.y3[i];
     return 0.25 * (at.x * (y1 * y1 - 2 * y2 * y + y3 * y3 / b4) + 3 * y1 * y - y2 * y3 / b4);
 }
+
+}  // namespace
 
 Foreshortening::Foreshortening(const Shapes& shapes) {
     const auto n = static_cast<Eigen::Index>(shapes.count());

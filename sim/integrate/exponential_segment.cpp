@@ -252,14 +252,15 @@ void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) cons
         y[0] = theta0 + h * integral(hub().turn, s);
         rates[0] = theta_dot_at(p0 + h * integral(hub().momentum, s), y + 1);
     }
+    const bool ledger = ledger_changes && (touching || vibration_work);  // else it is that at the start
     Lanes weights;
-    if (ledger_changes || has_bristle()) Collocation::get().weights_to(s, weights);
+    if (ledger || (touching && has_bristle())) Collocation::get().weights_to(s, weights);
     if (has_bristle()) y[2 * (n_ + 1)] = touching ? bristle0 + h * sum(weights * bristle_rate) : end[2 * (n_ + 1)];
-    if (ledger_changes)
+    if (ledger)
         set_ledger(weights, y);
     else
         std::copy_n(ledger0, kLedgerSize, y + controlled_);
-    if (ledger_changes && vibration_work) add_vibration_work(t, s, y);
+    if (ledger && vibration_work) add_vibration_work(t, s, y);
     form_->to_coordinates(y);
 }
 

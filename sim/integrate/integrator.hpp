@@ -87,7 +87,7 @@ class Segment {
         return y[index];
     }
     // All of the coordinates, the first components: the same bits. Others are undefined.
-    virtual void coordinates(double t, double* y) const { value(t, y); }
+    virtual void coordinates(double t, double* y) const { value_without_vibration_work(t, y); }
     // Appends the numbers that determine `value`, besides t0 and t1, to `out`; `none`: the segment cannot be stored.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     // Null for steps in which each component is a polynomial of degree `kDegree` at most.

@@ -29,12 +29,13 @@ class ChannelEvaluator {
     // Each of these spares a computation whose result at this instant is available.
     void set_energy_balance(const System::EnergyBalance& balance);
     void set_energies(const Energies& energies);
-    void set_gap(double gap, double force);  // of the contact, all that the energy balance needs
+    // Enough for the energy balance; other channels of the contact are undefined until the next `set`.
+    void set_gap(double gap, double force);
     void set_contact(const ContactState& contact);
     const ContactState& contact();
 
   private:
-    System::EnergyBalance balance_without_beam();  // at least
+    System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
     double tip(ChannelKind kind);
     double place_on_rim();

@@ -41,12 +41,13 @@ enum class ChannelKind {
     separation_paper
 };
 
-// What is known of a channel.
+// Properties of a channel that its evaluation and its bounds use.
 struct ChannelTraits {
     bool needs_cam = false;             // undefined without a cam
     bool needs_contact = false;         // geometry or forces of the contact
-    bool needs_gap = false;             // while the bodies touch
+    bool needs_gap = false;             // in contact
     bool needs_vibration_work = false;  // what damping and drive do to the vibration
+    bool of_gap = false;                // a function of the gap and its rate
     bool of_hub = false;
     bool of_tip = false;
     bool of_beam_energy = false;
@@ -70,9 +71,14 @@ inline constexpr std::array kChannels{
     ChannelRow{ChannelKind::theta_dot, "theta_dot", "rad/s", {.of_hub = true, .zero_at_rest = true}},
     ChannelRow{ChannelKind::tip_deflection, "tip_deflection", "m", {.of_tip = true}},
     ChannelRow{ChannelKind::tip_rate, "tip_rate", "m/s", {.of_tip = true, .zero_at_rest = true}},
-    ChannelRow{ChannelKind::contact_force, "contact_force", "N", {.needs_cam = true, .needs_contact = true}},
-    ChannelRow{ChannelKind::friction_force, "friction_force", "N", {.needs_cam = true, .needs_contact = true}},
-    ChannelRow{ChannelKind::gap, "gap", "m", {.needs_cam = true, .needs_contact = true, .zero_where_held = true}},
+    ChannelRow{
+        ChannelKind::contact_force, "contact_force", "N", {.needs_cam = true, .needs_contact = true, .of_gap = true}},
+    ChannelRow{
+        ChannelKind::friction_force, "friction_force", "N", {.needs_cam = true, .needs_contact = true, .of_gap = true}},
+    ChannelRow{ChannelKind::gap,
+               "gap",
+               "m",
+               {.needs_cam = true, .needs_contact = true, .of_gap = true, .zero_where_held = true}},
     ChannelRow{ChannelKind::contact_x, "contact_x", "m", {.needs_cam = true, .needs_contact = true}},
     ChannelRow{ChannelKind::contact_s, "contact_s", "m", {.needs_cam = true, .needs_contact = true}},
     ChannelRow{ChannelKind::cam_angle, "cam_angle", "rad", {.needs_cam = true, .monotone = true}},
@@ -83,7 +89,7 @@ inline constexpr std::array kChannels{
     ChannelRow{ChannelKind::energy_contact,
                "energy_contact",
                "J",
-               {.needs_cam = true, .needs_gap = true, .zero_where_held = true}},
+               {.needs_cam = true, .needs_gap = true, .of_gap = true, .zero_where_held = true}},
     ChannelRow{ChannelKind::loss_structural, "loss_structural", "J", {.needs_vibration_work = true, .monotone = true}},
     ChannelRow{
         ChannelKind::loss_contact, "loss_contact", "J", {.needs_cam = true, .needs_gap = true, .monotone = true}},

@@ -25,7 +25,7 @@ void each_sign_change(StepChannels& step, const SegmentInterval& s, Channel chan
             value -= level;
             largest = std::max(largest, std::fabs(value));
         }
-        // A start from rest is no crossing, whatever its rounding: no step before it tells the sign.
+        // A start from rest is no crossing, whatever its rounding: no earlier step determines the sign.
         if (part.from == 0 && std::fabs(values[0]) <= kSignRounding * largest) values[0] = 0;
         const Variation variation = step.variation(part, channel, values);
         const auto [low, high] = std::ranges::minmax(values);

@@ -13,13 +13,6 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-bool depends_on_gap(ChannelKind kind) {
-    return kind == ChannelKind::contact_force || kind == ChannelKind::friction_force || kind == ChannelKind::gap ||
-           kind == ChannelKind::energy_contact;
-}
-
-bool is_of_tip(ChannelKind kind) { return kind == ChannelKind::tip_deflection || kind == ChannelKind::tip_rate; }
-
 }  // namespace
 
 ModalChannels::ModalChannels(System& system, const ModeBasis& basis)
@@ -136,12 +129,27 @@ double ModalChannels::drift(ChannelKind kind) const {
         case ChannelKind::work_drive:
             return modes.power_drive +
                    (system_.drive().prescribed() && !modes.resolved ? 2 * basis_.J * theta_dot * acceleration : 0);
-        default:
+        case ChannelKind::tip_deflection:  // of the modes alone
+        case ChannelKind::tip_rate:
+        case ChannelKind::q:
+        case ChannelKind::energy_elastic:
+        case ChannelKind::contact_force:  // their ranges are those of the gap
+        case ChannelKind::friction_force:
+        case ChannelKind::energy_contact:
+        case ChannelKind::separation:  // with bounds of its own
+        case ChannelKind::separation_paper:
+        case ChannelKind::t:  // monotone
+        case ChannelKind::cam_angle:
+        case ChannelKind::loss_structural:
+        case ChannelKind::loss_contact:
+        case ChannelKind::loss_friction:
+        case ChannelKind::energy_residual:  // an error: nodes are enough
             return 0;
     }
+    return 0;
 }
 
-// How far the channel is from a line between two of its values, so long after one another: all vibrations carry it.
+// Largest distance of the channel from the line between two of its values that are `length` apart in time.
 double ModalChannels::line_strays(Channel channel, double length) const {
     Lanes total{};
     sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations& m) {
@@ -159,7 +167,7 @@ double ModalChannels::line_strays(Channel channel, double length) const {
 // resolve; the others have amplitude 0.
 template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
-    if (depends_on_gap(channel.kind) && channel.kind != ChannelKind::gap && !touch()) return;
+    if (traits(channel.kind).of_gap && channel.kind != ChannelKind::gap && !touch()) return;
     const double least = kFollowedRadians / bounds_.part.length();
     const auto add_above = [&](const Lanes& amplitude, const Lanes& frequency) {
         add(where_above(frequency, least, amplitude), frequency);
@@ -200,7 +208,7 @@ double ModalChannels::strays_between_nodes(Channel channel, const Variation& pol
 
 ModalChannels::Range ModalChannels::range(Channel channel, double first, double last) const {
     const ChannelKind kind = channel.kind;
-    if (kind == ChannelKind::separation || kind == ChannelKind::separation_paper) {
+    if (traits(kind).separation) {
         const double most = bounds_.arm * (bounds_.hub_acceleration + 1.5 * sensitivity_.gravity() / basis_.length);
         return {-most, most};
     }
@@ -209,16 +217,18 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         const double error = bounds_.part.modes->balance_error;
         return {range.low - error, range.high + error};
     }
-    if (touch() && depends_on_gap(kind)) return contact_range(channel);
-    if (depends_on_gap(kind) && kind != ChannelKind::gap) return {0, 0};
-    const double stray = line_strays(channel, bounds_.part.length()) + (is_of_tip(kind) ? estimate_error(channel) : 0);
+    if (touch() && traits(kind).of_gap) return contact_range(channel);
+    if (traits(kind).of_gap && kind != ChannelKind::gap) return {0, 0};
+    const double stray =
+        line_strays(channel, bounds_.part.length()) + (traits(kind).of_tip ? estimate_error(channel) : 0);
     range = {range.low - stray, range.high + stray};
     if (kind == ChannelKind::q && basis_.are_coordinates()) {
         const Range mode = mode_range(channel);
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
     if (kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
-    if (kind == ChannelKind::gap) range.low = std::max(range.low, std::min({first, last, 0.0}));  // no touch within
+    if (kind == ChannelKind::gap && !bounds_.part.modes->resolved)  // no touch within (S56)
+        range.low = std::max(range.low, std::min({first, last, 0.0}));
     return within(kind, range);
 }
 
@@ -238,7 +248,7 @@ double ModalChannels::estimate_error(Channel channel) const {
     if (channel.kind == ChannelKind::energy_kinetic)
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
     double error = 0;
-    if (is_of_tip(channel.kind))
+    if (traits(channel.kind).of_tip)
         sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) {
             error += sum(s.mixed ? *s.mixed : *s.mixed_rate);
         });
@@ -246,8 +256,7 @@ double ModalChannels::estimate_error(Channel channel) const {
 }
 
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
-    const bool separation = channel.kind == ChannelKind::separation || channel.kind == ChannelKind::separation_paper;
-    if (separation && !system_.drive().prescribed()) {
+    if (traits(channel.kind).separation && (bounds_.part.modes->resolved || !system_.drive().prescribed())) {
         if (!separation_) separation_ = separation_range();
         return separation_;
     }

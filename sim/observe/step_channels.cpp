@@ -209,7 +209,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
                 evaluator_.set(t, y_.data());
                 evaluator_.set_gap(touch->gap[k], touch->force[k]);
                 values[k] = evaluator_.value(channel);
-            } else if (touch && rubbing_ && channel.kind == ChannelKind::friction_force) {
+            } else if (touch && rubbing_ && !polynomial_ && channel.kind == ChannelKind::friction_force) {
                 values[k] = touch->force[k] * system().friction().ratio(probe_.evaluate(t, y_.data(), false).slip);
             } else {
                 if (touch && polynomial_) sampled.states[k].contact = polynomial_contacts_[k];
