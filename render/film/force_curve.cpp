@@ -24,8 +24,8 @@ std::vector<Row> sampled_rows(const Motion& motion) {
             if (!std::isnan((*force)[i])) rows.push_back({(*t)[i], (*force)[i]});
     }
     std::ranges::stable_sort(rows, {}, &Row::t);
-    const auto repeated = std::ranges::unique(rows, {}, &Row::t);
-    rows.erase(repeated.begin(), repeated.end());
+    const auto simultaneous = [](const Row& a, const Row& b) { return a.t == b.t; };
+    rows.erase(std::unique(rows.begin(), rows.end(), simultaneous), rows.end());
     return rows;
 }
 

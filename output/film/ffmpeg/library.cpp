@@ -238,7 +238,8 @@ void OutputFile::write_subtitles(double until) {
         // MOV text begins with its length.
         std::string bytes = text.title.substr(0, 0xFFFF);
         if (subtitles_->codecpar->codec_id == AV_CODEC_ID_MOV_TEXT)
-            bytes = std::string{static_cast<char>(bytes.size() >> 8U), static_cast<char>(bytes.size() & 0xFFU)} + bytes;
+            bytes.insert(bytes.begin(),
+                         {static_cast<char>(bytes.size() >> 8U), static_cast<char>(bytes.size() & 0xFFU)});
         const Owned<AVPacket> packet = owned(av_packet_alloc());
         if (av_new_packet(packet.get(), static_cast<int>(bytes.size())) < 0) throw std::bad_alloc();
         std::ranges::copy(bytes, packet->data);
