@@ -115,9 +115,8 @@ int fan_out(long count, const Crew& crew, const std::function<Worker()>& make_wo
 void fan_out(std::size_t count, int threads, const std::function<void(std::size_t)>& work) {
     Gate unused;
     const int all = thread_count(threads);
-    const Worker worker = [&](long k) { work(static_cast<std::size_t>(k)); };
-    fan_out(
-        static_cast<long>(count), {all, all}, [&] { return worker; }, unused);
+    const auto make_worker = [&] { return [&](long k) { work(static_cast<std::size_t>(k)); }; };
+    fan_out(static_cast<long>(count), {all, all}, make_worker, unused);
 }
 
 }  // namespace beamcam::scenes

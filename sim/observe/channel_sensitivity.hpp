@@ -118,9 +118,8 @@ void ChannelSensitivity::each_group(Channel channel, Visit&& visit) const {
         case ChannelKind::energy_elastic:
         case ChannelKind::work_drive:
             return visit_energy(channel.kind, visit);
-        case ChannelKind::t:
+        case ChannelKind::t:  // of no mode
         case ChannelKind::cam_angle:
-            return;
         case ChannelKind::loss_structural:  // largest at the end
         case ChannelKind::loss_contact:
         case ChannelKind::loss_friction:
