@@ -59,8 +59,8 @@ CaptionLeader clear_of_labels(const MechanismScene& s, const std::vector<Box>& l
                               std::vector<Vec2> points) {
     constexpr int kStarts = 16;
     const double inside = kInsidePlate * s.at.unit;
-    const bool rest_meets = points.size() > 2 && meets(labels, points[1], points[2], s.at.unit);
-    const auto is_clear = [&](Vec2 from) { return !rest_meets && !meets(labels, from, points[1], s.at.unit); };
+    if (points.size() > 2 && meets(labels, points[1], points[2], s.at.unit)) return {points, true};
+    const auto is_clear = [&](Vec2 from) { return !meets(labels, from, points[1], s.at.unit); };
     if (is_clear(points[0])) return {points, false};
     for (int i = 0; i <= kStarts; ++i)
         if (const Vec2 from{plate.x + inside + (plate.w - 2 * inside) * i / kStarts, points[0].y}; is_clear(from)) {

@@ -15,10 +15,10 @@ struct CheckArguments {
 };
 
 void warn_of_characters(const std::string& path, const Scene& scene) {
-    const std::vector<Output> film{default_film(scene)};
-    for (const Output& each : scene.outputs.empty() ? film : scene.outputs)
+    const Scene shown = with_default_output(scene);
+    for (const Output& each : shown.outputs)
         if (const auto* picture = std::get_if<PictureOutput>(&each))
-            if (const std::string lost = characters_without_font(*picture, scene); !lost.empty())
+            if (const std::string lost = characters_without_font(*picture, shown); !lost.empty())
                 output::print_message("{}: warning: {}\n", path, lost);
 }
 

@@ -59,8 +59,9 @@ class ExponentialSegment final : public StoredSegment {
     double boundary0 = 0;     // `drive_boundary` at t0
     std::vector<double> end;  // y at t1
 
-    // Fills the ledger in y at t, from the rest of y.
+    // Fills the ledger in y, all but the work of vibration. `weights`: of the integral to the instant of y.
     void set_ledger(const Lanes& weights, double* y) const;
+    // Adds that at t, from the rest of y.
     void add_vibration_work(double t, double s, double* y) const;
     // The part of the drive's work that has a closed form, at t.
     double drive_boundary(double t, const double* y) const;
