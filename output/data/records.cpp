@@ -132,17 +132,8 @@ Node accuracy_rows(const std::vector<Row>& rows, Identity identity) {
     });
 }
 
-}  // namespace
-
-std::string impacts_json(const sim::Result& result) {
-    Node out = object_node();
-    add(out, "impacts", array_of(result.impacts));
-    add(out, "collisions", array_of(result.collisions));
-    return to_text(out);
-}
-
 // The impacts alone.
-static NamedTable impacts_table(const sim::Result& result) {
+NamedTable impacts_table(const sim::Result& result) {
     NamedTable table;
     for_each_field(result.impacts.empty() ? sim::Impact{} : result.impacts.front(),
                    [&table](const std::string& name, const auto&) { table.names.push_back(name); });
@@ -155,6 +146,15 @@ static NamedTable impacts_table(const sim::Result& result) {
         });
     }
     return table;
+}
+
+}  // namespace
+
+std::string impacts_json(const sim::Result& result) {
+    Node out = object_node();
+    add(out, "impacts", array_of(result.impacts));
+    add(out, "collisions", array_of(result.collisions));
+    return to_text(out);
 }
 
 void write_impacts(const Target& file, const sim::Result& result) {

@@ -32,11 +32,8 @@ inline constexpr AddCommand* kCommands[] = {
 
 // ---- options that several commands share --------------------------------------------------------
 
-struct Common {
+struct Common : RunOptions {
     std::vector<std::string> overrides;
-    int threads = 0;
-    bool quiet = false, verbose = false, force = false, no_cache = false;
-    ProgressStyle progress = ProgressStyle::automatic;
     bool dry_run = false, json = false;
 };
 
@@ -67,7 +64,7 @@ Scene load_scene(const std::string& path, const Common& common);
 Scene with_default_output(Scene scene);
 // The look of new films of a scene: its first film, sequence or still picture, else the default film.
 PictureOutput film_template(const Scene& scene);
-RunOptions run_options(const Common& common, std::string directory);
+RunOptions run_options(const Common& common, std::string directory);  // with the resolved style of progress
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans
 

@@ -100,13 +100,8 @@ PictureOutput film_template(const Scene& scene) {
 }
 
 RunOptions run_options(const Common& common, std::string directory) {
-    RunOptions options;
+    RunOptions options = common;
     options.directory = std::move(directory);
-    options.threads = common.threads;
-    options.force = common.force;
-    options.no_cache = common.no_cache;
-    options.quiet = common.quiet;
-    options.verbose = common.verbose;
     options.progress = common.quiet ? ProgressStyle::none : resolve(common.progress);
     return options;
 }

@@ -92,9 +92,8 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
         set_value(output, option->key, option->value ? value(*option->value) : array_node(option->values, value),
                   messages);
     }
-    SceneFiles files;
     std::vector<Message> of_reader;
-    read_only_output(output, scene_file, kPrefix, files, scene, of_reader);
+    read_only_output(output, scene_file, kPrefix, scene, of_reader);
     messages.insert(messages.end(), of_reader.begin(), of_reader.end());
     for (Message& message : messages) {
         for (const KeyOptions::Option* option : given) {

@@ -2,25 +2,54 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <filesystem>
 
 #include "scenes/format/checks.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
+#include "scenes/format/reader.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
-// The mechanics of another scene file, whose path is relative to this one.
-std::optional<Node> other_scene(ObjectReader& r, const Node& node, const std::string& key) {
+// The sections of a scene in which two compared motions can differ: hub, beam, …
+const std::vector<std::string>& mechanics_sections() {
+    static const std::vector<std::string> kSections = [] {
+        std::vector<std::string> all;
+        for (const Member& section : to_tree(sim::Problem{}).members) all.push_back(section.key);
+        return all;
+    }();
+    return kSections;
+}
+
+bool is_mechanics(std::string_view section) {
+    return std::ranges::find(mechanics_sections(), section) != mechanics_sections().end();
+}
+
+Node mechanics_of(const Node& root) {
+    Node out = object_node();
+    out.place = root.place;
+    for (const Member& member : root.members)
+        if (is_mechanics(member.key)) out.members.add(member);
+    return out;
+}
+
+// The mechanics in another scene file, whose path is relative to this one; nullopt: an error was reported.
+std::optional<Node> other_mechanics(ObjectReader& r, const Node& node, const std::string& key) {
     if (node.kind != Node::Kind::string) {
         r.expect(node, key, "a file name in quotes");
         return std::nullopt;
     }
     const auto path = std::filesystem::path(r.context().source.name).parent_path() / node.text;
-    const SceneFiles::Mechanics& other = r.context().files.mechanics(path.string());
-    if (!other.sections) r.reject_value(node, key, ": {}", other.problem);
-    return other.sections;
+    try {
+        const Parsed parsed = parse(load_named_source(path.string()).text);
+        if (parsed.is_json && std::ranges::none_of(parsed.messages, &Message::fatal)) return mechanics_of(parsed.root);
+        r.reject_value(node, key, ": it is not a valid scene; `beamcam check {}` lists its errors", path.string());
+    } catch (const UnreadableFile& unreadable) {
+        r.reject_value(node, key, ": {}", unreadable.what());
+    }
+    return std::nullopt;
 }
 
 void set_values(ObjectReader& r, const Node& set, const std::string& key, Node& out) {
@@ -61,7 +90,7 @@ void visit(SceneVisitor& v, Compared& motion) {
     v.check([&motion](ObjectReader& r) { check_words(r, "label", motion.label); });
     v.check([&](ObjectReader& r) { base = mechanics_of(r.context().root); });
     const auto read_other = [&](ObjectReader& r, const Node& node, const std::string& key) {
-        const auto other = other_scene(r, node, key);
+        const auto other = other_mechanics(r, node, key);
         readable = other.has_value();
         if (!readable) return;
         base = *other;

@@ -44,9 +44,6 @@ class Describer final : public SceneVisitor {
         return std::move(shapes_);
     }
 
-    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) override {
-        number_key(key, unit, range, meaning, nullptr).value = value;
-    }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char* meaning,
                 const char* word) override {
         DescribedKey& d = number_key(key, unit, range, meaning, word);

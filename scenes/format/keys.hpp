@@ -68,6 +68,11 @@ class SceneVisitor : public sim::Visitor {
     static Fields keys_of(Struct& value) {
         return [&value](Visitor& v) { visit(static_cast<SceneVisitor&>(v), value); };
     }
+    // The keys that `visit_some` visits.
+    template <class Struct>
+    static Fields keys_of(Struct& value, void (*visit_some)(SceneVisitor&, Struct&)) {
+        return [&value, visit_some](Visitor& v) { visit_some(static_cast<SceneVisitor&>(v), value); };
+    }
     using Visitor::object;
     template <class Struct>
     void object(const Key& key, Struct& value, const char* meaning) {

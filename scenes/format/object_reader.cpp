@@ -67,12 +67,6 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
         value = read;
 }
 
-void ObjectReader::number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) {
-    std::optional<double> some = value;
-    read_number(key, some, unit, range, nullptr);
-    value = *some;
-}
-
 void ObjectReader::number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                           const char*, const char* word) {
     if (unit.exponent)

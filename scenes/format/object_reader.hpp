@@ -14,7 +14,6 @@
 #include "output/json/source.hpp"
 #include "output/json/tree.hpp"
 #include "scenes/format/keys.hpp"
-#include "scenes/format/scene_files.hpp"
 #include "scenes/format/units.hpp"
 
 namespace beamcam::scenes {
@@ -45,13 +44,11 @@ class Diagnostics {
     std::set<std::string> failed_;
 };
 
-// What the keys of outputs are checked against: the scene as far as it has been read, its tree and file, and the files
-// that comparisons name.
+// What the keys of outputs are checked against: the scene as far as it has been read, its tree and its file.
 struct SceneContext {
     const Scene& scene;
     const Node& root;
     const Source& source;
-    SceneFiles& files;
 };
 
 class ObjectReader final : public SceneVisitor {
@@ -111,9 +108,7 @@ class ObjectReader final : public SceneVisitor {
                                                      const sim::Dimension& dimension);
 
     // ---- visited keys ----
-    using SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;
-    void number(const Key& key, double& value, const sim::Unit& unit, const sim::Range& range,
-                const char* meaning) override;
+    using SceneVisitor::number, SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;
     void number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
                 const char* meaning, const char* word = nullptr) override;
     void numbers(const Key& key, std::vector<double>& values, const sim::Unit& unit, const sim::Range& range,

@@ -27,12 +27,11 @@ std::string place_in_outputs(const std::string& key) {
     return {};
 }
 
-Scene read_tree(const Node& root, const Source& source, SceneFiles& files, const std::string& scene_name,
-                std::vector<Message>& messages) {
+Scene read_tree(const Node& root, const Source& source, const std::string& scene_name, std::vector<Message>& messages) {
     Scene scene;
     scene.name = scene_name;
     Diagnostics diagnostics;
-    const SceneContext context{scene, root, source, files};
+    const SceneContext context{scene, root, source};
     ObjectReader reader(diagnostics, &root, "", "the scene", &context);
     visit(reader, scene);
     reader.finish(place_in_outputs);
@@ -53,8 +52,8 @@ struct CloseFile {
 
 }  // namespace
 
-bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
-                      Scene& scene, std::vector<Message>& messages) {
+bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, Scene& scene,
+                      std::vector<Message>& messages) {
     Node list = array_node({output});
     list.place = output.place;
     const Node alone = object_node({{"outputs", std::move(list)}});
@@ -63,7 +62,7 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
     Diagnostics found;
-    const SceneContext context{scene, parsed.root, resolved, files};
+    const SceneContext context{scene, parsed.root, resolved};
     ObjectReader reader(found, &alone, "", "the scene", &context);
     visit_outputs(reader, scene);
     const bool fine = !found.any();
@@ -77,15 +76,10 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
 }
 
 Reading read_scene(Source file, const std::vector<std::string>& overrides) {
-    SceneFiles files;
-    return read_scene(std::move(file), overrides, files);
-}
-
-Reading read_scene(Source file, const std::vector<std::string>& overrides, SceneFiles& files) {
     Parsed parsed = parse(file.text);
     Reading reading;
     if (parsed.is_json)
-        reading = read_scene(std::move(file), std::move(parsed.root), overrides, files);
+        reading = read_scene(std::move(file), std::move(parsed.root), overrides);
     else
         reading.sources.push_back(std::move(file));
     if (std::ranges::any_of(parsed.messages, &Message::fatal)) reading.scene.reset();
@@ -94,8 +88,7 @@ Reading read_scene(Source file, const std::vector<std::string>& overrides, Scene
     return reading;
 }
 
-Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides, SceneFiles& files) {
-    const SceneFiles::BeingRead this_file(files, file.name);
+Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides) {
     Reading reading;
     const std::string name = stem(file.name);
     reading.sources.push_back(std::move(file));
@@ -104,7 +97,7 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
         reading.sources.push_back(override_source(text));
         apply_override(reading.root, text, reading.sources.size() - 1, reading.messages);
     }
-    Scene scene = read_tree(reading.root, reading.sources.front(), files, name, reading.messages);
+    Scene scene = read_tree(reading.root, reading.sources.front(), name, reading.messages);
     std::ranges::stable_sort(reading.messages, {}, &Message::place);
     if (std::ranges::none_of(reading.messages, &Message::fatal)) reading.scene = std::move(scene);
     return reading;

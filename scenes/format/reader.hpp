@@ -9,7 +9,6 @@
 
 #include "output/json/source.hpp"
 #include "output/json/tree.hpp"
-#include "scenes/format/scene_files.hpp"
 #include "scenes/scene/scene.hpp"
 
 namespace beamcam::scenes {
@@ -25,10 +24,8 @@ struct Reading {
 
 // `overrides` are `key.path=value` texts, applied in order.
 Reading read_scene(Source file, const std::vector<std::string>& overrides = {});
-// `files` caches the files that comparisons name, for callers that read several scenes.
-Reading read_scene(Source file, const std::vector<std::string>& overrides, SceneFiles& files);
 // Reads a part of a file; `root` has its positions.
-Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides, SceneFiles& files);
+Reading read_scene(Source file, Node root, const std::vector<std::string>& overrides);
 
 // The file cannot be read: it does not exist, is a directory, permission is denied.
 struct UnreadableFile : std::runtime_error {
@@ -41,7 +38,7 @@ Source load_named_source(const std::string& path);
 
 // Reads one output, which becomes the only output of the scene. `scene_name`: paths in the output are relative to its
 // folder. Messages put `prefix` before the names of its keys, such as "--" or "entries.fall.output.". False on errors.
-bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, SceneFiles& files,
-                      Scene& scene, std::vector<Message>& messages);
+bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, Scene& scene,
+                      std::vector<Message>& messages);
 
 }  // namespace beamcam::scenes

@@ -168,13 +168,13 @@ void visit(SceneVisitor& v, Sweep& sweep) {
     v.list(sim::required("over", over.example), over, "The keys that vary: one, or two as a grid.");
     v.value("sample", sample_format(sweep.sampling),
             "The samples of each motion: its state at impacts, at apexes, or where a channel passes a value.",
-            [&](sim::Visitor& inside) { visit_section(static_cast<SceneVisitor&>(inside), sweep.sampling); });
+            SceneVisitor::keys_of(sweep.sampling, visit_section));
     v.object("transient", sweep.sampling.transient, "Time before the first sample.");
     v.object("keep", sweep.sampling.keep, "Time during which samples are taken.");
     v.value("seed", seed_format(sweep.seeds),
             "Start of each motion: the scene's initial state, the end of the motion at the previous value (upwards or "
             "downwards), or a random state.",
-            [&](sim::Visitor& inside) { visit_random(static_cast<SceneVisitor&>(inside), sweep.seeds); });
+            SceneVisitor::keys_of(sweep.seeds, visit_random));
     v.check([&sweep](ObjectReader& r) {
         for (const SweepProblem& problem : problems_of(sweep, r.context().scene.problem))
             if (!r.diagnostics().failed(r.path(problem.key)))  // else it has an error already

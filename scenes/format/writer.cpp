@@ -10,7 +10,6 @@ class Writer final : public SceneVisitor {
   public:
     Node take() { return std::move(object_); }
 
-    void number(const Key& key, double& value, const Unit&, const Range&, const char*) override { put(key, value); }
     void number(const Key& key, std::optional<double>& value, const Unit&, const Range&, const char*,
                 const char* word) override {
         if (value)

@@ -58,10 +58,8 @@ static void visit(SceneVisitor& v, View& view) {
              "recent: path of the tip during the last frames; whole: since the first instant of the film, in a still "
              "since the start of the motion.");
     const bool moved = !(view.shot == render::Shot{}) || !view.keyframes.empty();
-    v.object(
-        written_if(moved || view.style == render::Style::solid, "camera"),
-        [&view](sim::Visitor& inside) { visit_camera(static_cast<SceneVisitor&>(inside), view); }, "The camera.",
-        nullptr);
+    v.object(written_if(moved || view.style == render::Style::solid, "camera"),
+             SceneVisitor::keys_of(view, visit_camera), "The camera.", nullptr);
     v.number("shutter", view.shutter, dim::kAngle,
              {0, 2 * std::numbers::pi + 1e-9, true, false, "is not an angle above 0 and up to 360 deg"},
              "Motion blur: shutter angle; 360 deg is the time from frame to frame, 180 deg is usual for cameras.");

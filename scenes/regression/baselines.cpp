@@ -184,12 +184,12 @@ class Reader {
         Reading reading;
         if (node.kind == Node::Kind::string) {
             try {
-                reading = read_scene(load_named_source(scene_file(node)), overrides, files_);
+                reading = read_scene(load_named_source(scene_file(node)), overrides);
             } catch (const UnreadableFile& error) {
                 return reject(entry, node, fmt::format("{}.scene: {}", path, error.what()));
             }
         } else if (node.kind == Node::Kind::object) {
-            reading = read_scene({all_.source.name, {}, true}, node, overrides, files_);
+            reading = read_scene({all_.source.name, {}, true}, node, overrides);
             reading.sources.front() = all_.source;  // the places are those of the whole file
         } else {
             return reject(
@@ -220,7 +220,7 @@ class Reader {
         }
         using enum PictureOutput::Kind;
         std::vector<Message> messages;
-        const bool fine = read_only_output(node, scene_name, path + ".", files_, entry.scene, messages);
+        const bool fine = read_only_output(node, scene_name, path + ".", entry.scene, messages);
         for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
         if (!fine) return false;
@@ -257,7 +257,6 @@ class Reader {
     Baselines all_;
     Tolerances defaults_;
     Diagnostics diagnostics_;
-    SceneFiles files_;
     std::vector<Message> messages_;
 };
 

@@ -4,21 +4,16 @@
 #include <utility>
 
 namespace beamcam::sim {
-namespace {
-
-const ChannelRow& entry(ChannelKind kind) { return kChannels[static_cast<std::size_t>(kind)]; }
-
-}  // namespace
 
 std::string name(Channel channel) {
-    std::string text = entry(channel.kind).name;
+    std::string text = row(channel.kind).name;
     if (channel.kind == ChannelKind::q) text += std::to_string(channel.index);
     return text;
 }
 
 const char* unit(Channel channel, const Problem& problem) {
     if (channel.kind == ChannelKind::q && problem.beam.model == ModelKind::exact) return "rad";
-    return entry(channel.kind).unit;
+    return row(channel.kind).unit;
 }
 
 std::optional<Channel> channel_named(std::string_view text) {

@@ -109,7 +109,8 @@ inline constexpr std::array kChannels{
 };
 static_assert(std::ranges::all_of(kChannels,
                                   [](const ChannelRow& c) { return &kChannels[std::size_t(c.kind)] == &c; }));
-constexpr const ChannelTraits& traits(ChannelKind kind) { return kChannels[static_cast<std::size_t>(kind)].traits; }
+constexpr const ChannelRow& row(ChannelKind kind) { return kChannels[static_cast<std::size_t>(kind)]; }
+constexpr const ChannelTraits& traits(ChannelKind kind) { return row(kind).traits; }
 
 struct Channel {
     ChannelKind kind = ChannelKind::t;

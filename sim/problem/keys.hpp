@@ -36,7 +36,7 @@ constexpr Key derived(const char* name) {
 
 struct Unit {
     Dimension dimension;
-    const double* exponent = nullptr;  // n of a stiffness in N/m^n; the value of another key
+    const double* exponent = nullptr;  // n of a stiffness in N/m^n, an optional number; the value of another key
     bool plain = false;                // JSON number only, no text with a unit
 
     // NOLINTNEXTLINE(google-explicit-constructor): most units need only a dimension
@@ -90,7 +90,6 @@ class Visitor {
   public:
     virtual ~Visitor() = default;
 
-    virtual void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) = 0;
     // An absent value is not written, or written as `word` if there is one.
     virtual void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
                         const char* meaning, const char* word = nullptr) = 0;
@@ -108,6 +107,11 @@ class Visitor {
     virtual void alternatives(const std::vector<Alternative>& all) = 0;
 
     // ---- in terms of those above ----
+    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) {
+        std::optional<double> some = value;
+        number(key, some, unit, range, meaning);
+        value = some.value_or(value);
+    }
     void integer(const Key& key, int& value, int min, int max, const char* meaning) {
         std::optional<int> some = value;
         integer(key, some, min, max, meaning);

@@ -14,9 +14,6 @@ class NumberWalk final : public NumberVisitor {
     using Found = std::function<void(NumberKey, const std::function<bool(double)>& set)>;
     explicit NumberWalk(Found found) : found_(std::move(found)) {}
 
-    void number(const Key& key, double& value, const Unit& unit, const Range&, const char*) override {
-        found_({path(key), unit.resolved(), false, value}, [&value](double to) { return value = to, true; });
-    }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range&, const char*,
                 const char*) override {
         found_({path(key), unit.resolved(), false, value.value_or(std::nan(""))},

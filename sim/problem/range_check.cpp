@@ -15,9 +15,6 @@ class RangeCheck final : public NumberVisitor {
   public:
     explicit RangeCheck(std::vector<Issue>& out) : out_(out) {}
 
-    void number(const Key& key, double& value, const Unit& unit, const Range& range, const char*) override {
-        in_range(key, value, unit, range);
-    }
     void number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range, const char*,
                 const char*) override {
         if (value) in_range(key, *value, unit, range);
