@@ -38,8 +38,9 @@ struct AcceptedEntry {
 // that is damaged, incomplete, or of other baselines; then nothing changes.
 class Acceptor {
   public:
-    Acceptor(const AcceptArguments& args, const Report& report)
+    Acceptor(const AcceptArguments& args, const fs::path& folder, const RegressionResult& report)
         : args_(args),
+          folder_(folder),
           report_(report),
           path_(args.baselines.value_or(report.baselines)),
           baselines_(read_recovered(path_)),
@@ -47,11 +48,10 @@ class Acceptor {
 
     std::vector<AcceptedEntry> run() {
         for (const Baseline* entry : chosen_entries(baselines_, path_, args_.entries)) {
-            const auto found = report_.entries.find(entry->name);
-            if (found == report_.entries.end() || !(found->second.differs || has_pictures(*entry, found->second)))
-                continue;
-            accepted_.push_back({entry->name, found->second.differs, rejection(*entry, found->second)});
-            if (accepted_.back().rejected.empty()) accept(*entry, found->second);
+            const auto found = std::ranges::find(report_.entries, entry->name, &EntryResult::name);
+            if (found == report_.entries.end() || !(found->differs() || has_pictures(*entry, *found))) continue;
+            accepted_.push_back({entry->name, found->differs(), rejection(*entry, *found)});
+            if (accepted_.back().rejected.empty()) accept(*entry, *found);
         }
         if (!edits_.empty())
             update_.commit(baselines_.source.text, edited(baselines_, edits_, report_.renderers), pixels_);
@@ -62,27 +62,29 @@ class Acceptor {
 
   private:
     // Pictures that are compared with a file of the user are never accepted.
-    static bool has_pictures(const Baseline& entry, const ReportedEntry& found) {
-        return !found.sha256.empty() && entry.expected.empty();
+    static bool has_pictures(const Baseline& entry, const EntryResult& found) {
+        return !found.frames.empty() && entry.expected.empty();
     }
 
     // Why the entry cannot be accepted; empty: it can.
-    static std::string rejection(const Baseline& entry, const ReportedEntry& found) {
+    static std::string rejection(const Baseline& entry, const EntryResult& found) {
         if (!entry.problem.empty()) return entry.problem.substr(0, entry.problem.find('\n'));
-        if (!has_pictures(entry, found) && found.motion_files.empty())
-            return found.reason.empty() ? "the report contains neither its pictures nor its motion" : found.reason;
-        return found.differs ? found.not_reproducible : "";
+        if (has_pictures(entry, found) || !found.motion_files.empty())
+            return found.differs() ? found.not_reproducible : "";
+        for (const auto* lines : {&found.motion_lines, &found.picture_lines})
+            if (!lines->empty()) return lines->back();
+        return "the report contains neither its pictures nor its motion";
     }
 
-    void accept(const Baseline& entry, const ReportedEntry& found) {
+    void accept(const Baseline& entry, const EntryResult& found) {
         by_digest_.clear();
         for (const auto& [name, file] : marked_files(folder_of(entry)))
             if (!file.pixels.empty()) by_digest_[file.pixels] = folder_of(entry) / name;
         BaselineEdit edit{entry.name, entry.accepted, entry.reproducible_until};
         if (has_pictures(entry, found)) {
-            if (found.differs) edit.accepted.clear();
-            edit.accepted.push_back({found.renderer, found.sha256});
-            found.differs ? replace(entry, found) : add_pictures(entry, found);
+            if (found.differs()) edit.accepted.clear();
+            edit.accepted.push_back({found.renderer, found.digests()});
+            found.differs() ? replace(entry, found) : add_pictures(entry, found);
         } else {
             copy_motion(entry, found, update_.extend(entry.name));
         }
@@ -93,10 +95,10 @@ class Acceptor {
 
     fs::path folder_of(const Baseline& entry) const { return baselines_.references / entry.name; }
 
-    void replace(const Baseline& entry, const ReportedEntry& found) {
+    void replace(const Baseline& entry, const EntryResult& found) {
         const fs::path fresh = update_.replace(entry.name), old = folder_of(entry);
-        for (std::size_t k = 0; k < found.sha256.size(); ++k)
-            copy_picture(entry, found, k, fresh / picture_name(static_cast<long>(k)));
+        for (const auto& [number, frame] : found.frames)
+            copy_picture(entry, number, frame, fresh / picture_name(number));
         for (const auto& [name, file] : marked_files(old))  // the motion
             if (!name.ends_with(".png") && output::path_exists(old / name))
                 output::write_file(fresh / name, output::read_file(old / name));
@@ -104,43 +106,39 @@ class Acceptor {
     }
 
     // Stores the pictures that differ from those of the first renderer.
-    void add_pictures(const Baseline& entry, const ReportedEntry& found) {
+    void add_pictures(const Baseline& entry, const EntryResult& found) {
         if (entry.accepted.empty() || std::ranges::any_of(entry.accepted, [&](const Accepted& accepted) {
                 return accepted.renderer == found.renderer;
             }))
             return;
         const std::vector<std::string>& first = entry.accepted.front().sha256;
-        const auto is_available = [&](std::size_t k) {  // of equal pictures of others there may be digests only
-            return is_changed(found, k) || by_digest_.contains(found.sha256[k]);
-        };
-        for (std::size_t k = 0; k < found.sha256.size(); ++k)
-            if ((k >= first.size() || first[k] != found.sha256[k]) && is_available(k))
-                copy_picture(entry, found, k,
-                             update_.extend(entry.name) / picture_name(static_cast<long>(k), found.renderer));
+        for (const auto& [number, frame] : found.frames) {
+            const bool is_first = std::cmp_less(number, first.size()) && first[std::size_t(number)] == frame.sha256;
+            // Of equal pictures of others there may be digests only.
+            if (!is_first && (is_changed(frame) || by_digest_.contains(frame.sha256)))
+                copy_picture(entry, number, frame, update_.extend(entry.name) / picture_name(number, found.renderer));
+        }
     }
 
-    static bool is_changed(const ReportedEntry& found, std::size_t k) {
-        return std::ranges::count(found.changed, static_cast<long>(k)) > 0;
-    }
+    static bool is_changed(const FrameResult& frame) { return frame.verdict != Verdict::identical; }
 
     // From the report if it is not one of the accepted pictures, else from the references.
-    void copy_picture(const Baseline& entry, const ReportedEntry& found, std::size_t k, const fs::path& target) {
-        const auto frame = static_cast<long>(k);
-        const auto reference = by_digest_.find(found.sha256[k]);
-        const fs::path source = is_changed(found, k) ? report_.folder / report_picture(entry.name, frame, "actual")
+    void copy_picture(const Baseline& entry, long number, const FrameResult& frame, const fs::path& target) {
+        const auto reference = by_digest_.find(frame.sha256);
+        const fs::path source = is_changed(frame)               ? folder_ / report_picture(entry.name, number, "actual")
                                 : reference != by_digest_.end() ? reference->second
-                                                                : folder_of(entry) / picture_name(frame);
+                                                                : folder_of(entry) / picture_name(number);
         const std::string digest = output::digest(output::read_png(source));
-        if (digest != found.sha256[k])
+        if (digest != frame.sha256)
             throw output::IoError(fmt::format(
                 "{} is not the picture that was tested: it is damaged or from another run", source.string()));
         output::write_file(target, output::read_file(source));
         pixels_[entry.name][target.filename().string()] = digest;
     }
 
-    void copy_motion(const Baseline& entry, const ReportedEntry& found, const fs::path& fresh) {
+    void copy_motion(const Baseline& entry, const EntryResult& found, const fs::path& fresh) {
         for (const auto& [name, sha256] : found.motion_files) {
-            const fs::path source = report_.folder / entry.name / name;
+            const fs::path source = folder_ / entry.name / name;
             if (output::sha256_of_file(source) != sha256)
                 throw output::IoError(fmt::format(
                     "{} is not the motion that was tested: it is damaged or from another run", source.string()));
@@ -149,7 +147,8 @@ class Acceptor {
     }
 
     const AcceptArguments& args_;
-    const Report& report_;
+    const fs::path& folder_;
+    const RegressionResult& report_;
     const std::string path_;
     const Baselines baselines_;
     ReferenceUpdate update_;
@@ -160,8 +159,9 @@ class Acceptor {
 };
 
 int act(const AcceptArguments& args) {
-    const Report report = read_report(args.report);
-    Acceptor acceptor(args, report);
+    const fs::path folder = folder_of_report(args.report);
+    const RegressionResult report = read_report(folder);
+    Acceptor acceptor(args, folder, report);
     bool changed = false, complete = true;
     for (const AcceptedEntry& entry : acceptor.run()) {
         const bool accepted = entry.rejected.empty();

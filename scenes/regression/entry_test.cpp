@@ -220,8 +220,7 @@ bool EntryTest::has_new_motion_only() const {
 
 std::optional<BaselineEdit> EntryTest::edit() {
     BaselineEdit change{test_.entry.name, test_.entry.accepted, test_.entry.reproducible_until};
-    Accepted own{test_.renderer, {}};
-    for (const auto& [number, frame] : test_.result.frames) own.sha256.push_back(frame.sha256);
+    Accepted own{test_.renderer, test_.result.digests()};
     if (is_updated()) {
         if (has_new_motion_only()) {
             for (const auto& [number, frame] : test_.result.frames)

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -39,26 +38,9 @@ void write_page(const std::filesystem::path& folder, const RegressionResult& res
 
 // ---- reading a report -------------------------------------------------------------------------------
 
-// One entry of a report.
-struct ReportedEntry {
-    std::string renderer;
-    std::vector<std::string> sha256;                  // of all pictures; empty: it has none, or they are identical
-    std::vector<long> changed;                        // numbers of the pictures that changed
-    bool differs = false;                             // pictures or motion differ: references must be replaced
-    std::map<std::string, std::string> motion_files;  // SHA-256 by name; empty: no motion, or it is unchanged
-    std::optional<double> reproducible_until;         // [s]
-    std::string not_reproducible;                     // why its pictures cannot be accepted
-    std::string reason;                               // of the verdict
-};
-
-struct Report {
-    std::filesystem::path folder;
-    std::string baselines;
-    std::map<std::string, ReportedEntry> entries;  // entries that are not identical
-    std::map<std::string, RendererParts> renderers;
-};
-
-// From the folder of `write_page`, or a folder that contains only it. Throws IoError.
-Report read_report(const std::filesystem::path& folder);
+// The folder of `write_page`: `given`, or the only one in it. Throws IoError.
+std::filesystem::path folder_of_report(const std::filesystem::path& given);
+// Frames only of entries whose pictures are not identical, with their digests and verdicts. Throws IoError.
+RegressionResult read_report(const std::filesystem::path& folder);
 
 }  // namespace beamcam::scenes

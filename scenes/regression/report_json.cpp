@@ -79,10 +79,8 @@ Node entry_node(const EntryResult& entry) {
     if (entry.reproducible_until) add(out, "reproducible_until", *entry.reproducible_until);
     if (!entry.not_reproducible.empty()) add(out, "not_reproducible", entry.not_reproducible);
     if (!entry.renderer.empty()) {
-        std::vector<std::string> digests;  // of all its pictures
-        for (const auto& [number, frame] : entry.frames) digests.push_back(frame.sha256);
         add(out, "renderer", entry.renderer);
-        add(out, "sha256", digests);
+        add(out, "sha256", entry.digests());
     }
     if (entry.updated) add(out, "updated", true);
     if (entry.digest_added) add(out, "digest_added", true);
@@ -106,9 +104,17 @@ std::map<std::string, std::string> texts_of(const Node& object) {
     return texts;
 }
 
-bool verdict_is(const Node& part, std::initializer_list<Verdict> verdicts) {
-    const std::string& verdict = required(part, "verdict", Kind::string).text;
-    return std::ranges::any_of(verdicts, [&](Verdict v) { return verdict == name(v); });
+Verdict verdict_of(const Node& part) {
+    const std::string& text = required(part, "verdict", Kind::string).text;
+    for (const Verdict verdict : {Verdict::identical, Verdict::equivalent, Verdict::new_renderer, Verdict::different})
+        if (text == name(verdict)) return verdict;
+    return Verdict::missing;
+}
+
+std::vector<std::string> words_of(const Node& part) {
+    std::vector<std::string> lines;
+    for (const Node& line : required(part, "words", Kind::array).items) lines.push_back(line.text);
+    return lines;
 }
 
 // A name that stays in its folder.
@@ -117,44 +123,38 @@ void require_file_name(const std::string& name) {
         throw std::invalid_argument(fmt::format("{} is not the name of a file", name));
 }
 
-ReportedEntry reported_entry(const Node& entry) {
-    ReportedEntry out;
+void read_picture_part(const Node& part, EntryResult& out) {
+    out.picture = verdict_of(part);
+    out.picture_lines = words_of(part);
+    for (const Member& frame : required(part, "changed", Kind::object).members) {
+        const auto number = output::number_in<long>(frame.key);
+        if (!number || !out.frames.contains(*number))
+            throw std::invalid_argument(fmt::format("\"{}\" is not the number of a picture", frame.key));
+        out.frames[*number].verdict = verdict_of(frame.value);
+    }
+}
+
+void read_motion_part(const Node& part, EntryResult& out) {
+    out.motion = verdict_of(part);
+    out.motion_lines = words_of(part);
+    out.motion_files = texts_of(required(part, "files", Kind::object));
+    for (const auto& [file, digest] : out.motion_files) require_file_name(file);
+}
+
+EntryResult read_entry(const std::string& name, const Node& entry) {
+    EntryResult out;
+    out.name = name;
     out.renderer = text_in(entry, "renderer");
     require_file_name("0000-" + out.renderer);
     if (entry.find("sha256"))
-        for (const Node& digest : required(entry, "sha256", Kind::array).items) out.sha256.push_back(digest.text);
-    for (const char* key : {"picture", "motion"})
-        if (const Member* part = entry.find(key);
-            part && verdict_is(part->value, {Verdict::different, Verdict::missing})) {
-            out.differs = true;
-            for (const Node& line : required(part->value, "words", Kind::array).items) out.reason = line.text;
-        }
-    if (const Member* motion = entry.find("motion"))
-        out.motion_files = texts_of(required(motion->value, "files", Kind::object));
-    for (const auto& [file, digest] : out.motion_files) require_file_name(file);
+        for (const Node& digest : required(entry, "sha256", Kind::array).items)
+            out.frames[std::ssize(out.frames)].sha256 = digest.text;
+    if (const Member* part = entry.find("picture")) read_picture_part(part->value, out);
+    if (const Member* part = entry.find("motion")) read_motion_part(part->value, out);
     if (entry.find("reproducible_until"))
         out.reproducible_until = required(entry, "reproducible_until", Kind::number).number;
     out.not_reproducible = text_in(entry, "not_reproducible");
-    if (const Member* part = entry.find("picture"))
-        for (const Member& frame : required(part->value, "changed", Kind::object).members) {
-            const auto number = output::number_in<long>(frame.key);
-            if (!number) throw std::invalid_argument(fmt::format("\"{}\" is not the number of a picture", frame.key));
-            out.changed.push_back(*number);
-        }
     return out;
-}
-
-// CI services may put the report into another folder.
-fs::path folder_of_report(const fs::path& given) {
-    if (output::path_exists(given / kReportFile)) return given;
-    std::vector<fs::path> found;
-    if (fs::is_directory(given))
-        for (const fs::directory_entry& inner : fs::directory_iterator(given))
-            if (output::path_exists(inner.path() / kReportFile)) found.push_back(inner.path());
-    if (found.size() == 1) return found.front();
-    throw output::IoError(
-        fmt::format("{} contains no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",
-                    given.string(), kReportFile));
 }
 
 }  // namespace
@@ -184,9 +184,22 @@ std::string to_json(const RegressionResult& result) {
                                 {"changed", result.changed}}));
 }
 
-Report read_report(const std::filesystem::path& given) {
-    Report report{folder_of_report(given), {}, {}, {}};
-    const fs::path file = report.folder / kReportFile;
+// CI services may put the report into another folder.
+fs::path folder_of_report(const fs::path& given) {
+    if (output::path_exists(given / kReportFile)) return given;
+    std::vector<fs::path> found;
+    if (fs::is_directory(given))
+        for (const fs::directory_entry& inner : fs::directory_iterator(given))
+            if (output::path_exists(inner.path() / kReportFile)) found.push_back(inner.path());
+    if (found.size() == 1) return found.front();
+    throw output::IoError(
+        fmt::format("{} contains no {}; name the folder that beamcam test --report wrote, unpacked if it is an archive",
+                    given.string(), kReportFile));
+}
+
+RegressionResult read_report(const fs::path& folder) {
+    RegressionResult report;
+    const fs::path file = folder / kReportFile;
     try {
         const Parsed parsed = parse(output::read_file(file));
         if (!parsed.messages.empty()) throw std::invalid_argument(parsed.messages.front().text);
@@ -194,7 +207,7 @@ Report read_report(const std::filesystem::path& given) {
         for (const Member& renderer : required(parsed.root, "renderers", Kind::object).members)
             report.renderers[renderer.key] = texts_of(renderer.value);
         for (const Member& entry : required(parsed.root, "entries", Kind::object).members)
-            if (!verdict_is(entry.value, {Verdict::identical})) report.entries[entry.key] = reported_entry(entry.value);
+            report.entries.push_back(read_entry(entry.key, entry.value));
     } catch (const std::exception& error) {
         throw output::IoError(fmt::format("cannot read {}: {}", file.string(), error.what()));
     }

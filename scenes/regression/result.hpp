@@ -1,4 +1,5 @@
-// The results of a regression test: of each picture, of each entry, and of all; and the rule by which they pass.
+// The results of a regression test, as it finds them or as its report holds them: of each picture, of each entry, and
+// of all; and the rule by which they pass.
 #pragma once
 
 #include <algorithm>
@@ -42,6 +43,12 @@ struct EntryResult {
 
     Verdict verdict() const {
         return std::max(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
+    }
+    bool differs() const { return verdict() >= Verdict::different; }  // or is missing: references must be replaced
+    std::vector<std::string> digests() const {                        // of all frames
+        std::vector<std::string> all;
+        for (const auto& [number, frame] : frames) all.push_back(frame.sha256);
+        return all;
     }
     // The frames that are not identical; those that changed most come first.
     ChangedFrames changed_frames() const {

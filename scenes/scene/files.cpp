@@ -30,73 +30,34 @@ bool matches(const Pattern& pattern, std::string_view file) {
     return std::ranges::all_of(digits, is_digit);
 }
 
-// Every pattern whose numbered files could include this one: any run of digits in its last part may be the number.
-template <typename Visit>
-void for_patterns(const std::string& file, Visit visit) {
-    const std::size_t slash = file.rfind('/');
-    for (std::size_t i = slash == std::string::npos ? 0 : slash + 1; i < file.size(); ++i)
-        for (std::size_t k = i; k < file.size() && is_digit(file[k]); ++k)
-            visit(file.substr(0, i) + '#' + file.substr(k + 1));
-}
-
-template <typename Visit>
-void for_directories(const std::string& file, Visit visit) {
-    for (std::size_t slash = file.find('/'); slash != std::string::npos; slash = file.find('/', slash + 1))
-        visit(file.substr(0, slash));
-}
-
-// The claims, indexed by everything that can clash; each entry is the first claim.
-class ClaimIndex {
-  public:
-    using Claim = FileClaims::Claim;
-
-    explicit ClaimIndex(const std::vector<Claim>& claims) {
-        for (const Claim& claim : claims)
-            if (is_numbered(claim.file)) patterns_.try_emplace(pattern_of(claim), &claim);
-        for (const Claim& claim : claims) {
-            if (is_numbered(claim.file)) continue;
-            const std::string path = normal(claim.file);
-            files_.try_emplace(path, &claim);
-            for_directories(path, [&](const std::string& directory) { directories_.try_emplace(directory, &claim); });
-            if (patterns_.empty()) continue;
-            for_patterns(path, [&](const std::string& pattern) {
-                if (patterns_.contains(pattern)) numbered_.try_emplace(pattern, &claim);
-            });
-        }
-    }
-
-    // The earliest claim of another owner that this one clashes with, if it came before; else null.
-    const Claim* earlier(const Claim& claim) const {
-        const Claim* found = nullptr;
-        const auto look = [&](const Index& index, const std::string& key) {
-            const auto entry = index.find(key);
-            if (entry != index.end() && entry->second->owner < (found != nullptr ? found->owner : claim.owner))
-                found = entry->second;
-        };
-        if (is_numbered(claim.file)) {
-            look(patterns_, pattern_of(claim));
-            look(numbered_, pattern_of(claim));
-            return found;
-        }
-        const std::string path = normal(claim.file);
-        look(files_, path);
-        look(directories_, path);
-        for_directories(path, [&](const std::string& directory) { look(files_, directory); });
-        if (!patterns_.empty()) for_patterns(path, [&](const std::string& pattern) { look(patterns_, pattern); });
-        return found;
-    }
-
-  private:
-    using Index = std::map<std::string, const Claim*>;
-
-    static std::string pattern_of(const Claim& claim) {
-        const Pattern parts = split_pattern(normal(claim.file));
-        return parts.before + '#' + parts.after;
-    }
-
-    Index files_, directories_, patterns_;
-    Index numbered_;  // files that a pattern of this key includes
+// What a claim takes, and what none may have taken before it: a file "a/b", a directory "a/", a pattern "f-#.png", and
+// "f-#.png/" for every pattern that would include the file.
+struct ClaimKeys {
+    std::vector<std::string> takes, excludes;
 };
+
+ClaimKeys keys_of(const std::string& file, bool with_patterns) {
+    const std::string path = normal(file);
+    if (is_numbered(path)) {
+        const Pattern parts = split_pattern(path);
+        const std::string pattern = parts.before + '#' + parts.after;
+        return {{pattern}, {pattern, pattern + '/'}};
+    }
+    ClaimKeys keys{{path}, {path, path + '/'}};
+    std::size_t last = 0;  // begin of the last part
+    for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', last)) {
+        keys.takes.push_back(path.substr(0, slash + 1));
+        keys.excludes.push_back(path.substr(0, slash));
+        last = slash + 1;
+    }
+    for (std::size_t i = last; with_patterns && i < path.size(); ++i)  // any run of digits may be the number
+        for (std::size_t k = i; k < path.size() && is_digit(path[k]); ++k) {
+            const std::string pattern = path.substr(0, i) + '#' + path.substr(k + 1);
+            keys.takes.push_back(pattern + '/');
+            keys.excludes.push_back(pattern);
+        }
+    return keys;
+}
 
 }  // namespace
 
@@ -150,11 +111,18 @@ std::optional<long> number_of(std::string_view pattern, std::string_view file) {
 void FileClaims::add(std::string_view file, std::size_t owner) { claims_.push_back({std::string(file), owner}); }
 
 std::vector<FileClaims::Clash> FileClaims::clashes() const {
-    const ClaimIndex index(claims_);
+    const bool with_patterns = std::ranges::any_of(claims_, is_numbered, &Claim::file);
+    std::map<std::string, const Claim*> taken;  // by the first
     std::vector<Clash> found;
     for (const Claim& claim : claims_) {
-        if (!found.empty() && found.back().later.owner == claim.owner) continue;
-        if (const Claim* earlier = index.earlier(claim)) found.push_back({claim, *earlier});
+        const ClaimKeys keys = keys_of(claim.file, with_patterns);
+        const Claim* earlier = &claim;
+        for (const std::string& key : keys.excludes)
+            if (const auto other = taken.find(key); other != taken.end() && other->second->owner < earlier->owner)
+                earlier = other->second;
+        if (earlier != &claim && (found.empty() || found.back().later.owner != claim.owner))
+            found.push_back({claim, *earlier});
+        for (const std::string& key : keys.takes) taken.try_emplace(key, &claim);
     }
     return found;
 }
