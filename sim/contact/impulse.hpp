@@ -55,6 +55,29 @@ std::array<PathSegment<T>, 2> impulse_path(const ComplianceOf<T>& c, const T& v_
     return {{{T(slope), stops}, {after, T(kForever)}}};
 }
 
+// How far an impact has come.
+template <class T>
+struct Progress {
+    bool compressing = true;
+    T impulse_n, v_n;                              // now
+    T compression_impulse = 0;                     // of the whole compression
+    T compression_work = 0, restitution_work = 0;  // ∫v_n dP_n, < 0 and > 0
+};
+
+// What P_n needs to the end of compression or, after that, of restitution while dv_n/dP_n = rate. kForever: no end.
+template <class T>
+T remaining(const Progress<T>& now, const T& rate, const T& v_n_before, double restitution, ImpactLaw law) {
+    using std::sqrt;
+    if (now.compressing) return rate > 0 ? T(-now.v_n / rate) : T(kForever);
+    if (law == ImpactLaw::newton) return rate > 0 ? T((-restitution * v_n_before - now.v_n) / rate) : T(kForever);
+    if (law == ImpactLaw::poisson) return (1 + restitution) * now.compression_impulse - now.impulse_n;
+    // Stronge: v_n s + ½ rate s² = the missing work of restitution.
+    const T missing = -restitution * restitution * now.compression_work - now.restitution_work;
+    const T root = now.v_n * now.v_n + 2 * rate * missing;
+    if (!(root >= 0)) return T(kForever);
+    return missing <= 0 ? T(0) : T(2 * missing / (now.v_n + sqrt(root)));
+}
+
 }  // namespace impulse
 
 // v_n < 0 approaches. `friction` is μ >= 0, `restitution` in [0, 1]. Throws StepFailure where no impulse ends the
@@ -63,7 +86,7 @@ template <class T>
 ImpactResultOf<T> resolve_impact(const ComplianceOf<T>& c, const std::type_identity_t<T>& v_n,
                                  const std::type_identity_t<T>& v_t, double friction, double restitution,
                                  ImpactLaw law) {
-    using std::isfinite, std::sqrt;
+    using std::isfinite;
     BEAMCAM_ASSERT(c.nn > 0 && c.tt >= 0 && friction >= 0);
     BEAMCAM_ASSERT(restitution >= 0 && restitution <= 1);
     ImpactResultOf<T> r{0, 0, v_n, v_t};
@@ -71,49 +94,31 @@ ImpactResultOf<T> resolve_impact(const ComplianceOf<T>& c, const std::type_ident
     const std::array<impulse::PathSegment<T>, 2> path = impulse::impulse_path(c, v_t, friction);
 
     // Follow the path; v_n is linear in P_n on each segment. Compression ends where v_n passes zero.
-    T compression_work = 0, restitution_work = 0;  // ∫v_n dP_n, < 0 and > 0
-    T target_impulse = impulse::kForever;
-    bool compressing = true;
+    impulse::Progress<T> now{.impulse_n = 0, .v_n = v_n};
     for (std::size_t k = 0; k < path.size();) {
         const impulse::PathSegment<T>& segment = path[k];
         const T rate = c.nn + c.nt * segment.slope;  // dv_n/dP_n; negative while the contact jams
-        T step = k == 0 ? segment.length - r.impulse_n : T(impulse::kForever);
-        if (k == 0 && !isfinite(segment.length)) step = segment.length;
-        enum { next_segment, compressed, done } why = next_segment;
-        const auto end_at = [&](const T& length, auto reason) {
-            if (length <= step) {
-                step = length > 0 ? length : T(0);
-                why = reason;
-            }
-        };
-        if (compressing) {
-            if (rate > 0) end_at(-r.v_n / rate, compressed);
-        } else if (law == ImpactLaw::newton) {
-            if (rate > 0) end_at((-restitution * v_n - r.v_n) / rate, done);
-        } else if (law == ImpactLaw::poisson) {
-            end_at(target_impulse - r.impulse_n, done);
-        } else {
-            // Stronge: v_n s + ½ rate s² = the missing work of restitution.
-            const T missing = -restitution * restitution * compression_work - restitution_work;
-            const T root = r.v_n * r.v_n + 2 * rate * missing;
-            if (root >= 0) end_at(missing <= 0 ? T(0) : 2 * missing / (r.v_n + sqrt(root)), done);
-        }
+        T step = k == 0 ? T(segment.length - now.impulse_n) : T(impulse::kForever);
+        const T end = impulse::remaining(now, rate, v_n, restitution, law);
+        const bool ends = end <= step;
+        if (ends) step = end > 0 ? end : T(0);
         // Never for a positive definite compliance.
         if (!isfinite(step)) throw StepFailure("the equations of the impact have no solution");
-        const T work = r.v_n * step + 0.5 * rate * step * step;
-        (compressing ? compression_work : restitution_work) += work;
-        r.impulse_n += step;
+        (now.compressing ? now.compression_work : now.restitution_work) += now.v_n * step + 0.5 * rate * step * step;
+        now.impulse_n += step;
+        now.v_n += rate * step;
         r.impulse_t += segment.slope * step;
-        r.v_n += rate * step;
-        if (why == done) break;
-        if (why == compressed) {
-            compressing = false;
-            r.v_n = 0;
-            target_impulse = (1 + restitution) * r.impulse_n;
-        } else {
+        if (!ends) {
             ++k;
+        } else if (now.compressing) {
+            now.compressing = false;
+            now.v_n = 0;
+            now.compression_impulse = now.impulse_n;
+        } else {
+            break;
         }
     }
+    r.impulse_n = now.impulse_n;
     r.v_n = v_n + c.nn * r.impulse_n + c.nt * r.impulse_t;
     r.v_t = v_t + c.nt * r.impulse_n + c.tt * r.impulse_t;
     return r;
