@@ -133,16 +133,15 @@ Node accuracy_rows(const std::vector<Row>& rows, Identity identity) {
 }
 
 // The impacts alone.
-NamedTable impacts_table(const sim::Result& result) {
-    NamedTable table;
+ColumnTable impacts_table(const sim::Result& result) {
+    ColumnTable table;
     for_each_field(result.impacts.empty() ? sim::Impact{} : result.impacts.front(),
-                   [&table](const std::string& name, const auto&) { table.names.push_back(name); });
-    table.columns.resize(table.names.size());
+                   [&table](const std::string& name, const auto&) { table.columns.push_back({name}); });
     for (const sim::Impact& impact : result.impacts) {
         auto column = table.columns.begin();
         for_each_field(impact, [&](const std::string&, const std::optional<double>& value) {
             if (column == table.columns.end()) throw std::logic_error("impacts have different fields");
-            (column++)->push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
+            (column++)->values.push_back(value.value_or(std::numeric_limits<double>::quiet_NaN()));
         });
     }
     return table;

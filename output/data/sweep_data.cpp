@@ -104,12 +104,13 @@ void npz(const Target& file, const SweepData& data) {
 
 void write_sweep_csv(std::ostream& out, const SweepData& data) { csv(data, to_stream(out)); }
 
-NamedTable table_of(const SweepData& data) {
-    NamedTable table{column_names(data), {}};
-    table.columns.resize(table.names.size());
+ColumnTable table_of(const SweepData& data) {
+    ColumnTable table;
+    for (std::string& name : column_names(data)) table.columns.push_back({std::move(name)});
     each_point(data, [&](const StoredPoint& p) {
         each_column(data, p, [&](std::size_t c, const std::vector<double>& values) {
-            table.columns[c].insert(table.columns[c].end(), values.begin(), values.end());
+            std::vector<double>& all = table.columns[c].values;
+            all.insert(all.end(), values.begin(), values.end());
         });
     });
     return table;

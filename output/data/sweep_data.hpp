@@ -73,6 +73,6 @@ inline std::vector<double> SweepData::place(std::uint64_t point) const {
 void write_sweep(const Target& file, const SweepData& data);
 void write_sweep_csv(std::ostream& out, const SweepData& data);
 // The rows of .csv and .npz.
-NamedTable table_of(const SweepData& data);
+ColumnTable table_of(const SweepData& data);
 
 }  // namespace beamcam::output

@@ -32,7 +32,7 @@ std::vector<std::size_t> in_order_of(const std::vector<double>& t) {
     return order;
 }
 
-std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double until) {
+std::vector<Pair> common_rows(const ColumnTable& a, const ColumnTable& b, double until) {
     std::vector<Pair> pairs;
     const std::vector<double>*ta = a.find("t"), *tb = b.find("t");
     if (ta == nullptr || tb == nullptr) {
@@ -54,24 +54,23 @@ std::vector<Pair> common_rows(const NamedTable& a, const NamedTable& b, double u
     return pairs;
 }
 
-// The positions of the names; of equal names, the first counts.
-std::map<std::string, std::size_t> index_of(const std::vector<std::string>& names) {
-    std::map<std::string, std::size_t> index;
-    for (std::size_t i = 0; i < names.size(); ++i) index.try_emplace(names[i], i);
-    return index;
+// Of equal names, the first counts.
+std::map<std::string, const TableColumn*> by_name(const ColumnTable& table) {
+    std::map<std::string, const TableColumn*> columns;
+    for (const TableColumn& column : table.columns) columns.try_emplace(column.name, &column);
+    return columns;
 }
 
 bool same_bits(double x, double y) {
     return std::bit_cast<std::uint64_t>(x) == std::bit_cast<std::uint64_t>(y) || (std::isnan(x) && std::isnan(y));
 }
 
-ColumnDifference compare(const std::string& name, const std::vector<double>& a, const std::vector<double>& b,
-                         const std::vector<Pair>& rows) {
+ColumnDifference compare(const TableColumn& a, const TableColumn& b, const std::vector<Pair>& rows) {
     ColumnDifference d;
-    d.name = name;
+    d.name = a.name;
     double least = INFINITY, most = -INFINITY;
     for (const Pair& row : rows) {
-        const double x = a[row.a], y = b[row.b];
+        const double x = a.values[row.a], y = b.values[row.b];
         if (!same_bits(x, y)) d.identical = false;
         if (std::isnan(x) != std::isnan(y)) ++d.undefined;
         if (std::isfinite(x)) least = std::min(least, x), most = std::max(most, x);
@@ -96,21 +95,21 @@ bool TableDifference::within(double share) const {
            });
 }
 
-TableDifference difference(const NamedTable& a, const NamedTable& b, double until) {
+TableDifference difference(const ColumnTable& a, const ColumnTable& b, double until) {
     TableDifference d;
     d.rows_a = a.rows();
     d.rows_b = b.rows();
     const std::vector<Pair> rows = common_rows(a, b, until);
     d.rows_compared = rows.size();
-    const std::map<std::string, std::size_t> in_a = index_of(a.names), in_b = index_of(b.names);
-    for (std::size_t i = 0; i < a.names.size(); ++i) {
-        if (const auto other = in_b.find(a.names[i]); other != in_b.end())
-            d.columns.push_back(compare(a.names[i], a.columns[i], b.columns[other->second], rows));
+    const std::map<std::string, const TableColumn*> in_a = by_name(a), in_b = by_name(b);
+    for (const TableColumn& column : a.columns) {
+        if (const auto other = in_b.find(column.name); other != in_b.end())
+            d.columns.push_back(compare(column, *other->second, rows));
         else
-            d.only_in_a.push_back(a.names[i]);
+            d.only_in_a.push_back(column.name);
     }
-    for (const std::string& name : b.names)
-        if (!in_a.contains(name)) d.only_in_b.push_back(name);
+    for (const TableColumn& column : b.columns)
+        if (!in_a.contains(column.name)) d.only_in_b.push_back(column.name);
     return d;
 }
 

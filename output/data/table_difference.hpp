@@ -34,7 +34,7 @@ struct TableDifference {
 
 // Compares rows with equal "t" (to a billionth), or with equal numbers if a table has no "t"; rows with an empty "t" in
 // their order. Rows with t > `until` are not compared.
-TableDifference difference(const NamedTable& a, const NamedTable& b,
+TableDifference difference(const ColumnTable& a, const ColumnTable& b,
                            double until = std::numeric_limits<double>::infinity());
 
 }  // namespace beamcam::output

@@ -34,7 +34,7 @@ class CsvParser {
         if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
     }
 
-    NamedTable parse() {
+    ColumnTable parse() {
         std::string_view line;
         if (!next_line(line)) throw IoError("cannot read " + file_ + ": the file is empty");
         read_header(line);
@@ -86,9 +86,8 @@ class CsvParser {
             if (number(cell)) refuse(column, in_quotes(cell) + " where the name of a column should be");
             if (!known_.emplace(cell).second)
                 refuse(column, "the column " + in_quotes(cell) + " occurs twice in the header");
-            table_.names.emplace_back(cell);
+            table_.columns.push_back({std::string(cell)});
         });
-        table_.columns.resize(table_.names.size());
     }
 
     void read_row(std::string_view line) {
@@ -99,9 +98,9 @@ class CsvParser {
             std::optional<double> value = cell.empty() ? kNothing : number(cell);
             if (!value) value = class_number(cell);
             if (!value) refuse(column, in_quotes(cell) + " is not a number");
-            if (std::isinf(*value) && table_.names[count] != "exponent")  // of a sweep: −∞ is a valid exponent
+            if (std::isinf(*value) && table_.columns[count].name != "exponent")  // of a sweep: −∞ is a valid exponent
                 refuse(column, in_quotes(cell) + " is not a finite number; leave cells without a value empty");
-            table_.columns[count].push_back(*value);
+            table_.columns[count].values.push_back(*value);
         });
         if (cells != table_.columns.size())
             refuse(1, std::to_string(cells) + " cells in this row, but the header has " +
@@ -132,7 +131,7 @@ class CsvParser {
     std::string_view text_;
     const std::string& file_;
     std::size_t at_ = 0, line_ = 0;
-    NamedTable table_;
+    ColumnTable table_;
     std::set<std::string> known_;  // its names
 };
 
@@ -145,7 +144,7 @@ class NpzParser {
     NpzParser(std::string_view bytes, const std::string& file)
         : bytes_(bytes), file_(file), inflater_(kLargestArchive), unread_(bytes.size()) {}
 
-    NamedTable parse() {
+    ColumnTable parse() {
         const std::size_t end = find_end();
         const std::size_t count = value(end + 10, 2);
         std::size_t at = value(end + 16, 4);
@@ -237,8 +236,7 @@ class NpzParser {
         if (!table_.columns.empty() && column.size() != table_.rows())
             wrong("has " + std::to_string(column.size()) + " rows, others have " + std::to_string(table_.rows()));
         if (!known_.insert(name).second) refuse("two arrays have the name \"" + name + "\"");
-        table_.names.push_back(name);
-        table_.columns.push_back(std::move(column));
+        table_.columns.push_back({name, {}, {}, std::move(column)});
     }
 
     static std::string between(std::string_view text, std::string_view before, std::string_view after) {
@@ -266,23 +264,31 @@ class NpzParser {
     const std::string& file_;
     Inflater inflater_;
     std::size_t unread_;  // bytes of the file that belong to no array yet
-    NamedTable table_;
+    ColumnTable table_;
     std::set<std::string> known_;  // its names
 };
 
 }  // namespace
 
-const std::vector<double>* NamedTable::find(std::string_view name) const {
-    const auto found = std::ranges::find(names, name);
-    return found == names.end() ? nullptr : &columns[static_cast<std::size_t>(found - names.begin())];
+const std::vector<double>* ColumnTable::find(std::string_view name) const {
+    const auto found = std::ranges::find(columns, name, &TableColumn::name);
+    return found == columns.end() ? nullptr : &found->values;
 }
 
-NamedTable parse_csv(std::string_view text, const std::string& file_name) { return CsvParser(text, file_name).parse(); }
-NamedTable parse_npz(std::string_view bytes, const std::string& file_name) {
+std::vector<std::string> ColumnTable::names() const {
+    std::vector<std::string> all;
+    for (const TableColumn& column : columns) all.push_back(column.name);
+    return all;
+}
+
+ColumnTable parse_csv(std::string_view text, const std::string& file_name) {
+    return CsvParser(text, file_name).parse();
+}
+ColumnTable parse_npz(std::string_view bytes, const std::string& file_name) {
     return NpzParser(bytes, file_name).parse();
 }
 
-NamedTable read_table(const fs::path& file) {
+ColumnTable read_table(const fs::path& file) {
     const std::string bytes = read_file(file), name = file.string();
     if (file.extension() == ".csv") return parse_csv(bytes, name);
     if (file.extension() == ".npz") return parse_npz(bytes, name);

@@ -28,13 +28,9 @@ Columns columns_of(const sim::Table& table) {
     columns.values.assign(table.values.begin(), table.values.end());
     return columns;
 }
-Columns columns_of(const NamedTable& table) { return {table.names, {table.columns.begin(), table.columns.end()}}; }
 Columns columns_of(const ColumnTable& table) {
-    Columns columns;
-    for (const TableColumn& column : table.columns) {
-        columns.names.push_back(column.name);
-        columns.values.emplace_back(column.values);
-    }
+    Columns columns{table.names()};
+    for (const TableColumn& column : table.columns) columns.values.emplace_back(column.values);
     return columns;
 }
 
@@ -91,7 +87,6 @@ std::function<void(const std::string&)> to_stream(std::ostream& out) {
 void write_csv(std::ostream& out, const sim::Table& table) { csv(columns_of(table), to_stream(out)); }
 
 void write_table(const Target& file, const sim::Table& table) { write_columns(file, columns_of(table)); }
-void write_table(const Target& file, const NamedTable& table) { write_columns(file, columns_of(table)); }
 
 void write_table(const Target& file, const ColumnTable& table) {
     if (file.path.extension() != ".nc") return write_columns(file, columns_of(table));

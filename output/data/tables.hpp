@@ -16,34 +16,28 @@
 
 namespace beamcam::output {
 
-struct NamedTable {
-    std::vector<std::string> names;
-    std::vector<std::vector<double>> columns;  // one for each name, of equal length; NaN: an empty cell
-    std::size_t rows() const { return columns.empty() ? 0 : columns.front().size(); }
-    const std::vector<double>* find(std::string_view name) const;
-};
-
-// A table whose columns have a unit and a meaning.
 struct TableColumn {
-    std::string name, unit, meaning;
-    std::vector<double> values = {};  // of equal length in all columns; NaN: no value
+    std::string name, unit = {}, meaning = {};  // unit and meaning may be unknown
+    std::vector<double> values = {};            // of equal length in all columns; NaN: no value
 };
 struct ColumnTable {
     std::vector<TableColumn> columns;
     std::vector<std::pair<std::string, std::string>> attributes = {};  // of a NetCDF file
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
+    std::vector<std::string> names() const;
+    const std::vector<double>* find(std::string_view name) const;
 };
 
 // ---- reading -------------------------------------------------------------------------------------
 
 // The ending decides: .csv or .npz. The names of classes of motion in the .csv tables of sweeps become numbers as in
 // .npz. Throws IoError with the line and column of the error (CSV), or the name of the array (NPZ).
-NamedTable read_table(const std::filesystem::path& file);
+ColumnTable read_table(const std::filesystem::path& file);
 
 // Also CSV of spreadsheets (byte order mark, "\r\n") and of numpy.savetxt with a header.
-NamedTable parse_csv(std::string_view text, const std::string& file_name);
-NamedTable parse_npz(std::string_view bytes, const std::string& file_name);
+ColumnTable parse_csv(std::string_view text, const std::string& file_name);
+ColumnTable parse_npz(std::string_view bytes, const std::string& file_name);
 
 // ---- writing -------------------------------------------------------------------------------------
 
@@ -55,7 +49,6 @@ std::function<void(const std::string&)> to_stream(std::ostream& out);
 // The ending decides: .csv or .npz; numpy.load(file)["theta"] gives one array of float64 per channel, NaN where
 // undefined. Throws UnsupportedOption for other endings, and for .npz above 4 GiB.
 void write_table(const Target& file, const sim::Table& table);
-void write_table(const Target& file, const NamedTable& table);
 
 // The ending decides: .csv, .npz or .nc. Throws UnsupportedOption for others, IoError.
 void write_table(const Target& file, const ColumnTable& table);

@@ -95,9 +95,9 @@ void read_manifest(const std::string& file, Provenance& p) {
 
 void read_table(const std::string& file, Provenance& p) {
     p.kind = "table";
-    const output::NamedTable table = output::read_table(file);
+    const output::ColumnTable table = output::read_table(file);
     p.facts["rows"] = std::to_string(table.rows());
-    p.facts["columns"] = std::to_string(table.names.size());
+    p.facts["columns"] = std::to_string(table.columns.size());
     read_manifest(file, p);
 }
 

@@ -55,7 +55,7 @@ class MeasurementReader {
         const fs::path path = fs::path(r_.context().source.name).parent_path() / m_.file;
         if (std::error_code error; !fs::is_regular_file(path, error))
             return fail("file", error ? error.message() : "it is not a regular file");
-        output::NamedTable table;
+        output::ColumnTable table;
         try {
             table = output::read_table(path);
             m_.digest = output::sha256_of_file(path);
@@ -70,11 +70,11 @@ class MeasurementReader {
         if (m_.columns.empty())
             return fail("file",
                         fmt::format("no column is named like a channel; name the columns, for example \"theta\": {}",
-                                    in_quotes(table.names.front())));
+                                    in_quotes(table.columns.front().name)));
         for (const auto& [column, unit] : m_.units)
             if (!table.find(column))
                 return fail("units", fmt::format("the file has no column {}{}", in_quotes(column),
-                                                 suggestion_or_list(column, table.names)));
+                                                 suggestion_or_list(column, table.names())));
         m_.times = column(table, "t", m_.time_column, "s");
         for (double& t : m_.times) t += m_.offset;
         check_channels();
@@ -90,13 +90,13 @@ class MeasurementReader {
         r_.reject_value(r_.place(key), key, ": {}", why);
     }
 
-    std::vector<double> column(const output::NamedTable& table, const std::string& key, const std::string& from,
+    std::vector<double> column(const output::ColumnTable& table, const std::string& key, const std::string& from,
                                const std::string& si) {
         const std::vector<double>* found = table.find(from);
         const std::string at = r_.has(key) ? key : "file";
         if (!found) {
             fail(at,
-                 fmt::format("the file has no column {}{}", in_quotes(from), suggestion_or_list(from, table.names)));
+                 fmt::format("the file has no column {}{}", in_quotes(from), suggestion_or_list(from, table.names())));
             return {};
         }
         std::vector<double> out = *found;

@@ -80,14 +80,14 @@ void ShapesOutput::plan(Planner& planner, std::size_t output) const {
     data.content = fmt::format("{} points at {} times", stations, poses.back().times.size());
     data.numbers = 3 * static_cast<std::size_t>(stations) * poses.back().times.size();
     data.write = [index = poses.size() - 1](const DataSource& from) {
-        output::NamedTable table{{"t", "x", "v"}, {{}, {}, {}}};
+        output::ColumnTable table{{{"t"}, {"x"}, {"v"}}};
         for (const sim::Pose& pose : from.run.poses[index]) {
             const std::vector<double> v = deflection(pose);
             for (std::size_t k = 0; k < v.size(); ++k) {
-                table.columns[0].push_back(pose.t);
-                table.columns[1].push_back(from.problem.beam.length * static_cast<double>(k) /
-                                           static_cast<double>(v.size() - 1));
-                table.columns[2].push_back(v[k]);
+                table.columns[0].values.push_back(pose.t);
+                table.columns[1].values.push_back(from.problem.beam.length * static_cast<double>(k) /
+                                                  static_cast<double>(v.size() - 1));
+                table.columns[2].values.push_back(v[k]);
             }
         }
         output::write_table(*from.file, table);

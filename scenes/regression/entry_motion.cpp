@@ -23,13 +23,6 @@ void cut(sim::Table& table, double until) {
     for (std::vector<double>& column : table.values) column.resize(static_cast<std::size_t>(kept));
 }
 
-void remove_column(output::NamedTable& table, std::string_view name) {
-    const auto at = std::ranges::find(table.names, name);
-    if (at == table.names.end()) return;
-    table.columns.erase(table.columns.begin() + (at - table.names.begin()));
-    table.names.erase(at);
-}
-
 // ---- sweeps ----------------------------------------------------------------------------------------
 
 // Far above rounding errors, far below the differences between settled motions.
@@ -48,7 +41,7 @@ Scene perturbed(Scene scene, int times) {
 // Points that may differ on another processor: unsettled points, and points that change if the sweep is repeated with
 // slightly more gravity, speed and eccentricity of the cam.
 std::vector<bool> uncertain_points(const SweepRun& sweep, const Tolerance& tolerance, int threads, Progress& progress) {
-    const output::NamedTable own = table_of(sweep.data());
+    const output::ColumnTable own = table_of(sweep.data());
     std::vector<bool> uncertain(sweep.grid().points());
     for (std::uint64_t k = 0; k < uncertain.size(); ++k) uncertain[k] = sweep.read(k).kind == kUnsettled;
     for (int repetition = 1; repetition <= kRepetitions; ++repetition) {
@@ -149,7 +142,10 @@ void EntryMotion::judge_record(const RecordNames& names, const std::string& labe
     if (!expected) {
         add_missing(label);
     } else {
-        if (records_all_channels(test_.entry)) remove_column(expected->table, "energy_residual");  // of older records
+        if (records_all_channels(test_.entry))
+            std::erase_if(expected->table.columns, [](const output::TableColumn& column) {
+                return column.name == "energy_residual";  // of older records
+            });
         add(compare(*expected, record_of(table, impacts, until), test_.tolerance, horizon), label,
             {names.table, names.impacts});
     }

@@ -100,8 +100,8 @@ class Comparer {
         if (!whole.same_shape())
             add(INFINITY,
                 fmt::format("the recorded table has {} and {}, expected {} and {}",
-                            counted(actual_.table.rows(), "row"), counted(actual_.table.names.size(), "column"),
-                            expected_.table.rows(), expected_.table.names.size()));
+                            counted(actual_.table.rows(), "row"), counted(actual_.table.columns.size(), "column"),
+                            expected_.table.rows(), expected_.table.columns.size()));
         for (const output::ColumnDifference& c : output::difference(expected_.table, actual_.table, horizon_).columns) {
             if (c.undefined > 0) add(INFINITY, fmt::format("{}: {} values appeared or vanished", c.name, c.undefined));
             if (c.largest == 0) continue;
@@ -181,8 +181,8 @@ sim::TableRequest motion_behind_picture(const sim::Problem& problem, double unti
 
 MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
     MotionRecord record;
-    for (const sim::Channel& channel : table.channels) record.table.names.push_back(name(channel));
-    record.table.columns = table.values;
+    for (std::size_t c = 0; c < table.channels.size(); ++c)
+        record.table.columns.push_back({name(table.channels[c]), {}, {}, table.values[c]});
     record.impacts = *parse_impacts(impacts_text(impacts, until));
     return record;
 }

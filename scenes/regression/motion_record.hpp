@@ -20,7 +20,7 @@ namespace beamcam::scenes {
 using ImpactFields = std::vector<std::pair<std::string, std::optional<double>>>;  // in the order of the file
 
 struct MotionRecord {
-    output::NamedTable table;
+    output::ColumnTable table;
     std::vector<ImpactFields> impacts;
 };
 

@@ -92,7 +92,7 @@ double natural_size(const std::string& column, const sim::Problem& problem) {
 
 class SweepComparer {
   public:
-    SweepComparer(const output::NamedTable& expected, const output::NamedTable& actual, const Tolerance& tolerance,
+    SweepComparer(const output::ColumnTable& expected, const output::ColumnTable& actual, const Tolerance& tolerance,
                   const sim::Problem& problem)
         : a_(expected), b_(actual), tolerance_(*tolerance.motion) {
         for (std::size_t c = 0; c < a_.values().size(); ++c)
@@ -273,12 +273,12 @@ class SweepComparer {
 
 }  // namespace
 
-MotionVerdict compare_sweeps(const output::NamedTable& expected, const output::NamedTable& actual,
+MotionVerdict compare_sweeps(const output::ColumnTable& expected, const output::ColumnTable& actual,
                              const Tolerance& tolerance, const sim::Problem& problem) {
     return SweepComparer(expected, actual, tolerance, problem).compare();
 }
 
-std::vector<std::size_t> points_that_differ(const output::NamedTable& expected, const output::NamedTable& actual,
+std::vector<std::size_t> points_that_differ(const output::ColumnTable& expected, const output::ColumnTable& actual,
                                             const Tolerance& tolerance, const sim::Problem& problem) {
     return SweepComparer(expected, actual, tolerance, problem).differing();
 }

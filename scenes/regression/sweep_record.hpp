@@ -21,11 +21,11 @@ inline constexpr const char* kSweepRecord = "sweep.npz";
 //
 // Points that go over the top are compared by their class only, unsettled points not at all. Up to half as many points
 // may change their class: where some points lie on a border between classes, others do.
-MotionVerdict compare_sweeps(const output::NamedTable& expected, const output::NamedTable& actual,
+MotionVerdict compare_sweeps(const output::ColumnTable& expected, const output::ColumnTable& actual,
                              const Tolerance& tolerance, const sim::Problem& problem);
 
 // The numbers of the points that differ; of two sweeps over the same values.
-std::vector<std::size_t> points_that_differ(const output::NamedTable& expected, const output::NamedTable& actual,
+std::vector<std::size_t> points_that_differ(const output::ColumnTable& expected, const output::ColumnTable& actual,
                                             const Tolerance& tolerance, const sim::Problem& problem);
 
 }  // namespace beamcam::scenes

@@ -6,7 +6,7 @@
 
 namespace beamcam::scenes {
 
-SweepTable::SweepTable(const output::NamedTable& table) : table_(table), t_(column("t")), kinds_(column("class")) {
+SweepTable::SweepTable(const output::ColumnTable& table) : table_(table), t_(column("t")), kinds_(column("class")) {
     const std::vector<double>& sample = column("sample");
     for (std::size_t row = 0; row < sample.size(); ++row) {
         if (points_.empty() || !(sample[row] > 0)) points_.push_back({row, row});
@@ -14,8 +14,9 @@ SweepTable::SweepTable(const output::NamedTable& table) : table_(table), t_(colu
         if (!(kinds_[row] >= 0 && kinds_[row] < double(sim::names(sim::AttractorClass()).size())))
             throw output::IoError(fmt::format("the record of the sweep is damaged: there is no class {}", kinds_[row]));
     }
-    axes_.assign(table.names.begin(), std::ranges::find(table.names, "seed"));
-    for (auto name = std::ranges::find(table.names, "sample") + 1; name != table.names.end(); ++name)
+    const std::vector<std::string> names = table.names();
+    axes_.assign(names.begin(), std::ranges::find(names, "seed"));
+    for (auto name = std::ranges::find(names, "sample") + 1; name != names.end(); ++name)
         if (*name != "t" && *name != "cam_angle") values_.push_back(*name), columns_.emplace_back(column(*name));
 }
 
@@ -27,10 +28,10 @@ std::string SweepTable::place(const PointRows& point) const {
 
 bool SweepTable::same_rows(const PointRows& own, const SweepTable& other, const PointRows& its) const {
     if (own.size() != its.size()) return false;
-    return std::ranges::all_of(table_.names, [&](const std::string& name) {
+    return std::ranges::all_of(table_.columns, [&](const output::TableColumn& each) {
         const std::size_t rows = std::max<std::size_t>(own.size(), 1);
-        return std::ranges::equal(SweepColumn(column(name)).subspan(own.begin, rows),
-                                  SweepColumn(other.column(name)).subspan(its.begin, rows), same_number);
+        return std::ranges::equal(SweepColumn(each.values).subspan(own.begin, rows),
+                                  SweepColumn(other.column(each.name)).subspan(its.begin, rows), same_number);
     });
 }
 

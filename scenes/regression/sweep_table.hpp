@@ -24,7 +24,7 @@ struct PointRows {
 class SweepTable {
   public:
     // Throws IoError if the table is not that of a sweep. The table must outlive it.
-    explicit SweepTable(const output::NamedTable& table);
+    explicit SweepTable(const output::ColumnTable& table);
 
     const std::vector<PointRows>& points() const { return points_; }
     // Columns of the samples, without those that grow with time.
@@ -44,7 +44,7 @@ class SweepTable {
   private:
     const std::vector<double>& column(const std::string& name) const;
 
-    const output::NamedTable& table_;
+    const output::ColumnTable& table_;
     const SweepColumn t_, kinds_;
     std::vector<PointRows> points_;
     std::vector<std::string> axes_, values_;

@@ -36,7 +36,7 @@ std::string text_of_sample(const sim::Sampling& sampling) {
 
 static void resolve_table(SweptKey& over) {
     if (over.file.empty()) return;
-    const output::NamedTable table = output::read_table(over.file);
+    const output::ColumnTable table = output::read_table(over.file);
     const std::vector<double>* column = table.find(over.column);
     if (!column) throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
     over.values = *column;

@@ -264,14 +264,14 @@ TEST(TableReader, BothFormatsGiveTheSameBitsBack) {
     const sim::Table table = small_table();
     for (const char* name : {"a.csv", "a.npz"}) {
         write_table(scratch / name, table);
-        const NamedTable read = read_table(scratch / name);
-        EXPECT_EQ(read.names, (std::vector<std::string>{"t", "theta", "gap"}));
+        const ColumnTable read = read_table(scratch / name);
+        EXPECT_EQ(read.names(), (std::vector<std::string>{"t", "theta", "gap"}));
         for (std::size_t c = 0; c < 3; ++c)
             for (std::size_t r = 0; r < 3; ++r)
                 if (std::isnan(table.values[c][r]))
-                    EXPECT_TRUE(std::isnan(read.columns[c][r]));
+                    EXPECT_TRUE(std::isnan(read.columns[c].values[r]));
                 else
-                    EXPECT_EQ(read.columns[c][r], table.values[c][r]) << name << " " << c << " " << r;
+                    EXPECT_EQ(read.columns[c].values[r], table.values[c][r]) << name << " " << c << " " << r;
     }
 }
 
@@ -281,10 +281,10 @@ TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
         "cd " + in_shell(scratch.path()) +
         " && /usr/bin/python3 -c \"import numpy as n; n.savez_compressed('a.npz', t=n.arange(3.), k=n.arange(3)); "
         "n.savetxt('a.csv', n.ones((2, 2)), header='t,x', delimiter=',')\"");
-    const NamedTable npz = read_table(scratch / "a.npz"), csv = read_table(scratch / "a.csv");
+    const ColumnTable npz = read_table(scratch / "a.npz"), csv = read_table(scratch / "a.csv");
     EXPECT_EQ(*npz.find("k"), (std::vector<double>{0, 1, 2}));
     EXPECT_EQ(*csv.find("x"), (std::vector<double>{1, 1}));
-    const NamedTable excel = parse_csv("\xEF\xBB\xBF\"t\", x\r\n1,+2\r\n3,\r\n", "e.csv");
+    const ColumnTable excel = parse_csv("\xEF\xBB\xBF\"t\", x\r\n1,+2\r\n3,\r\n", "e.csv");
     EXPECT_EQ(*excel.find("t"), (std::vector<double>{1, 3}));
     EXPECT_EQ(excel.find("x")->front(), 2);
     EXPECT_TRUE(std::isnan(excel.find("x")->back()));
@@ -292,7 +292,8 @@ TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
 
 // A class by its number, and an exponent of −∞.
 TEST(TableReader, ReadsTheTablesOfSweeps) {
-    const NamedTable table = parse_csv("cam.speed,class,exponent\n1,following,-inf\n2,periodic,-3\n3,rest,\n", "r.csv");
+    const ColumnTable table =
+        parse_csv("cam.speed,class,exponent\n1,following,-inf\n2,periodic,-3\n3,rest,\n", "r.csv");
     EXPECT_EQ(*table.find("class"), (std::vector<double>{1, 2, 0}));
     EXPECT_EQ((*table.find("exponent"))[0], -std::numeric_limits<double>::infinity());
     EXPECT_TRUE(std::isnan((*table.find("exponent"))[2]));

@@ -78,15 +78,16 @@ TEST(SweepData, ReadsBackFromNetcdfWithTheGapsOfAPart) {
 
 TEST(SweepData, HasTheRowsOfItsFilesAsATable) {
     const Scratch scratch;
-    const NamedTable own = table_of(grid(7));
+    const ColumnTable own = table_of(grid(7));
     write_sweep(scratch / "a.npz", grid(7));
-    const NamedTable read = read_table(scratch / "a.npz");
-    EXPECT_EQ(own.names, read.names);
+    const ColumnTable read = read_table(scratch / "a.npz");
+    EXPECT_EQ(own.names(), read.names());
     ASSERT_EQ(own.rows(), read.rows());
-    for (std::size_t c = 0; c < own.names.size(); ++c)
+    for (std::size_t c = 0; c < own.columns.size(); ++c)
         for (std::size_t row = 0; row < own.rows(); ++row)
-            EXPECT_TRUE(own.columns[c][row] == read.columns[c][row] || std::isnan(read.columns[c][row]))
-                << own.names[c];
+            EXPECT_TRUE(own.columns[c].values[row] == read.columns[c].values[row] ||
+                        std::isnan(read.columns[c].values[row]))
+                << own.columns[c].name;
     EXPECT_EQ(own.find("class")->at(1), 1);
     EXPECT_TRUE(std::isnan(own.find("sample")->front()));
 }

@@ -134,7 +134,9 @@ TEST(PictureDifference, OfTwoSizesIsABug) {
 
 // ---- tables --------------------------------------------------------------------------------------
 
-NamedTable table(std::vector<double> t, std::vector<double> x) { return {{"t", "x"}, {std::move(t), std::move(x)}}; }
+ColumnTable table(std::vector<double> t, std::vector<double> x) {
+    return {{{"t", {}, {}, std::move(t)}, {"x", {}, {}, std::move(x)}}};
+}
 
 TEST(TableDifference, FindsWhereAColumnDiffersMostAndHowMuchOfItsRange) {
     const TableDifference d = difference(table({0, 1, 2}, {0, 4, 2}), table({0, 1, 2}, {0, 4.5, 2.1}));
@@ -168,17 +170,19 @@ TEST(TableDifference, AnEmptyCellIsNoNumber) {
 
 TEST(TableDifference, RowsWithoutAnInstantBelongTogetherByTheirOrder) {
     const double inf = std::numeric_limits<double>::infinity();
-    const NamedTable some = table({1, NAN, 0.5, NAN, inf, -inf, 0}, {1, 2, 3, 4, 5, 6, 7});
+    const ColumnTable some = table({1, NAN, 0.5, NAN, inf, -inf, 0}, {1, 2, 3, 4, 5, 6, 7});
     EXPECT_TRUE(difference(some, some).identical());
     EXPECT_EQ(difference(some, some).rows_compared, 7u);
     EXPECT_EQ(difference(some, table({1, NAN, 0.5, NAN, inf, -inf, 0}, {1, 2, 3, 9, 5, 6, 7})).columns[1].largest, 5);
     EXPECT_FALSE(difference(some, table({1, NAN, 0.5, 2, inf, -inf, 0}, {1, 2, 3, 4, 5, 6, 7})).same_shape());
-    const NamedTable none = table({NAN, NAN, NAN}, {1, 2, 3});
+    const ColumnTable none = table({NAN, NAN, NAN}, {1, 2, 3});
     EXPECT_TRUE(difference(none, none).identical());
 }
 
 TEST(TableDifference, MissingColumnsAreTold) {
-    const TableDifference d = difference({{"t", "x"}, {{0}, {1}}}, {{"t", "y"}, {{0}, {1}}});
+    ColumnTable other = table({0}, {1});
+    other.columns[1].name = "y";
+    const TableDifference d = difference(table({0}, {1}), other);
     EXPECT_EQ(d.only_in_a, std::vector<std::string>{"x"});
     EXPECT_EQ(d.only_in_b, std::vector<std::string>{"y"});
     EXPECT_FALSE(d.within(1));

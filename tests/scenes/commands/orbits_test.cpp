@@ -90,10 +90,11 @@ TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     EXPECT_EQ(points[0]["multipliers"].size(), 2u);
     EXPECT_THAT(testing::slurp((folder / "b.csv").string()), StartsWith("branch,point,value,period,stable,"));
     // The table is the same in every format, a row for each point with its one impact.
-    const output::NamedTable csv = output::read_table(folder / "b.csv"), npz = output::read_table(folder / "b.npz");
+    const output::ColumnTable csv = output::read_table(folder / "b.csv"), npz = output::read_table(folder / "b.npz");
     ASSERT_EQ(csv.rows(), points.size());
-    EXPECT_EQ(csv.names, npz.names);
-    for (std::size_t c = 0; c < csv.columns.size(); ++c) EXPECT_EQ(csv.columns[c], npz.columns[c]) << csv.names[c];
+    EXPECT_EQ(csv.names(), npz.names());
+    for (std::size_t c = 0; c < csv.columns.size(); ++c)
+        EXPECT_EQ(csv.columns[c].values, npz.columns[c].values) << csv.columns[c].name;
     for (std::size_t i = 0; i < csv.rows(); ++i) EXPECT_EQ((*csv.find("value"))[i], points[i]["value"]);
     const Finished dump = shell(folder, "ncdump -h b.nc");
     if (dump.code != 127) {
@@ -145,7 +146,7 @@ TEST(OrbitsCommand, BeginsInTheStateOfARowOfASweep) {
     // A plain number is turns of the cam, as of sweeps.
     EXPECT_EQ(first("--transient '75 turns' --sweep r.csv --row 6"), first("--transient 75 --sweep r.csv --row 6"));
     EXPECT_NEAR(found["duration"], 2 * std::numbers::pi / 46, 1e-12);
-    const output::NamedTable rows = output::read_table(folder / "r.csv");
+    const output::ColumnTable rows = output::read_table(folder / "r.csv");
     EXPECT_NEAR(found["touches"][0]["approach"], -(*rows.find("v_n_before"))[5], 1e-6);
     EXPECT_EQ(shell(folder, search + "--sweep r.csv --row 1000").code, 2);
     EXPECT_EQ(shell(folder, search + "--row 1").code, 2);

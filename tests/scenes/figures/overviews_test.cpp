@@ -369,7 +369,8 @@ TEST(Exports, ShapesEndWithTheTipsDeflection) {
         const Finished made = shell(folder, "$BEAMCAM simulate s.json --rate 10 --shapes " + file + " -q && " +
                                                 "$BEAMCAM simulate s.json --rate 10 --channels tip_deflection > t.csv");
         ASSERT_EQ(made.code, 0) << made.err;
-        const output::NamedTable shapes = output::read_table(folder / file), tip = output::read_table(folder / "t.csv");
+        const output::ColumnTable shapes = output::read_table(folder / file),
+                                  tip = output::read_table(folder / "t.csv");
         ASSERT_EQ(shapes.rows(), 4 * 33u);
         for (std::size_t k = 0; k < 4; ++k) {
             EXPECT_EQ((*shapes.find("x"))[33 * k + 32], 1);
@@ -413,7 +414,7 @@ TEST(Exports, ImpactsCarryTheirStates) {
     const Folder folder;
     folder.write("s.json", R"({"time": {"end": 0.4}})");
     ASSERT_EQ(shell(folder, "$BEAMCAM simulate s.json --impacts i.csv -q").code, 0);
-    const output::NamedTable impacts = output::read_table(folder / "i.csv");
+    const output::ColumnTable impacts = output::read_table(folder / "i.csv");
     ASSERT_GE(impacts.rows(), 1u);
     const auto at = [&](const char* name) { return impacts.find(name)->front(); };
     const Reading reading = testing::read(R"({"time": {"end": 0.4}})");
@@ -440,7 +441,7 @@ TEST(Exports, ShapesAreThoseOfTheRequestedInstants) {
     const Finished made = shell(folder, "$BEAMCAM simulate s.json --shapes v.csv --times 0.2,0.1");
     ASSERT_EQ(made.code, 0) << made.err;
     EXPECT_EQ(made.out, "");
-    const output::NamedTable shapes = output::read_table(folder / "v.csv");
+    const output::ColumnTable shapes = output::read_table(folder / "v.csv");
     ASSERT_EQ(shapes.rows(), 2 * 33u);
     EXPECT_EQ(shapes.find("t")->front(), 0.2);
     EXPECT_EQ(shapes.find("t")->back(), 0.1);

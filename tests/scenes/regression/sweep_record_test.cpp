@@ -18,17 +18,17 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 enum Kind { kPeriodic = 2, kChaotic = 4, kOverTheTop = 6, kUnsettled = 7 };
 
 // A sweep over "a" as it is written: v is the column of its samples.
-struct Table : output::NamedTable {
+struct Table : output::ColumnTable {
     Table() {
-        names = {"a",        "seed",           "class",  "period", "impacts_per_period",
-                 "exponent", "exponent_error", "sample", "t",      "v"};
-        columns.resize(names.size());
+        for (const char* name :
+             {"a", "seed", "class", "period", "impacts_per_period", "exponent", "exponent_error", "sample", "t", "v"})
+            columns.push_back({name});
     }
     void point(double a, Kind kind, double period, double exponent, double error,
                const std::vector<std::pair<double, double>>& samples) {
         const auto row = [&](double number, double t, double v) {
             const double values[] = {a, 0, double(kind), period, 1, exponent, error, number, t, v};
-            for (std::size_t c = 0; c < columns.size(); ++c) columns[c].push_back(values[c]);
+            for (std::size_t c = 0; c < columns.size(); ++c) columns[c].values.push_back(values[c]);
         };
         for (std::size_t i = 0; i < samples.size(); ++i) row(double(i), samples[i].first, samples[i].second);
         if (samples.empty()) row(kNone, kNone, kNone);
@@ -71,7 +71,7 @@ TEST(SweepRecord, AnOrbitSmallerThanErrorsOfTheSolverDoesNotMeasureThem) {
         Table a, b;
         a.point(1, kPeriodic, 1, kNone, kNone, {{0, 1e-7}, {1, 2e-7}});
         b.point(1, kPeriodic, 1, kNone, kNone, {{0, 1e-7 + moved}, {1, 2e-7}});
-        for (Table* table : {&a, &b}) table->names.back() = "theta_dot";
+        for (Table* table : {&a, &b}) table->columns.back().name = "theta_dot";
         return judge(a, b).verdict;
     };
     EXPECT_EQ(judge_rates(3e-10), Verdict::equivalent);
@@ -138,10 +138,10 @@ TEST(SweepRecord, OtherValuesAndDamageAreReported) {
     EXPECT_THAT(judge(a, b).lines, ElementsAre("it is another sweep: a = 2, seed 0 is where a = 1, seed 0 was"));
     EXPECT_THAT(judge(a, Table()).lines, ElementsAre(HasSubstr("0 points of 1 column, expected 1 of 1")));
     for (const double kind : {-1.0, 8.0, kNone}) {
-        b.columns[2][0] = kind;
+        b.columns[2].values[0] = kind;
         EXPECT_THROW(judge(a, b), output::IoError) << kind;
     }
-    b.names[7] = "sample?";
+    b.columns[7].name = "sample?";
     EXPECT_THROW(judge(a, b), output::IoError);
 }
 

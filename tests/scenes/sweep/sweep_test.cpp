@@ -137,17 +137,18 @@ TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
     Folder folder;
     folder.write("s.json", kSweptScene);
     ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv -q && $BEAMCAM sweep s.json -o a.npz -q").code, 0);
-    const output::NamedTable table = output::read_table(folder / "a.npz");
+    const output::ColumnTable table = output::read_table(folder / "a.npz");
     const auto rows = rows_of(slurp(folder / "a.csv"));
     ASSERT_EQ(table.rows(), rows.size() - 1);
-    ASSERT_EQ(table.names.size(), rows[0].size());
-    for (std::size_t c = 0; c < table.names.size(); ++c) {
-        EXPECT_EQ(table.names[c], rows[0][c]);
-        if (table.names[c] == "class") continue;
+    ASSERT_EQ(table.columns.size(), rows[0].size());
+    for (std::size_t c = 0; c < table.columns.size(); ++c) {
+        EXPECT_EQ(table.columns[c].name, rows[0][c]);
+        if (table.columns[c].name == "class") continue;
         for (std::size_t row = 0; row < table.rows(); ++row) {
-            const double value = table.columns[c][row];
+            const double value = table.columns[c].values[row];
             const std::string& cell = rows[row + 1][c];
-            ASSERT_TRUE(cell.empty() ? std::isnan(value) : value == std::stod(cell)) << table.names[c] << " " << row;
+            ASSERT_TRUE(cell.empty() ? std::isnan(value) : value == std::stod(cell))
+                << table.columns[c].name << " " << row;
         }
     }
 }
