@@ -73,6 +73,9 @@ void visit_still(SceneVisitor& v, PictureOutput& p) {
                " For a line drawing for print use the figure \"strobe\" with \"at\".");
     visit_picture(v, p);
     v.value(required("at", "\"370 ms\""), instant_format(p.at), "The instant of the picture.");
+    v.check([&p](ObjectReader& r) {
+        if (p.at.kind == Instant::Kind::time) warn_after_end(r, "at", p.at.t);
+    });
 }
 
 // A page or a model.

@@ -154,12 +154,25 @@ TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
     folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "at": 0, "size": [96, 96],
         "view": {"style": "flat"}}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at apex:3").err,
-                HasSubstr("apex 3 does not occur: the motion has 0 of them until 0.1 s"));
+                HasSubstr("apex 3 does not occur: the motion has 0 of them until 0.1 s; a larger time.end"));
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x-##.png --from release --to last").err,
                 HasSubstr("release 1 does not occur: the motion has 0"));
     const Finished wrong = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:0");
     EXPECT_EQ(wrong.code, 2);
     EXPECT_THAT(wrong.err, HasSubstr("events are counted from 1"));
+}
+
+// A time may be after the end of the scene, which extends the motion; a slip of the unit is then noticed.
+TEST(Films, ATimeAfterTheEndOfTheSceneIsAWarning) {
+    const auto warnings_of = [](const std::string& outputs) {
+        return testing::read(R"({"time": {"end": 0.1}, "outputs": [)" + outputs + "]}").report();
+    };
+    const char* late = " = 0.2 s is after the end of the scene, time.end = 0.1 s: the motion is computed until then";
+    for (const char* output : {R"({"type": "still", "at": 0.2})", R"({"type": "video", "file": "a.gif", "to": 0.2})",
+                               R"({"type": "figure", "figure": "kymograph", "to": 0.2})",
+                               R"({"type": "figure", "figure": "strobe", "at": 0.2})"})
+        EXPECT_THAT(warnings_of(output), HasSubstr(late)) << output;
+    EXPECT_EQ(warnings_of(R"({"type": "still", "at": 0.1}, {"type": "video", "to": 0.1})"), "");
 }
 
 // The default motion touches at 0.277 s (impact 1) and again from 0.768 s (collision 2).
