@@ -22,6 +22,7 @@ struct Box {
     constexpr bool overlaps(const Box& o) const {
         return x < o.right() && o.x < right() && y < o.bottom() && o.y < bottom();
     }
+    constexpr Vec2 nearest(Vec2 p) const { return {std::clamp(p.x, x, right()), std::clamp(p.y, y, bottom())}; }
     constexpr Box inset(double d) const { return {x + d, y + d, w - 2 * d, h - 2 * d}; }
     constexpr bool operator==(const Box&) const = default;
 };

@@ -11,6 +11,9 @@ namespace {
 
 constexpr double kSameEpisode = 0.5;         // longest time without a force during which its label keeps its place [s]
 constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
+// Beyond it a line that follows the arrow would sweep the picture [design px].
+constexpr double kFarthestArrow = 320;
+constexpr double kSample = 44, kSampleGap = 12;  // length of a sample, and its distance from the text [design px]
 
 }  // namespace
 
@@ -60,6 +63,24 @@ static std::vector<double> largest_of_episodes(const LabelNeeds& needs, double m
     return out;
 }
 
+// The end of a leader line from this box: of foot and tip the nearer one, so that the line crosses no arrow.
+static Vec2 leader_end(const MechanismView& at, const Perspective* view, const Box& label, const ForceArrow& arrow) {
+    const Vec2 foot = at.seen(at.px(arrow.foot), view), tip = arrow_tip(at, view, arrow), middle = label.centre();
+    return norm(tip - middle) <= norm(foot - middle) ? tip : foot;
+}
+
+// The largest distance of an arrow from the label at its usual place [px].
+static double farthest_arrow(const MechanismView& at, const Perspective* view, const LabelPlace& label,
+                             const LabelNeeds& needs) {
+    const Box box = at.label_box(label, view);
+    double out = 0;
+    for (const ForceArrow& arrow : needs.arrows) {
+        const Vec2 end = leader_end(at, view, box, arrow);
+        out = std::max(out, norm(end - box.nearest(end)));
+    }
+    return out;
+}
+
 static std::vector<Box> along(const SeenFrame& now, const ForceArrow& arrow) {
     constexpr int kPieces = 16;
     const Vec2 foot = now.at.seen(now.at.px(arrow.foot), now.by()), way = arrow_tip(now.at, now.by(), arrow) - foot;
@@ -98,10 +119,15 @@ LabelPlace place_force_label(const MechanismView& at, const MechanismCameras& ca
     measure(most);
     const std::size_t step = 1 + needs.arrows.size() / kMeasuredPushes;
     for (std::size_t i = 0; i < needs.arrows.size(); i += step) measure(needs.arrows[i]);
-    const Vec2 size{width, label_size(at) * 4 / 3};
     const std::optional<Perspective> usual = cameras.usual();
     const Perspective* view = usual ? &*usual : nullptr;
-    LabelPlace out = placed_near(at, view, room, beside_tip(at, view, most, size), at.px(most.foot));
+    const auto place = [&](double wide) {
+        const Vec2 size{wide, label_size(at) * 4 / 3};
+        return placed_near(at, view, room, beside_tip(at, view, most, size), at.px(most.foot));
+    };
+    LabelPlace out = place(width);
+    if (!cameras.move() && farthest_arrow(at, view, out, needs) > kFarthestArrow * at.unit)
+        out = place(width + (kSample + kSampleGap) * at.unit), out.has_sample = true;
     if (cameras.move())
         keep_beside_tip(out, cameras, needs, at.context.setup->fps);
     else
@@ -135,23 +161,34 @@ Vec2 arrow_tip(const MechanismView& at, const Perspective* view, const ForceArro
 void draw_force_leader(const MechanismScene& s) {
     if (!s.arrow || !names_force(s)) return;
     const LabelPlace& label = *s.at.labels->force;
-    const Vec2 middle = s.label_box(label, s.arrow->foot).centre(), foot = s.px(s.arrow->foot);
-    const Vec2 tip = arrow_tip(s.at, s.view, *s.arrow);
-    const Vec2 end = norm(tip - middle) <= norm(foot - middle) ? tip : foot;  // so that the line crosses no arrow
-    draw_leader(s, label, s.at.palette.contact, end, s.arrow->foot);
+    if (label.has_sample) return;
+    draw_leader(s, label, s.at.palette.contact, leader_end(s.at, s.view, s.label_box(label, s.arrow->foot), *s.arrow),
+                s.arrow->foot, {kFarLabel, kFarthestArrow});
+}
+
+static void draw_arrow(Canvas& canvas, Vec2 foot, Vec2 tip, double length, Color color, double marks) {
+    canvas.circle(foot, 5 * marks);
+    canvas.fill(color);
+    // A force too small for an arrow is shown by the dot and the number.
+    if (length > 7 * marks) canvas.arrow(foot, tip, {color, 4 * marks}, {std::min(19 * marks, 0.7 * length)});
 }
 
 void draw_force(const MechanismScene& s) {
     if (!s.arrow) return;
     const ForceArrow& arrow = *s.arrow;
     const Vec2 foot = s.px(arrow.foot), tip = arrow_tip(s.at, s.view, arrow);
-    s.canvas.circle(foot, 5 * s.at.marks);
-    s.canvas.fill(s.at.palette.contact);
-    // A force too small for an arrow is shown by the dot and the number.
     const double length = s.at.moved ? norm(tip - foot) : arrow_length(s.at, arrow);
-    if (length > 7 * s.at.marks)
-        s.canvas.arrow(foot, tip, {s.at.palette.contact, 4 * s.at.marks}, {std::min(19 * s.at.marks, 0.7 * length)});
-    if (names_force(s)) draw_label(s, *s.at.labels->force, force_label(s.at, arrow), force_style(s.at), arrow.foot);
+    draw_arrow(s.canvas, foot, tip, length, s.at.palette.contact, s.at.marks);
+    if (!names_force(s)) return;
+    const LabelPlace& label = *s.at.labels->force;
+    const double u = s.at.unit, sample = label.has_sample ? kSample * u : 0;
+    if (const double opacity = label.opacity_at(s.frame); label.has_sample && opacity > 0) {
+        const Box box = s.label_box(label, arrow.foot);
+        const Vec2 from{box.x + 5 * s.at.marks, box.centre().y};
+        draw_arrow(s.canvas, from, {box.x + sample, from.y}, sample, s.at.palette.contact.faded(opacity), s.at.marks);
+    }
+    draw_label(s, label, force_label(s.at, arrow), force_style(s.at), arrow.foot,
+               sample > 0 ? sample + kSampleGap * u : 0);
 }
 
 }  // namespace beamcam::render

@@ -1,6 +1,7 @@
 // Places of the labels of a mechanism. Each label keeps one place over the whole film: the nearest to its owner that no
-// moving part ever meets. A label far from its owner gets a leader line. A label without a free place, or an angle's
-// without one near its arc, fades out while a part moves through it.
+// moving part ever meets. A label far from its owner gets a leader line, that of forces that are very far a sample of
+// their arrow. A label without a free place, or an angle's without one near its arc, fades out while a part moves
+// through it.
 #pragma once
 
 #include <numbers>
@@ -32,6 +33,7 @@ struct LabelPlace {
     Vec2 offset, size;           // of its middle from the base as seen, whatever the zoom [px]
     std::vector<float> opacity;  // of each frame; empty: always 1
     std::vector<Vec2> shifts;    // of each frame, from that offset, before a moving camera; empty: none [px]
+    bool has_sample = false;     // it begins with a sample of its arrow
 
     double opacity_at(int frame) const { return opacity.empty() ? 1 : opacity[static_cast<std::size_t>(frame)]; }
     Vec2 offset_at(int frame) const {

@@ -11,21 +11,22 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr double kFarLetter = 26;       // distance from which θ has a leader line [design px]
-constexpr double kLongestLeader = 200;  // a longer one would only cross the picture [design px]
+constexpr double kFarLetter = 26;  // distance from which θ has a leader line [design px]
+constexpr double kFadeIn = 0.2;    // a leader line fades in over this share of its least length
 
 }  // namespace
 
-void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base, double far) {
-    const Box box = s.label_box(label, base);
-    const Vec2 edge{std::clamp(owner.x, box.x, box.right()), std::clamp(owner.y, box.y, box.bottom())};
-    const double way = norm(owner - edge), opacity = label.opacity_at(s.frame);
-    if (opacity <= 0 || way <= far * s.at.unit || way > kLongestLeader * s.at.unit) return;
-    const Vec2 gap = (owner - edge) * (6 * s.at.unit / way);
+void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base, Range lengths) {
+    const Vec2 edge = s.label_box(label, base).nearest(owner);
+    const double way = norm(owner - edge) / s.at.unit;
+    const double opacity = label.opacity_at(s.frame) * std::min(1.0, (way / lengths.low - 1) / kFadeIn);
+    if (opacity <= 0 || way > lengths.high) return;
+    const Vec2 gap = (owner - edge) * (6 / way);
     s.canvas.line(edge + gap, owner - gap, {color.faded(0.6 * opacity), 1.2 * s.at.unit});
 }
 
-void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base) {
+void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base,
+                double indent) {
     const double opacity = label.opacity_at(s.frame);
     const Box box = s.label_box(label, base);
     if (opacity <= 0) return;
@@ -33,7 +34,7 @@ void draw_label(const MechanismScene& s, const LabelPlace& label, const std::str
     // In the solid view a halo over soft shadows would glow; a near camera needs it.
     if (!s.view || s.at.moved) style.halo = s.at.palette.paper.faded(opacity);
     const double left = style.align == HAlign::centre ? box.centre().x : box.x;
-    s.canvas.text({left, box.centre().y + 0.32 * style.size}, text, style);
+    s.canvas.text({left + indent, box.centre().y + 0.32 * style.size}, text, style);
     if (s.labels) s.labels->push_back(box);
 }
 
@@ -121,7 +122,7 @@ void draw_angle_arc(const MechanismScene& s) {
         const std::vector<Vec2> arc = angle_arc(s.at, s.at.labels->arc_radius, s.pose);
         owner = s.on(*std::ranges::min_element(arc, {}, [&](Vec2 p) { return norm(s.on(p) - middle); }));
     }
-    draw_leader(s, label, s.at.palette.muted, owner, label.base, kFarLetter);
+    draw_leader(s, label, s.at.palette.muted, owner, label.base, {kFarLetter, kLongestLeader});
     draw_label(s, label, "$θ$", {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
                label.base);
 }

@@ -214,6 +214,26 @@ TEST(MechanismLabels, TheArrowOfTheSpeedIsClearWhereThereIsAPlace) {
     }
 }
 
+// A line to an arrow that moves far away would appear and disappear, or sweep the picture: in such a film the label of
+// the force begins with a sample of the arrow.
+TEST(MechanismLabels, TheForceHasASampleOfAnArrowThatMovesFarAway) {
+    const FilmContext context(std::make_shared<const FilmSetup>(test::flat_film({.duration = 0.1}, 1280, 720)));
+    const MechanismView at(context, *context.places.first(PanelKind::mechanism));
+    const MechanismCameras cameras(at);
+    const auto label_with = [&](const std::vector<ForceArrow>& arrows) {
+        SweptRegion swept(at, OccupancyGrid(at.box, 2), {}), in_contact = swept;
+        LabelNeeds needs;
+        needs.arrows = arrows;
+        return *place_labels(at, cameras, needs, swept, in_contact).force;
+    };
+    const ForceArrow struck{{0.25, 0.1}, {-0.3, 0.95}, context.arrow_scale}, carried{{0.24, 0.16}, {-0.6, 0.8}, 1},
+        far{{0.25 + 600 * at.unit / at.look.camera.scale, 0.1}, {0, 1}, 1};
+    const LabelPlace near = label_with({struck, carried}), sampled = label_with({struck, far});
+    EXPECT_FALSE(near.has_sample);
+    EXPECT_TRUE(sampled.has_sample);
+    EXPECT_GT(sampled.size.x, near.size.x + 30 * at.unit);
+}
+
 // A near camera shows the whole arrow of a force whose foot is in its view, and a shorter one at the edge.
 TEST(MechanismLabels, ArrowsEndInTheViewOfANearCamera) {
     FilmSetup setup = film_in(Style::flat);
