@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "render/film/force_curve.hpp"
 #include "render/plot/channel_label.hpp"
@@ -14,7 +15,9 @@ namespace {
 using sim::Channel;
 using sim::ChannelKind;
 
-constexpr double kPaleShare = 0.5;  // of a curve's colour where the motion is not reproducible
+constexpr double kPaleShare = 0.5;     // of a curve's colour where the motion is not reproducible
+constexpr double kSingleDot = 0.02;    // of the panel's time: dots within it are one dot
+constexpr double kSingleShare = 0.45;  // of the colour of the past that a single dot of the future has
 
 std::string symbol_of(Channel channel) {
     const ChannelLabel& label = label_of(channel.kind);
@@ -93,32 +96,51 @@ Color curve_color(const FilmContext& context, Channel channel, std::size_t i, in
     return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
 }
 
+// Single dots are too small to be seen in the pale colour of the future: if the motion's dots, from `first` on in the
+// order of time, nowhere form a line, they get a stronger one.
+void strengthen_single(const FilmContext& context, int member, ChartContent& c, std::size_t first) {
+    const std::span dots = std::span(c.panel.dots).subspan(first);
+    const double gap = kSingleDot * (c.time().high - c.time().low);
+    for (std::size_t begin = 0, i = 1; i < dots.size(); ++i) {
+        if (dots[i].x - dots[i - 1].x >= gap) begin = i;
+        if (dots[i].x - dots[begin].x > gap) return;
+    }
+    const Palette& p = *context.palette;
+    const Color strong = p.tint(context.members() > 1 ? context.member_color(member) : p.contact, kSingleShare);
+    for (figure::Dot& dot : dots) dot.faint = strong;
+}
+
 // The places of impulsive impacts, which last no time and have no force that could color them.
 void add_impulses(const FilmContext& context, int member, const Range& shown, ChartContent& c, Extent& places) {
     if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
     const Palette& p = *context.palette;
     const Color color = context.members() > 1 ? context.member_color(member) : p.contact;
+    const std::size_t first = c.panel.dots.size();
     for (const sim::Impact& impact : context.motion(member).impacts) {
         if (impact.t_start < c.time().low || impact.t_start > c.time().high) continue;
         if (impact.t_start >= shown.low && impact.t_start <= shown.high) places.add({&impact.x, 1});
         c.panel.dots.push_back({impact.t_start, impact.x, color, p.tint(color, 0.25)});
     }
+    strengthen_single(context, member, c, first);
 }
 
 // The places of contact as dots; returns the range of those that are shown.
 Range add_places(const FilmContext& context, const Range& shown, ChartContent& c) {
     Extent places;
-    for (int m = 0; m < context.members(); ++m)
+    const Palette& p = *context.palette;
+    for (int m = 0; m < context.members(); ++m) {
+        const std::size_t first = c.panel.dots.size();
         for (const TraceSample& s : context.samples[static_cast<std::size_t>(m)]) {
             if (s.t >= shown.low && s.t <= shown.high) places.add({&s.x, 1});
             if (s.t < c.time().low || s.t > c.time().high) continue;
-            const Palette& p = *context.palette;
             Color color = context.members() > 1 ? context.member_color(m)
                                                 : force_color(p, std::sqrt(s.force / context.force_scale));
             const Color faint = context.members() > 1 ? p.tint(color, 0.25) : p.tint(p.contact_faint, 0.9);
             if (!context.motion(m).is_reliable(s.t)) color = p.tint(color, kPaleShare);
             c.panel.dots.push_back({s.t, s.x, color, faint});
         }
+        strengthen_single(context, m, c, first);
+    }
     for (int m = 0; m < context.members(); ++m) add_impulses(context, m, shown, c, places);
     const double length = context.setup->problem.beam.length;
     const double around = std::max(0.05 * (places.high - places.low), 2e-4 * length);
