@@ -54,7 +54,8 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         studies.may_fail(run.study);
         studies.stop_after(run.study, {.collisions = kSearchedCollisions});
     }
-    return [runs, lang = how.lang, problem = scene.problem, end = scene.end_time](const Results& results) -> Figure {
+    return [runs, lang = how.lang, problem = scene.problem, units = scene.units,
+            end = scene.end_time](const Results& results) -> Figure {
         std::vector<Series> series;  // hub–beam, cantilever
         for (int k = 0; k < 2; ++k)
             series.push_back(
@@ -85,7 +86,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
                                   "Highest hub angle of the first rebound against the number $N$ of shape functions, "
                                   "model first-order. ",
                                   "首次回弹的最大转角随形函数个数 $N$ 的变化，一阶模型。") +
-                           missing_points(missing, lang) + facts(problem, lang, {.model = true, .modes = true}),
+                           missing_points(missing, lang) + facts(problem, units, lang, {.model = true, .modes = true}),
                 .accuracy = accuracy(used, lang)};
     };
 }

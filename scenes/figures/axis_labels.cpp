@@ -65,6 +65,11 @@ Measure measure_of(const std::string& unit, double largest) {
     return {1 / prefix.factor, prefix.symbol + unit};
 }
 
+Measure measure_of(const std::string& unit, double largest, const render::Units& units) {
+    const Measure shown = measure_in(units, unit);
+    return shown.factor == 1 ? measure_of(unit, largest) : shown;
+}
+
 double largest_magnitude(const std::vector<double>& values) {
     double out = 0;
     for (const double v : values)

@@ -24,6 +24,8 @@ struct Measure {
 Measure measure_in(const render::Units& units, const std::string& si_unit);
 // The prefix that suits the largest value, in SI units; of m, N, J and s alone.
 Measure measure_of(const std::string& unit, double largest);
+// The unit of the scene, for angles and speeds, or else the prefix that suits the largest value.
+Measure measure_of(const std::string& unit, double largest, const render::Units& units);
 double largest_magnitude(const std::vector<double>& values);  // 0: there is no finite one
 
 }  // namespace beamcam::scenes

@@ -80,7 +80,7 @@ BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lan
 }
 
 std::string branches_caption(const output::BranchTable& table, const std::string& special, bool with_sweep,
-                             const sim::Problem& problem, Lang lang) {
+                             const Scene& scene, Lang lang) {
     return phrase(lang,
                   "Approach speeds of the impacts of periodic orbits over {}: stable orbits solid, unstable ones "
                   "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
@@ -89,7 +89,7 @@ std::string branches_caption(const output::BranchTable& table, const std::string
                   "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
                   symbol_of(table.key), special,
                   !with_sweep ? "" : phrase(lang, "Dots: impacts of a sweep. ", "点：扫描所得碰撞。"),
-                  facts(problem, lang, {.cam_speed = table.key == "cam.speed"}));
+                  facts(scene.problem, scene.units, lang, {.cam_speed = table.key == "cam.speed"}));
 }
 
 }  // namespace
@@ -114,7 +114,7 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     return {.name = "branches",
             .title = phrase(lang, "Branches of periodic orbits", "周期轨道分支"),
             .panels = {std::move(panel)},
-            .caption = branches_caption(table, special, with_sweep, scene.problem, lang),
+            .caption = branches_caption(table, special, with_sweep, scene, lang),
             .accuracy = phrase(lang, "Newton's method on the section map at relative tolerance 10^{−12}.",
                                "截面映射上的 Newton 法，相对容差 10^{−12}。")};
 }

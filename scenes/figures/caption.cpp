@@ -15,7 +15,10 @@ namespace beamcam::scenes {
 namespace {
 
 std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI, digits) + "°"; }
-std::string speed(double value) { return number(value, 4) + " rad s^{−1}"; }
+std::string speed(double value, render::SpeedUnit unit) {
+    const bool rpm = unit == render::SpeedUnit::rpm, degrees = unit == render::SpeedUnit::degrees;
+    return number(value * render::factor_of(unit), 4) + (rpm ? " rpm" : degrees ? "° s^{−1}" : " rad s^{−1}");
+}
 
 }  // namespace
 
@@ -55,8 +58,9 @@ std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, Varied va
     return out;
 }
 
-std::string drive_fact(const sim::Drive& drive, Lang lang) {
+std::string drive_fact(const sim::Drive& drive, render::SpeedUnit unit, Lang lang) {
     struct Visitor {
+        render::SpeedUnit unit;
         Lang lang;
         std::string operator()(const sim::FreeDrive&) const { return phrase(lang, "hub turns freely", "轮毂自由转动"); }
         std::string operator()(const sim::ConstantTorque& d) const {
@@ -72,20 +76,21 @@ std::string drive_fact(const sim::Drive& drive, Lang lang) {
         }
         std::string operator()(const sim::ConstantSpeed& d) const {
             if (d.speed == 0) return phrase(lang, "hub held", "轮毂固定");
-            return phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动", speed(d.speed));
+            return phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动",
+                          speed(d.speed, unit));
         }
         std::string operator()(const sim::SpinUp& d) const {
-            return phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}", speed(d.speed),
+            return phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}", speed(d.speed, unit),
                           number(d.duration, 4));
         }
         std::string operator()(const sim::AngleTable& d) const {
             return phrase(lang, "hub angle from a table of {} instants", "轮毂转角由 {} 个时刻的表给定", d.t.size());
         }
     };
-    return std::visit(Visitor{lang}, drive);
+    return std::visit(Visitor{unit, lang}, drive);
 }
 
-std::vector<std::string> start_facts(const sim::Problem& p, Lang lang) {
+std::vector<std::string> start_facts(const sim::Problem& p, render::SpeedUnit unit, Lang lang) {
     using Shape = sim::InitialShape;
     if (p.initial.shape == Shape::resting)
         return {phrase(lang, "resting on the cam at the start", "初始时静置于凸轮上")};
@@ -95,7 +100,7 @@ std::vector<std::string> start_facts(const sim::Problem& p, Lang lang) {
     const double rate = p.initial.angular_velocity;
     if (!prescribed)
         out.push_back(rate == 0 ? phrase(lang, "released at rest", "由静止释放")
-                                : fmt::format("$\\dot{{θ}}$(0) = {}", speed(rate)));
+                                : fmt::format("$\\dot{{θ}}$(0) = {}", speed(rate, unit)));
     const bool given = !p.initial.q.empty() || !p.initial.q_dot.empty();
     if (given)
         out.push_back(phrase(lang, "in a given shape at the start", "初始为给定挠形"));
@@ -106,7 +111,7 @@ std::vector<std::string> start_facts(const sim::Problem& p, Lang lang) {
     return out;
 }
 
-std::vector<std::string> cam_facts(const sim::Cam& c, Lang lang, Varied varied) {
+std::vector<std::string> cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang, Varied varied) {
     std::vector<std::string> out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
                                  fmt::format("$R$ = {} m", number(c.radius, 4)),
                                  fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
@@ -115,8 +120,9 @@ std::vector<std::string> cam_facts(const sim::Cam& c, Lang lang, Varied varied) 
     if (c.speed == 0)
         out.push_back(phrase(lang, "cam at rest", "凸轮静止"));
     else
-        out.push_back(c.speed > 0 ? phrase(lang, "$ω$ = {} clockwise", "$ω$ = {}（顺时针）", speed(c.speed))
-                                  : phrase(lang, "$ω$ = {} (counter-clockwise)", "$ω$ = {}（逆时针）", speed(c.speed)));
+        out.push_back(c.speed > 0
+                          ? phrase(lang, "$ω$ = {} clockwise", "$ω$ = {}（顺时针）", speed(c.speed, unit))
+                          : phrase(lang, "$ω$ = {} (counter-clockwise)", "$ω$ = {}（逆时针）", speed(c.speed, unit)));
     return out;
 }
 
@@ -187,7 +193,7 @@ std::string grouped(double value, int decimals) {
     return out;
 }
 
-std::string beam_facts(const sim::Problem& p, Lang lang, Varied varied) {
+std::string beam_facts(const sim::Problem& p, const render::Units& units, Lang lang, Varied varied) {
     const sim::Beam& b = p.beam;
     std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
                                  fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
@@ -199,18 +205,18 @@ std::string beam_facts(const sim::Problem& p, Lang lang, Varied varied) {
     out.push_back(fmt::format("$g$ = {} m s^{{−2}}", number(p.gravity, 5)));
     out.push_back(fmt::format("$a$ = {} m", number(p.hub.radius, 4)));
     out.push_back(fmt::format("$I_{{\\r{{h}}}}$ = {} kg m^{{2}}", number(p.hub.inertia, 4)));
-    out.push_back(drive_fact(p.hub.drive, lang));
-    for (const auto& more : {start_facts(p, lang), model_facts(p, lang, varied)})
+    out.push_back(drive_fact(p.hub.drive, units.speed, lang));
+    for (const auto& more : {start_facts(p, units.speed, lang), model_facts(p, lang, varied)})
         out.insert(out.end(), more.begin(), more.end());
     return phrase(lang, "Beam and hub: {}.", "梁与轮毂：{}。", fmt::join(out, phrase(lang, ", ", "，")));
 }
 
-std::string facts(const sim::Problem& p, Lang lang, Varied varied) {
-    if (!p.cam) return beam_facts(p, lang, varied);
-    std::vector<std::string> out = cam_facts(*p.cam, lang, varied);
+std::string facts(const sim::Problem& p, const render::Units& units, Lang lang, Varied varied) {
+    if (!p.cam) return beam_facts(p, units, lang, varied);
+    std::vector<std::string> out = cam_facts(*p.cam, units.speed, lang, varied);
     for (std::string& fact : contact_facts(p, lang)) out.push_back(std::move(fact));
     std::string text =
-        beam_facts(p, lang, varied) + phrase(lang, " ", "") +
+        beam_facts(p, units, lang, varied) + phrase(lang, " ", "") +
         phrase(lang, "Cam and contact: {}.", "凸轮与接触：{}。", fmt::join(out, phrase(lang, ", ", "，")));
     if (is_of_the_paper(p))
         text += phrase(lang,

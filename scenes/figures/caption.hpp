@@ -50,10 +50,11 @@ struct Varied {
     bool model = false, modes = false, cam_speed = false;
 };
 
-// Beam, hub, drive and start; with a cam also the cam and the contact.
-std::string facts(const sim::Problem& problem, Lang lang, Varied varied = {});
+// Beam, hub, drive and start; with a cam also the cam and the contact. Speeds are in the scene's unit, angles in
+// degrees.
+std::string facts(const sim::Problem& problem, const render::Units& units, Lang lang, Varied varied = {});
 // Beam, hub, drive and start alone.
-std::string beam_facts(const sim::Problem& problem, Lang lang, Varied varied = {});
+std::string beam_facts(const sim::Problem& problem, const render::Units& units, Lang lang, Varied varied = {});
 
 // Speeds of the cam in the paper's figure 6 [rad/s].
 inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};

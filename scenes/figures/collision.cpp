@@ -154,17 +154,18 @@ FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studi
     if (fewer) studies.stop_after(*fewer, {.collisions = static_cast<std::size_t>(how.collision) + 1});
     const std::size_t table = studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
                                             {sim::Channel{ChannelKind::gap}});
-    return [=, problem = scene.problem, number = how.collision](const Results& results) -> Figure {
+    return [=, problem = scene.problem, units = scene.units, number = how.collision](const Results& results) -> Figure {
         const sim::Result& result = *results[study];
         const sim::Collision* c = collision_of(problem, result, number);
         if (!c) throw render::PictureError(no_collision(problem, result, number, end));
         const auto which = static_cast<int>(c - result.collisions.data());
         CloseUp shown = close_up(*c, end, result.tables[table], deepest(result, which), lang);
         reach_peaks(shown, which, result);
-        return {.panels = {close_up_panel(std::move(shown), which, result, lang)},
-                .aspect = 0.62,
-                .caption = collision_caption(problem, *c, number, results.find(fewer), lang) + facts(problem, lang),
-                .accuracy = accuracy({{&problem, &result}}, lang)};
+        return {
+            .panels = {close_up_panel(std::move(shown), which, result, lang)},
+            .aspect = 0.62,
+            .caption = collision_caption(problem, *c, number, results.find(fewer), lang) + facts(problem, units, lang),
+            .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }
 

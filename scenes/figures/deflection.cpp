@@ -75,7 +75,8 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
     return out;
 }
 
-std::string deflection_caption(const sim::Problem& problem, const Inclination& at, double jump, Lang lang) {
+std::string deflection_caption(const sim::Problem& problem, const render::Units& units, const Inclination& at,
+                               double jump, Lang lang) {
     const std::string angle = number(at.angle * 180 / M_PI, 4);
     std::string text = phrase(
         lang,
@@ -94,10 +95,10 @@ std::string deflection_caption(const sim::Problem& problem, const Inclination& a
             "10^{{−3}}）；补全后（点线）连续。二者均沿水平方向积分；沿倾斜杆（实线）的挠度大 1/cos^{{2}} $θ$ = {} "
             "倍。",
             number(jump, 3), number(1 / std::pow(std::cos(at.angle), 2), 4));
-    return text + beam_facts(problem, lang);
+    return text + beam_facts(problem, units, lang);
 }
 
-Figure deflection_figure(const sim::Problem& problem, Lang lang) {
+Figure deflection_figure(const sim::Problem& problem, const render::Units& units, Lang lang) {
     const Inclination at = inclination(problem);
     const double reach = problem.beam.length * std::cos(at.angle);
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
@@ -130,12 +131,14 @@ Figure deflection_figure(const sim::Problem& problem, Lang lang) {
     return {.panels = lettered({std::move(shape), std::move(slope)}),
             .share_x = true,
             .aspect = 1.15,
-            .caption = deflection_caption(problem, at, largest_jump, lang),
+            .caption = deflection_caption(problem, units, at, largest_jump, lang),
             .accuracy = accuracy({}, lang)};
 }
 
 FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Studies&) {
-    return [problem = scene.problem, lang = how.lang](const Results&) { return deflection_figure(problem, lang); };
+    return [problem = scene.problem, units = scene.units, lang = how.lang](const Results&) {
+        return deflection_figure(problem, units, lang);
+    };
 }
 
 std::optional<std::string> needs_static_bending(const Scene& scene) {

@@ -236,7 +236,7 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     const std::size_t touching = studies.of(scene.problem, scene.end_time);
     const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
     if (fewer) studies.stop_after(*fewer, {.touches = 1});
-    return [=, problem = scene.problem](const Results& results) -> Figure {
+    return [=, problem = scene.problem, units = scene.units](const Results& results) -> Figure {
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
         Panel panel = distance_panel(trial);
@@ -244,7 +244,7 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
         return {.panels = {std::move(panel)},
                 .aspect = 0.76,
                 .caption = trial_caption(trial, problem.solver.rtol, lang) +
-                           located(problem, strikes, results.find(fewer), lang) + facts(problem, lang),
+                           located(problem, strikes, results.find(fewer), lang) + facts(problem, units, lang),
                 .accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang)};
     };
 }

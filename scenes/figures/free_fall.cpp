@@ -169,13 +169,15 @@ Panel fall_panel(const Falls& falls, const Results& results, Lang lang) {
 }
 
 FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    return [falls = falls_of(scene, studies), lang = how.lang, end = scene.end_time](const Results& results) -> Figure {
+    return [falls = falls_of(scene, studies), units = scene.units, lang = how.lang,
+            end = scene.end_time](const Results& results) -> Figure {
         Runs runs;
         for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
-        return {.panels = {fall_panel(falls, results, lang)},
-                .aspect = 0.74,
-                .caption = fall_caption(falls, results, end, lang) + beam_facts(falls.shown.front().problem, lang),
-                .accuracy = accuracy(runs, lang)};
+        return {
+            .panels = {fall_panel(falls, results, lang)},
+            .aspect = 0.74,
+            .caption = fall_caption(falls, results, end, lang) + beam_facts(falls.shown.front().problem, units, lang),
+            .accuracy = accuracy(runs, lang)};
     };
 }
 

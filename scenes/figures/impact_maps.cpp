@@ -41,15 +41,16 @@ void spread_ratios(Panel& panel) {
 // Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase;
 // with what the caption says of each.
 std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& problem, const sim::Result& result,
-                                                      double from, double to, Lang lang) {
+                                                      double from, double to, const render::Units& units, Lang lang) {
     const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(lang) + which, "m/s"); };
+    const Measure turning = measure_in(units, "rad/s");
     Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution", "恢复系数")),
           next = map_panel(speed(" $k$"), speed(" $k$\u00A0+\u00A01")), phase = map_panel(phase_label(lang), speed("")),
-          hub = map_panel(phase_label(lang), "$\\dot{θ}$ / (rad s^{−1})");
+          hub = map_panel(phase_label(lang), axis_label("$\\dot{θ}$", turning.unit));
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
         if (hit.restitution) loss.series[0].add(std::abs(hit.v_n_before), *hit.restitution);
         phase.series[0].add(phase_of(hit), std::abs(hit.v_n_before));
-        if (hit.at_touch) hub.series[0].add(phase_of(hit), hit.at_touch->theta_dot);
+        if (hit.at_touch) hub.series[0].add(phase_of(hit), turning.factor * hit.at_touch->theta_dot);
     }
     const std::vector<sim::Collision> all = strikes(problem, result.collisions, from, to);
     for (std::size_t k = 0; k + 1 < all.size(); ++k)
@@ -73,10 +74,11 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& proble
 FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    const auto draw = [=, problem = scene.problem, lang = how.lang](const sim::Result& result) -> Figure {
+    const auto draw = [=, problem = scene.problem, units = scene.units,
+                       lang = how.lang](const sim::Result& result) -> Figure {
         std::vector<Panel> panels;
         std::vector<std::string> words;
-        for (auto& [panel, what] : impact_maps(problem, result, from, to, lang)) {
+        for (auto& [panel, what] : impact_maps(problem, result, from, to, units, lang)) {
             if (panel.series.front().x.empty()) continue;
             panel.letter = panel_letter(panels.size());
             words.push_back(fmt::format("({}) {}", panel.letter, what.in(lang)));

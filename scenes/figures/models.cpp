@@ -179,7 +179,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         rung.table =
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
-    return [=, problem = scene.problem, end = scene.end_time](const Results& results) -> Figure {
+    return [=, problem = scene.problem, units = scene.units, end = scene.end_time](const Results& results) -> Figure {
         if (!has_result(*results[all[0].study]))
             throw render::PictureError(
                 "figure models: the model second-order, with which the others are compared, "
@@ -192,7 +192,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
                 .share_x = true,
                 .aspect = 1.5,
                 .caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
-                           facts(problem, lang, {.model = true, .modes = true}),
+                           facts(problem, units, lang, {.model = true, .modes = true}),
                 .accuracy = accuracy(runs, lang)};
     };
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
@@ -40,8 +41,9 @@ void average(Series& s, std::size_t half) {
     s.value = {s.value.begin() + static_cast<std::ptrdiff_t>(half), s.value.end() - static_cast<std::ptrdiff_t>(half)};
 }
 
-Series portrait(const sim::Table& table) {
-    return {.x = column(table, ChannelKind::theta), .y = column(table, ChannelKind::theta_dot)};
+Series portrait(const sim::Table& table, const Measure& angle, const Measure& speed) {
+    return {.x = scaled(column(table, ChannelKind::theta), angle.factor),
+            .y = scaled(column(table, ChannelKind::theta_dot), speed.factor)};
 }
 
 std::string phase_caption(bool is_mean, bool has_impacts, Lang lang) {
@@ -65,13 +67,14 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
                                             {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
     const std::size_t curve =
         studies.curve(study, {0, end, 2001}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0});
+    const Measure angle = measure_in(scene.units, "rad"), speed = measure_in(scene.units, "rad/s");
     return figure_of_motion(scene, how, study, [=, problem = scene.problem](const sim::Result& result) -> Figure {
-        Panel panel{.x = {.label = "$θ$ / rad"},
-                    .y = {.label = "$\\dot{θ}$ / (rad s^{−1})"},
+        Panel panel{.x = {.label = axis_label("$θ$", angle.unit)},
+                    .y = {.label = axis_label("$\\dot{θ}$", speed.unit)},
                     .rules = {{.at = 0}},
                     .color_bar = render::figure::ColorBar{.label = "$t$ / s", .from = 0, .to = end},
                     .legend = Legend::none};
-        Series s = portrait(result.tables[table]);
+        Series s = portrait(result.tables[table], angle, speed);
         s.value = column(result.tables[table], ChannelKind::t);
         if (!s.x.empty())
             panel.marks.push_back(
@@ -79,7 +82,8 @@ FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& 
         const int period = rows_of(first, s.value);
         const bool averaged = period > 1 && std::cmp_less(2 * period, s.x.size());
         if (averaged) {
-            Series& raw = panel.series.emplace_back(portrait(result.tables[curve]));  // in grey beneath the mean
+            Series& raw =
+                panel.series.emplace_back(portrait(result.tables[curve], angle, speed));  // in grey beneath the mean
             raw.color = render::rgb(0xD2D2D2), raw.weight = 0.35, raw.name = "with vibration";
             s.name = "mean over a period";
             average(s, static_cast<std::size_t>(period / 2));

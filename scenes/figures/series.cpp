@@ -61,7 +61,7 @@ Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const R
     for (const PlannedPanel& planned : plan.panels)
         std::ranges::move(series_panels(plan, planned, results, preset.weight), std::back_inserter(panels));
     Figure figure{.panels = lettered(std::move(panels)), .stack = true, .share_x = true};
-    plan.abscissa.share(figure, plan.motions.front().problem);
+    plan.abscissa.share(figure, plan.motions.front().problem, plan.units);
     if (plan.keys.apart) share_ordinates(figure);
     const bool all_shown = figure.panels.size() >= plan.panels.size();
     figure.aspect =
@@ -82,7 +82,7 @@ Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const R
 // `keys` has panels.
 FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesPreset& preset, Lang lang,
                            Studies& studies) {
-    SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang)};
+    SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang), scene.units};
     plan.horizon = preset.horizon;
     complete(plan, scene, studies);
     return [plan, preset](const Results& results) { return series_figure(plan, preset, results); };

@@ -32,7 +32,7 @@ class SeriesAbscissa {
     // Turns angles of the cam into phases of a turn; a line is broken at each turn.
     void fold(render::figure::Series& curve) const;
     // Gives all panels one axis, with its label and unit.
-    void share(render::figure::Figure& figure, const sim::Problem& problem) const;
+    void share(render::figure::Figure& figure, const sim::Problem& problem, const render::Units& units) const;
 
   private:
     bool is_phase() const { return against_ == "phase"; }
@@ -69,6 +69,7 @@ struct SeriesPlan {
     Lang lang;
     double end = 0;  // [s]
     SeriesAbscissa abscissa;
+    render::Units units = {};
     std::vector<SeriesMotion> motions = {};
     std::vector<PlannedPanel> panels = {};  // with `keys.apart` those of the first motion come first
     std::vector<Measured> measured = {};

@@ -62,7 +62,7 @@ void SeriesAbscissa::fold(Series& curve) const {
     }
 }
 
-void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {
+void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const render::Units& units) const {
     render::Extent range;
     for (const Panel& each : figure.panels)
         for (const Series& curve : each.series) range.add(curve.x);
@@ -75,7 +75,7 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem) const {
     if (low_) range.low = *low_ + air;
     if (high_) range.high = *high_ - air;
     const Channel channel = channel_.value_or(Channel{});
-    Measure measure = measure_of(unit(channel, problem), largest);
+    Measure measure = measure_of(unit(channel, problem), largest, units);
     std::string symbol = render::print_symbol(channel);
     if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
     if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam", "凸轮相位");

@@ -26,15 +26,15 @@ std::string impacts_text(const sim::Problem& problem, const sim::Result& result,
 }
 
 // The facts of all motions where they differ by the cam's speed alone, else those of the first.
-std::string common_facts(const std::vector<SeriesMotion>& motions, Lang lang) {
+std::string common_facts(const std::vector<SeriesMotion>& motions, const render::Units& units, Lang lang) {
     const SeriesMotion& first = motions.front();
     const bool alike = first.problem.cam && std::ranges::all_of(motions, [&](const SeriesMotion& each) {
                            sim::Problem other = each.problem;
                            if (other.cam) other.cam->speed = first.problem.cam->speed;
                            return Studies::key(other) == Studies::key(first.problem);
                        });
-    if (motions.size() == 1 || alike) return facts(first.problem, lang, {.cam_speed = motions.size() > 1});
-    return phrase(lang, "Of {}: ", "{}：", first.label) + facts(first.problem, lang);
+    if (motions.size() == 1 || alike) return facts(first.problem, units, lang, {.cam_speed = motions.size() > 1});
+    return phrase(lang, "Of {}: ", "{}：", first.label) + facts(first.problem, units, lang);
 }
 
 // The first panel, "(c)", of a motion with separate panels. A panel of differences follows those of the motion with
@@ -96,7 +96,7 @@ std::string trust_text(const SeriesPlan& plan, const Figure& figure, const Resul
         runs.emplace_back(motion_name(plan, k, figure), results[plan.motions[k].study]);
     const SeriesMotion& motion = plan.motion_with_data();
     return horizon_text(runs, from, plan.end, plan.lang) + undrawn_text(plan) +
-           agreement_text(plan.measured, *results[motion.study], motion.problem, plan.lang);
+           agreement_text(plan.measured, *results[motion.study], motion.problem, plan.units, plan.lang);
 }
 
 }  // namespace
@@ -122,7 +122,7 @@ std::string series_caption(const SeriesPlan& plan, const std::string& subject, c
                            const Results& results) {
     return fmt::format("{}{}{}", subject, motions_text(plan, figure, results), phrase(plan.lang, ". ", "。")) +
            dashed_lines_text(plan, figure, results) + trust_text(plan, figure, results) +
-           common_facts(plan.motions, plan.lang);
+           common_facts(plan.motions, plan.units, plan.lang);
 }
 
 }  // namespace beamcam::scenes

@@ -8,6 +8,7 @@
 
 #include "render/base/error.hpp"
 #include "render/plot/channel_label.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "sim/observe/spectrum.hpp"
 
@@ -86,11 +87,12 @@ Series measured_series(const Measurement& data, std::vector<double> x, std::vect
 }
 
 std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
-                           Lang lang) {
+                           const render::Units& units, Lang lang) {
     std::string text;
     for (const Measured& each : all)
         for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {
-            const std::string symbol = render::print_symbol(a.channel), unit = sim::unit(a.channel, problem);
+            const std::string symbol = render::print_symbol(a.channel);
+            const auto [factor, unit] = measure_in(units, sim::unit(a.channel, problem));
             if (a.whole.rows == 0 && !a.beyond)
                 text += phrase(lang, "Data “{}”: at no instant {} has both a measured and a computed value. ",
                                "{}：没有任何时刻同时具有 {} 的测量值与计算值。", each.data.label, symbol);
@@ -99,8 +101,8 @@ std::string agreement_text(const std::vector<Measured>& all, const sim::Result& 
                                "Data “{}”: at {} instants {} differs by {} {} (root mean square), at most by {} {} at "
                                "{} s. ",
                                "{}，{} 个时刻：{} 的均方根差为 {} {}，最大差 {} {}（{} s）。", each.data.label,
-                               a.whole.rows, symbol, number(a.whole.rms, 2), unit, number(a.whole.largest, 2), unit,
-                               number(a.whole.t_largest, 4));
+                               a.whole.rows, symbol, number(factor * a.whole.rms, 2), unit,
+                               number(factor * a.whole.largest, 2), unit, number(a.whole.t_largest, 4));
             if (!a.beyond) continue;
             const auto& [rows, m, c] = *a.beyond;
             text += phrase(lang,
@@ -108,8 +110,8 @@ std::string agreement_text(const std::vector<Measured>& all, const sim::Result& 
                            "mean {} {} and standard deviation {} {}, computed {} {} and {} {}. ",
                            "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {} {}、标准差 {} {}，计算值为 {} {}、{} "
                            "{}。",
-                           each.data.label, rows, number(m.mean, 3), unit, number(m.deviation, 3), unit,
-                           number(c.mean, 3), unit, number(c.deviation, 3), unit);
+                           each.data.label, rows, number(factor * m.mean, 3), unit, number(factor * m.deviation, 3),
+                           unit, number(factor * c.mean, 3), unit, number(factor * c.deviation, 3), unit);
         }
     return text;
 }

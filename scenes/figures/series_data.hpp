@@ -49,7 +49,7 @@ render::figure::Series measured_series(const Measurement& data, std::vector<doub
 
 // "rig: 200 instants, root mean square difference of $θ$ 1.2×10^{−3} rad. "
 std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
-                           Lang lang);
+                           const render::Units& units, Lang lang);
 
 // ---- amplitude spectra ----------------------------------------------------------------------------------
 

@@ -108,7 +108,7 @@ class SeriesPanelMaker {
             throw render::PictureError(
                 fmt::format("series: {} has no value from {:g} s to {:g} s", name(first), plan_.keys.from, plan_.end));
         const std::string si = unit(first, plan_.motions.front().problem);
-        side.measure = plan_.has_sums() ? Measure{1, si} : measure_of(si, most);
+        side.measure = plan_.has_sums() ? Measure{1, si} : measure_of(si, most, plan_.units);
         for (const Channel& channel : side.channels)
             side.symbols.push_back(
                 fmt::format(fmt::runtime(plan_.abscissa.is_frequency() || is_closure() ? "|{}|" : "{}"),
@@ -235,7 +235,7 @@ class SeriesPanelMaker {
         const Channel& channel = keys_.channels.front();
         double most = 0;
         for (const Series& each : differences_.series) most = std::max(most, largest_magnitude(each.y));
-        const Measure measure = measure_of(unit(channel, plan_.motions.front().problem), most);
+        const Measure measure = measure_of(unit(channel, plan_.motions.front().problem), most, plan_.units);
         const std::string symbol = "Δ" + render::print_symbol(channel);
         for (Series& each : differences_.series) {
             each.y = scaled(std::move(each.y), measure.factor);

@@ -74,7 +74,7 @@ void visit(SceneVisitor& v, Scene& scene) {
                      "first that is a text with a unit. auto: rad/s, in charts that of angles per second. Of a key "
                      "that is swept the sweep's first value counts.");
         },
-        "Units of angles and speeds in films.", nullptr);
+        "Units of angles and speeds in films and figures.", nullptr);
     v.check([&scene](ObjectReader& r) { check_physics(r, scene.problem); });
     Sweep sweep = scene.sweep.value_or(Sweep{});
     bool swept = scene.sweep.has_value();

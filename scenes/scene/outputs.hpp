@@ -181,7 +181,7 @@ inline constexpr std::initializer_list<const char*> kFigureEndings{".pdf", ".svg
 struct FigureOutput {
     static constexpr const char *kType = "figure",
                                 *kMeaning = "A figure for print; `beamcam figure SCENE` lists all figures.";
-    static constexpr OutputInputs kInputs{.title = true, .data = true};
+    static constexpr OutputInputs kInputs{.title = true, .units = true, .data = true};
     std::string file;                 // of one of kFigureEndings
     std::string figure;               // its name, see figures/figure_types.hpp
     std::string column = "elsevier";  // of a journal, see render/plot/style.hpp

@@ -55,6 +55,8 @@ TEST(Captions, StateTheCamsSenseOfTurning) {
     EXPECT_THAT(with("-3"), HasSubstr("ω = −3 rad s⁻¹ (counter-clockwise)"));
     EXPECT_THAT(with("3"), HasSubstr("ω = 3 rad s⁻¹ clockwise"));
     EXPECT_THAT(with("0"), HasSubstr("cam at rest"));
+    EXPECT_THAT(with("\"-30 rpm\""), HasSubstr("ω = −30 rpm (counter-clockwise)"));
+    EXPECT_THAT(with("\"90 deg/s\""), HasSubstr("ω = 90° s⁻¹ clockwise"));
 }
 
 TEST(Captions, NameThePaperInItsOwnScenesAlone) {

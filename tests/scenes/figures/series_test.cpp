@@ -42,6 +42,29 @@ TEST(Series, HasAPanelForEachUnit) {
     for (const auto& panel : figure.panels) EXPECT_NO_THROW(render::parse_markup(panel.y.label));
 }
 
+// Axes, measured data and the phase portrait have the units in which the scene states angles and speeds; --low and
+// --high are in SI units in any scene.
+TEST(Series, HasTheUnitsOfTheScene) {
+    const char* mechanics = R"("cam": {"speed": "30 rpm"}, "initial": {"angle": "60 deg"},)";
+    const Figure figure =
+        figure_of(R"("panels": [{"channels": ["theta"], "high": 1.5}, {"channels": ["theta_dot"]}])", mechanics);
+    EXPECT_EQ(figure.panels[0].y.label, "$θ$ / °");
+    EXPECT_NEAR(figure.panels[0].series[0].y.front(), 60, 1e-9);
+    EXPECT_NEAR(figure.panels[0].y.to.value(), 1.5 * 180 / M_PI, 1e-9);
+    EXPECT_EQ(figure.panels[1].y.label, "$\\dot{θ}$ / rpm");
+    EXPECT_LT(largest(figure.panels[1].series[0].x), 0.5);
+    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("ω = 30 rpm clockwise"));
+    const Figure over = figure_of(R"("channels": ["theta_dot"], "x": "theta")", mechanics);
+    EXPECT_EQ(over.panels[0].x.label, "$θ$ / °");
+    EXPECT_NEAR(over.panels[0].series[0].x.front(), 60, 1e-9);
+    const Figure phase = testing::simulated(
+        R"({"cam": {"speed": "30 rpm"}, "initial": {"angle": "60 deg"}, "time": {"end": 0.4},
+            "outputs": [{"type": "figure", "figure": "phase"}]})");
+    EXPECT_EQ(phase.panels[0].x.label, "$θ$ / °");
+    EXPECT_EQ(phase.panels[0].y.label, "$\\dot{θ}$ / rpm");
+    EXPECT_NEAR(phase.panels[0].marks[0].x, 60, 0.1);
+}
+
 // Between equally spaced rows, 0.2 ms apart, its peaks would be cut off.
 TEST(Series, CurvesReachTheTrueExtremes) {
     const Figure figure = figure_of(R"("channels": ["contact_force"])");
@@ -241,7 +264,7 @@ TEST(Measured, DataAreDrawnOverThePhaseOfTheCam) {
     for (std::size_t i = 0; i < 4; ++i) {
         const double turns = 0.25 + 20 * times[i] / (2 * M_PI);
         EXPECT_NEAR(phases[i].first, turns - std::floor(turns), 1e-9);
-        EXPECT_NEAR(phases[i].second, angles[i], 1e-12);
+        EXPECT_NEAR(phases[i].second, angles[i] * 180 / M_PI, 1e-12);  // the scene states degrees
     }
     EXPECT_EQ(quiet.find("rig"), std::string::npos) << quiet;
     EXPECT_EQ(drawn("--channels theta,theta_dot --x theta").first.size(), 4u);

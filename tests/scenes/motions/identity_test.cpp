@@ -241,8 +241,7 @@ bool shows(const Scene& scene, std::size_t output, const Schema::Leaf& leaf) {
                std::holds_alternative<PictureOutput>(any);
     if (place == "/$schema") return false;
     if (place.starts_with("/sweep/")) return of_sweep;
-    if (place == "/title") return !data;
-    if (place.starts_with("/units/")) return std::holds_alternative<PictureOutput>(any) || sweep_film;
+    if (place == "/title" || place.starts_with("/units/")) return !data;
     if (place != "/time/end") return true;
     if (of_sweep) return false;
     if (const auto* still = picture_of(any, PictureOutput::Kind::still)) return still->at.kind != Instant::Kind::time;
