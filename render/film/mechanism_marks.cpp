@@ -62,6 +62,11 @@ std::vector<Vec2> angle_arc(const MechanismView& at, double radius, const sim::P
     return out;
 }
 
+std::vector<Vec2> angle_base(const MechanismView& at, double radius) {
+    const Vec2 start = at.px({0, 0}) + Vec2{radius * at.zoom(), 0};
+    return {start - Vec2{12 * at.unit, 0}, start + Vec2{26 * at.unit, 0}};
+}
+
 std::vector<Color> rim_colors(const MechanismView& at, const Trace& trace, double now) {
     const double half_life = trace_half_life(at.context.span);
     std::vector<Color> out(trace.rim().size(), Color{0, 0, 0, 0});
@@ -103,9 +108,8 @@ void draw_angle_arc(const MechanismScene& s) {
     if (radius < s.at.hub() + 22 * s.at.marks) return;
     const Vec2 o = s.at.px({0, 0});
     if (std::abs(angle) >= kLeastArc) {
-        if (s.view)  // which shows no horizontal
-            s.canvas.line(s.on(o + Vec2{radius - 12 * s.at.unit, 0}), s.on(o + Vec2{radius + 26 * s.at.unit, 0}),
-                          {s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
+        if (const auto base = angle_base(s.at, s.at.labels->arc_radius); s.view)
+            s.canvas.line(s.on(base[0]), s.on(base[1]), {s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
         s.arc(o, radius, 0, visible_angle(s, radius));
         s.canvas.stroke({s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});
     }

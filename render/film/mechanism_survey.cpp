@@ -94,7 +94,8 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
     return needs;
 }
 
-// Boxes around everything that moves while the caption is shown, before a near camera also around labels.
+// Boxes around everything that moves while the caption is shown and the arc of θ, before a near camera also around
+// labels.
 std::vector<Box> MechanismPanel::moving_under(const Callout& caption) const {
     OccupancyGrid room(at_.box, kCaptionCell * at_.unit);
     std::vector<Vec2> before;
@@ -115,8 +116,10 @@ std::vector<Box> MechanismPanel::moving_under(const Callout& caption) const {
                 if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
                 add_measured(now.at, pose, drawn, swept);
             }
-        if (cameras_.near() && labels_.angle)
+        if (labels_.angle) {
             swept.add_curve(angle_arc(now.at, labels_.arc_radius, at_.context.pose(at_.member, k)));
+            if (now.projection) swept.add_curve(angle_base(now.at, labels_.arc_radius));
+        }
         room = std::move(swept.room);
         for (const auto* label : {&labels_.angle, &labels_.speed})
             if (cameras_.near() && *label && (*label)->opacity_at(k) > 0)

@@ -11,6 +11,7 @@
 #include "render/film/mechanism_marks.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/swept_region.hpp"
+#include "tests/render/drawing.hpp"
 #include "tests/render/synthetic.hpp"
 
 namespace beamcam::render {
@@ -163,6 +164,39 @@ TEST(Captions, AreClearOfTheBeamWhileTheyAreShown) {
         }
         EXPECT_GT(captions, 100);
     }
+}
+
+// Where the arc of θ is beside the disc, no caption covers it.
+TEST(Captions, AreClearOfTheArcOfTheAngle) {
+    SKIP_WITHOUT_GL();
+    FilmSetup setup = film_in(Style::solid);
+    setup.problem.cam->centre.x = 0.35;  // the first place of a caption is over the start of the arc
+    Film plain(setup);
+    const Color muted = palette(setup.view.theme).muted;
+    const auto of_arc = [&](std::uint32_t p) {
+        const auto near = [&](int shift, double value) { return std::abs((p >> shift & 255) / 255.0 - value) < 0.1; };
+        return near(16, muted.r) && near(8, muted.g) && near(0, muted.b);
+    };
+    int captions = 0;
+    for (const char* words : {"touch", "first touch", "the first touch\nof this motion"}) {
+        setup.callouts = {{15, 40, words}};
+        Film film(setup);
+        for (int k = 15; k <= 40; k += 5) {
+            const std::vector<Box> others = plain.geometry(k).texts;
+            const Image before = drawn(plain, k);
+            for (const Box& text : film.geometry(k).texts) {
+                if (std::ranges::find(others, text) != others.end()) continue;
+                ++captions;
+                int hidden = 0;
+                const Box plate = text.inset(-6);  // at least
+                for (int y = int(plate.y); y < int(plate.bottom()); ++y)
+                    for (int x = int(plate.x); x < int(plate.right()); ++x)
+                        hidden += of_arc(before.pixels[std::size_t(y) * std::size_t(before.width) + std::size_t(x)]);
+                EXPECT_EQ(hidden, 0) << words << ", " << k;
+            }
+        }
+    }
+    EXPECT_EQ(captions, 24);  // lines
 }
 
 // Before a near camera, too, they keep one place each, beside beam and disc, while the camera moves.
