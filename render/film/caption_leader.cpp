@@ -8,7 +8,9 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr int kPieces = 64;          // of a line, whose ends are tested
+constexpr int kPieces = 64;  // of a line, whose ends are tested
+constexpr int kRimSides = 96;
+constexpr double kGrazing = 3;       // over or beside the rim [design px]
 constexpr double kInsidePlate = 10;  // distance of its start from the edges of the box [design px]
 
 Vec2 piece(Vec2 from, Vec2 to, int i) { return from + (to - from) * (static_cast<double>(i) / kPieces); }
@@ -21,11 +23,11 @@ bool meets(const std::vector<Box>& labels, Vec2 from, Vec2 to, double u) {
     });
 }
 
-// The projected rim of the disc, slightly reduced.
-std::vector<Vec2> rim_of(const MechanismScene& s) {
+// The projected rim of a disc of a larger or smaller radius [px].
+std::vector<Vec2> rim_of(const MechanismScene& s, double more) {
     std::vector<Vec2> rim;
-    for (int i = 0; s.shape.disc && i < 48; ++i)
-        rim.push_back(s.on(s.shape.disc->centre + down(2 * pi * i / 48) * (0.96 * s.shape.disc->radius)));
+    for (int i = 0; s.shape.disc && i < kRimSides; ++i)
+        rim.push_back(s.on(s.shape.disc->centre + down(2 * pi * i / kRimSides) * (s.shape.disc->radius + more)));
     return rim;
 }
 
@@ -43,14 +45,15 @@ bool crosses(const std::vector<Vec2>& disc, Vec2 from, Vec2 to) {
 // The corner of a leader line to the contact that would otherwise cross the disc: a point of the tangent at the
 // contact, on the caption's side. None if the straight line is clear, or no corner makes it so.
 std::optional<Vec2> corner_of(const MechanismScene& s, Vec2 from, Vec2 to) {
-    const std::vector<Vec2> rim = rim_of(s);
-    if (!crosses(rim, from, to)) return std::nullopt;
+    const double grazing = kGrazing * s.at.unit;  // a line to the rim itself always crosses it a little
+    if (!crosses(rim_of(s, -grazing), from, to)) return std::nullopt;
+    const std::vector<Vec2> around = rim_of(s, grazing);
     const Vec2 centre = s.on(s.shape.disc->centre), out = to - centre;
     const double radius = norm(out), side = dot(from - centre, Vec2{-out.y, out.x}) < 0 ? -1 : 1;
     if (!(radius > 0)) return std::nullopt;
     const Vec2 along = Vec2{-out.y, out.x} * (side / radius);
     for (int fifths = 2; fifths < 20; ++fifths)
-        if (const Vec2 at = to + along * (0.2 * fifths * radius); !crosses(rim, from, at)) return at;
+        if (const Vec2 at = to + along * (0.2 * fifths * radius); !crosses(around, from, at)) return at;
     return std::nullopt;
 }
 

@@ -401,6 +401,30 @@ TEST(Captions, LinesToTheContactPassTheLabels) {
     EXPECT_GT(differ({contact.x - 4, contact.y - 4, 8, 8}), 0);  // the line is there
 }
 
+// Lines to the contact stay beside the disc, however near the camera is.
+TEST(Captions, LinesToTheContactPassTheDisc) {
+    for (const double zoom : {1.0, 3.0, 5.0, 8.0}) {
+        FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
+        setup.view.shot = {.zoom = zoom, .follow = {zoom > 1 ? Anchor::Kind::contact : Anchor::Kind::all, {}}};
+        Film plain(setup);
+        setup.callouts = {{0, 47, "first touch"}};
+        Film film(setup);
+        const int touch = 18;
+        const Image before = drawn(plain, touch), now = drawn(film, touch);
+        const FrameGeometry g = film.geometry(touch);
+        const Vec2 centre = g.camera.to_pixels(setup.poses[touch].disc_centre);
+        const double inside = setup.problem.cam->radius * g.camera.scale - 4;
+        int crossed = 0;
+        for (int y = std::max(0, int(centre.y - inside)); y < std::min(720, int(centre.y + inside)); ++y)
+            for (int x = int(centre.x - inside); x < int(centre.x + inside); ++x)
+                crossed += norm(Vec2{x + 0.5, y + 0.5} - centre) < inside &&
+                           differing_pixels(before, now, {double(x), double(y), 1, 1}) > 0;
+        EXPECT_EQ(crossed, 0) << zoom;
+        const Vec2 contact = g.camera.to_pixels(g.beam.contact->on_disc);
+        EXPECT_GT(differing_pixels(before, now, {contact.x - 4, contact.y - 4, 8, 8}), 0) << zoom;
+    }
+}
+
 // ---- visible parts -------------------------------------------------------------------------------
 
 TEST(Plates, OwnColoursReplaceTheThemesAndLeaveTheOthers) {
