@@ -11,7 +11,7 @@
 namespace beamcam::render {
 namespace {
 
-constexpr const char* kWidest = "00.0\u00A0mN";  // of the readings of forces
+constexpr const char *kWidest = "00.0\u00A0mN", *kWidestSigned = "−00.0\u00A0mN";  // of the readings of forces
 
 // Draws a word and a number that ends at `right`; the place of the word does not depend on the number.
 void draw_reading(Canvas& canvas, Vec2 right, const std::string& word, const std::string& number, const char* widest,
@@ -70,7 +70,8 @@ void CloseUpReadings::draw_corner(Canvas& canvas, const sim::Pose& pose, double 
     TextStyle style{.size = context.tick, .color = p.ink, .align = HAlign::right}, strong = style;
     strong.weight = Weight::medium;
     const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
-    const double read = canvas.measure(context.translate("friction "), strong).w + canvas.measure(kWidest, strong).w;
+    const char* widest = near.friction == 0 ? kWidest : kWidestSigned;
+    const double read = canvas.measure(context.translate("friction "), strong).w + canvas.measure(widest, strong).w;
     const bool has_force = near.touching && near.force > 0 && plot.h >= 120 * u && read <= room;
     const bool has_count = counted > 0 && counted < room, has_friction = has_force && near.friction != 0;
     if (!has_count && !has_force) return;
@@ -86,10 +87,10 @@ void CloseUpReadings::draw_corner(Canvas& canvas, const sim::Pose& pose, double 
     canvas.fill(over_beam ? mix(background, p.motion, 0.30) : background);
     if (has_count) canvas.text({right, line(0)}, count, style);
     if (has_force)
-        draw_reading(canvas, {right, line(1)}, context.translate("force"), reading(near.force, "N"), kWidest, strong);
+        draw_reading(canvas, {right, line(1)}, context.translate("force"), reading(near.force, "N"), widest, strong);
     if (has_friction)
-        draw_reading(canvas, {right, line(2)}, context.translate("friction"), reading(std::abs(near.friction), "N"),
-                     kWidest, strong);
+        draw_reading(canvas, {right, line(2)}, context.translate("friction"), reading(near.friction, "N"), widest,
+                     strong);
 }
 
 }  // namespace beamcam::render

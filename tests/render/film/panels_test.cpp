@@ -1117,6 +1117,21 @@ TEST(ForceArrows, AreReachedByTheLinesOfTheirLabels) {
     EXPECT_GT(orange, 1);
 }
 
+// The reading of the friction has the sign of its strip.
+TEST(CloseUp, StatesTheSignOfTheFriction) {
+    const auto texts_with = [](double friction) {
+        FilmSetup setup = test::flat_film({.duration = 0.1}, 1280, 720);
+        setup.problem.contact.friction = sim::CoulombFriction{0.2, 1e-3};
+        setup.poses.assign(1, test::synthetic_pose(setup.problem, {}, 1.99));
+        sim::Nearest& near = *setup.poses[0].nearest;
+        near.touching = true, near.gap = -1e-5, near.force = 100, near.friction = friction;
+        setup.layout = leaf({.kind = PanelKind::close_up});
+        return Film(std::move(setup)).geometry(0).texts;
+    };
+    EXPECT_NE(texts_with(22.1), texts_with(-22.1));
+    EXPECT_EQ(texts_with(22.1), texts_with(22.1));
+}
+
 // Arrows are proportional to the force, in the mechanism and in the close-up.
 TEST(ForceArrows, AreInProportionToTheForce) {
     for (const PanelKind kind : {PanelKind::mechanism, PanelKind::close_up}) {
