@@ -236,17 +236,25 @@ void ContactStep::hold_end() {
 }
 
 void ContactStep::fill(TouchSamples& samples) const {
-    const auto put = [&](int k, double t, double gap, double rate, double normal_force, double dx) {
+    const auto put = [&](int k, double t, double gap, double rate, double normal_force, double tangential, double dx) {
         samples.t[k] = t;
         samples.gap[k] = gap;
         samples.gap_rate[k] = rate;
         samples.force[k] = normal_force;
+        samples.friction[k] = tangential;
         samples.x[k] = expansion_.at() + dx;
     };
-    put(0, step_.segment.t0, start.gap, start.gap_rate, held_ ? held_start_.force : force(start).force, start.dx);
+    const ExponentialSegment& s = step_.segment;
+    const System& system = step_.system;
+    const auto put_end = [&](int k, double t, const ContactKinematics<double>& c, const Held& held, double z) {
+        const double normal = held_ ? held.force : force(c).force;
+        put(k, t, c.gap, c.gap_rate, normal, friction_.force(system.phase().friction, normal, c.slip, z), c.dx);
+    };
+    put_end(0, s.t0, start, held_start_, s.bristle0);
     const ContactKinematics<Lanes>& c = load.contact;
-    for (int k = 0; k < kNodes; ++k) put(k + 1, step_.time[k], c.gap[k], c.gap_rate[k], load.force[k], c.dx[k]);
-    put(kNodes + 1, step_.segment.t1, end.gap, end.gap_rate, held_ ? held_end_.force : force(end).force, end.dx);
+    for (int k = 0; k < kNodes; ++k)
+        put(k + 1, step_.time[k], c.gap[k], c.gap_rate[k], load.force[k], load.friction[k], c.dx[k]);
+    put_end(kNodes + 1, s.t1, end, held_end_, system.bristle(s.end.data()));
 }
 
 }  // namespace beamcam::sim

@@ -286,13 +286,16 @@ class Exponential final : public Integrator {
         method_.contact->hold_end();
         s.samples.ending = ending;
         s.samples.friction_over = method_.contact_end->friction_over();
-        method_.contact->fill(s.samples);
         t_ = s.t1;
-        if (const double carry = std::exchange(method_.contact_end->carry, 0.0); carry != 0) {
-            shorten(t_ + carry);
+        const double carry = std::exchange(method_.contact_end->carry, 0.0);
+        if (carry != 0) {
+            carry_to(t_ + carry);
+            method_.contact->evaluate(t_, s.end.data(), method_.contact->end);
+        }
+        method_.contact->fill(s.samples);
+        if (carry != 0 && ending == TouchSamples::Ending::release) {
             constexpr int kLast = TouchSamples::kCount - 1;
-            s.samples.t[kLast] = t_;
-            if (ending == TouchSamples::Ending::release) s.samples.gap[kLast] = s.samples.force[kLast] = 0;
+            s.samples.gap[kLast] = s.samples.force[kLast] = s.samples.friction[kLast] = 0;
         }
     }
 

@@ -37,7 +37,8 @@ void ExponentialSegment::each_number(Visit&& visit) {
         number(bristle0);
         lanes({&bristle_rate, 1});
     }
-    for (auto* all : {&samples.t, &samples.gap, &samples.gap_rate, &samples.force, &samples.x}) numbers(*all);
+    for (auto* all : {&samples.t, &samples.gap, &samples.gap_rate, &samples.force, &samples.friction, &samples.x})
+        numbers(*all);
     double ending = static_cast<int>(samples.ending);
     number(ending);
     samples.ending = static_cast<TouchSamples::Ending>(static_cast<int>(ending));

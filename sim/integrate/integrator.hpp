@@ -38,7 +38,7 @@ struct MotionBounds {
 struct TouchSamples {
     static constexpr int kCount = 10;
     enum class Ending { open, release, clamp, friction };  // why the step ends where it does
-    double t[kCount], gap[kCount], gap_rate[kCount], force[kCount], x[kCount];
+    double t[kCount], gap[kCount], gap_rate[kCount], force[kCount], friction[kCount], x[kCount];
     Ending ending = Ending::open;
     bool friction_over = false;  // the state of the bristle ends at the start of the step; not stored
 };

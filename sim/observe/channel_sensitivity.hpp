@@ -32,7 +32,6 @@ class ChannelSensitivity {
     template <class Visit>
     void each_group(Channel channel, Visit&& visit) const;
 
-    double friction() const { return friction_; }
     double cam_radius() const { return cam_radius_; }
     double gravity() const { return gravity_; }
 

@@ -121,7 +121,7 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     const Channel& channel = channels_[c];
     const ModalChannels& modes = step_.modes();
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
-    if (step_.unlike_law(channel.kind)) return step_.sampled_range(s, channel, sampled_);
+    if (step_.of_bristle(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     const bool rounding = step_.rounding_only(channel.kind);
     if (rounding && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
     if (traits(channel.kind).monotone || rounding) return std::nullopt;

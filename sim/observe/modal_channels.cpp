@@ -95,10 +95,11 @@ bool ModalChannels::known_at_nodes(Channel channel, Lanes& values) const {
     const TouchSamples* touch = bounds_.part.touch;
     if (!touch || touch->t[0] != bounds_.part.from || touch->t[TouchSamples::kCount - 1] != bounds_.part.to)
         return false;
-    const double* all = channel.kind == ChannelKind::gap             ? touch->gap
-                        : channel.kind == ChannelKind::contact_force ? touch->force
-                        : channel.kind == ChannelKind::contact_x     ? touch->x
-                                                                     : nullptr;
+    const double* all = channel.kind == ChannelKind::gap              ? touch->gap
+                        : channel.kind == ChannelKind::contact_force  ? touch->force
+                        : channel.kind == ChannelKind::friction_force ? touch->friction
+                        : channel.kind == ChannelKind::contact_x      ? touch->x
+                                                                      : nullptr;
     if (!all) return false;
     for (int k = 0; k < kNodes; ++k) values[k] = all[k + 1];
     return true;
@@ -317,6 +318,7 @@ ModalChannels::Range ModalChannels::separation_range() const {
 double ModalChannels::contact_value(ChannelKind kind, int k) const {
     if (kind == ChannelKind::gap) return touch()->gap[k];
     if (kind == ChannelKind::energy_contact) return system_.normal_law().stored_energy(-touch()->gap[k]);
+    if (kind == ChannelKind::friction_force) return touch()->friction[k];
     return touch()->force[k];
 }
 
@@ -332,10 +334,6 @@ ModalChannels::Range ModalChannels::contact_range(Channel channel) const {
         range = {std::min(range.low, value), std::max(range.high, value)};
     }
     const double stray = strays_between_nodes(channel, variation);
-    if (channel.kind == ChannelKind::friction_force) {
-        const double most = sensitivity_.friction() * (range.high + stray);
-        return {-most, most};
-    }
     return {range.low - stray, range.high + stray};
 }
 

@@ -51,7 +51,6 @@ void StepChannels::set_phase(const Phase& phase) {
 void StepChannels::begin(const SegmentInterval& s) {
     const Phase& phase = evaluator_.system().phase();
     probing_ = !(phase.touching && phase.held);
-    rubbing_ = !probing_ && !evaluator_.system().friction().none();
     bristled_ = phase.touching && evaluator_.system().has_bristle();
     if (bounded_from_ != s.from || bounded_to_ != s.to) bound(s);
     bounded_from_ = s.from;
@@ -113,6 +112,7 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
         touch.gap[k] = c.gap;
         touch.gap_rate[k] = c.gap_rate;
         touch.force[k] = c.force;
+        touch.friction[k] = c.friction;
         touch.x[k] = c.x;
     }
 }
@@ -190,6 +190,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
     const TouchSamples* touch = touch_at_samples(modal_channels_.touch(), s);
     if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
     if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
+    if (touch && channel.kind == ChannelKind::friction_force) return copied(touch->friction);
     if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
     const bool is_balance = channel.kind == ChannelKind::energy_residual;
     if (is_balance && sampled.balance) return *sampled.balance;
@@ -209,8 +210,6 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
                 evaluator_.set(t, y_.data());
                 evaluator_.set_gap(touch->gap[k], touch->force[k]);
                 values[k] = evaluator_.value(channel);
-            } else if (touch && rubbing_ && !polynomial_ && channel.kind == ChannelKind::friction_force) {
-                values[k] = touch->force[k] * system().friction().ratio(probe_.evaluate(t, y_.data(), false).slip);
             } else {
                 if (touch && polynomial_) sampled.states[k].contact = polynomial_contacts_[k];
                 values[k] = value_of_state(channel, t, sampled.states[k]);

@@ -44,11 +44,10 @@ class StepChannels {
     // In sustained impulsive contact the gap and the energy stored in it are zero but for rounding errors, and so are
     // rates and accelerations of a beam at rest.
     bool rounding_only(ChannelKind kind);
-    // The channel depends on the state of a bristle, or on a contact that the law does not describe.
-    bool unlike_law(ChannelKind kind) const {
-        if (!bristled_) return rubbing_ && kind == ChannelKind::friction_force;
-        return kind == ChannelKind::friction_force || kind == ChannelKind::energy_contact ||
-               kind == ChannelKind::loss_contact || kind == ChannelKind::loss_friction;
+    // The channel depends on the state of a bristle.
+    bool of_bristle(ChannelKind kind) const {
+        return bristled_ && (kind == ChannelKind::energy_contact || kind == ChannelKind::loss_contact ||
+                             kind == ChannelKind::loss_friction);
     }
 
     double value(const SegmentInterval& s, Channel channel, double t);
@@ -90,7 +89,6 @@ class StepChannels {
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
     bool bristled_ = false;                       // it has a bristle
-    bool rubbing_ = false;                        // it lasts, under a constraint, with friction
     bool at_rest_ = false;                        // all rates at the nodes are below the absolute tolerance
     double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };
