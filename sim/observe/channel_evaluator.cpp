@@ -164,29 +164,31 @@ double ChannelEvaluator::place_on_rim() {
 double ChannelEvaluator::separation(ChannelKind kind) {
     const Model& beam = model();
     const ContactState c = contact();
-    find_hub_acceleration(c);
+    const double acceleration = hub_acceleration(c);
     BeamPoint p, root;
     beam.point(c.x, p);
     beam.point(0, root);
     const Vec2 along = unit(beam.hub_angle()), span = p.r - root.r;
     const double deflection = dot(span, perp(along)), arm = std::hypot(c.x, deflection);
     const double pull = 3 * c.x * system_.problem().gravity * std::cos(beam.hub_angle()) / (2 * beam.length());
-    return hub_acceleration_ * arm + (kind == ChannelKind::separation ? pull : -pull);
+    return acceleration * arm + (kind == ChannelKind::separation ? pull : -pull);
 }
 
-void ChannelEvaluator::find_hub_acceleration(const ContactState& c) {
-    if (acceleration_known_) return;
+double ChannelEvaluator::hub_acceleration(const ContactState& c) {
+    if (acceleration_known_) return hub_acceleration_;
+    const Model& beam = model();
     double acc[kMaxSize];
-    if (forces_known_) {
+    if (forces_known_ || !system_.phase().touching) {
         system_.current_acceleration(t_, c, acc);
     } else {
         system_.begin_contact_at(c.x);
         system_.acceleration(t_, y_.data(), acc);
+        system_.set_state(t_, y_.data());
     }
     hub_acceleration_ = 0;
-    for (int i = 0; i < system_.coordinates(); ++i) hub_acceleration_ += system_.model().hub_row()[i] * acc[i];
+    for (int i = 0; i < system_.coordinates(); ++i) hub_acceleration_ += beam.hub_row()[i] * acc[i];
     acceleration_known_ = true;
-    system_.set_state(t_, y_.data());
+    return hub_acceleration_;
 }
 
 Pose ChannelEvaluator::pose(int stations) {

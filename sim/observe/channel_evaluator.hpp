@@ -33,6 +33,8 @@ class ChannelEvaluator {
     void set_gap(double gap, double force);
     void set_contact(const ContactState& contact);
     const ContactState& contact();
+    // θ̈ with the forces of this contact, which only touching has.
+    double hub_acceleration(const ContactState& c);
 
   private:
     System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
@@ -40,7 +42,6 @@ class ChannelEvaluator {
     double tip(ChannelKind kind);
     double place_on_rim();
     double separation(ChannelKind kind);
-    void find_hub_acceleration(const ContactState& c);
 
     System system_;
     double t_ = 0, start_total_ = 0;

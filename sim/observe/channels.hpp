@@ -53,7 +53,7 @@ struct ChannelTraits {
     bool of_beam_energy = false;
     bool separation = false;
     bool monotone = false;         // largest and smallest at ends, where the contact follows its law and the cam turns
-    bool zero_where_held = false;  // but for rounding, where contact is a constraint
+    bool zero_where_held = false;  // but for errors, where contact is a constraint
     bool zero_at_rest = false;     // but for rounding, where in such contact nothing moves
     bool estimated() const { return of_tip || separation; }
 };

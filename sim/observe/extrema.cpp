@@ -122,9 +122,9 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     const ModalChannels& modes = step_.modes();
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
     if (step_.of_bristle(channel.kind)) return step_.sampled_range(s, channel, sampled_);
-    const bool rounding = step_.rounding_only(channel.kind);
-    if (rounding && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
-    if (traits(channel.kind).monotone || rounding) return std::nullopt;
+    const bool errors = step_.errors_only(channel.kind);
+    if (errors && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
+    if (traits(channel.kind).monotone || errors) return std::nullopt;
     const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
     if (mode && is_beaten(modes.mode_range(channel), channel.kind, e)) return std::nullopt;
     const ModalChannels::Range range = modes.range(channel, first_[c], last_[c]);

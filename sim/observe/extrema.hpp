@@ -73,8 +73,10 @@ class ExtremaFinder {
                       Extremum& e);
     void search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
                 Extremum& e);
+    bool estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e,
+                            StepChannels::SampledStates& sampled);
     template <class F>
-    void climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
+    bool climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
     template <class F>
     void offer_corners(const F& arc, const SegmentInterval& s, const Samples& feet, BestValue& best);
     void search_arc(const SegmentInterval& s, double sign, StepChannels::SampledStates& sampled, Extremum& e);

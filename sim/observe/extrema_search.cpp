@@ -29,6 +29,7 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
                            Extremum& e) {
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, sampled, e);
+    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e, sampled)) return;
     const Samples samples = step_.sample(s, channel, sampled);
     if (has_only_nodes(channel.kind)) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
@@ -36,19 +37,38 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     }
     BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
-    climb_step([&](double t) { return step_.value(s, channel, t); }, s, channel, samples, best);
+    if (!climb_step([&](double t) { return step_.value(s, channel, t); }, s, channel, samples, best)) ++incomplete_;
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
-// Raises `best` to the largest value of f in the step.
+// What is cheap of a costly channel, and its error, exclude most steps.
+bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e,
+                                       StepChannels::SampledStates& sampled) {
+    BestValue best = best_so_far(channel.kind, sign, e);
+    const double error = step_.estimate_error(channel), most = best.value - error;
+    const bool shared = traits(channel.kind).separation;
+    double& proven = sampled.separation[sign > 0 ? 0 : 1];
+    if (shared && proven <= most) return true;
+    const double aim = shared ? most - 2 * error : most;  // the other separation differs by this
+    if (!(aim > 0)) return false;
+    best.value = aim - best.left_out;
+    const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
+    Samples samples;
+    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = estimate(sample_time(s, k));
+    const bool complete = climb_step(estimate, s, channel, samples, best);
+    if (complete && shared) proven = best.value;
+    return complete && best.value <= most;
+}
+
+// Raises `best` to the largest value of f in the step; false if the search ended before.
 template <class F>
-void ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples,
+bool ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples,
                                BestValue& best) {
     const Variation variation = step_.variation(s, channel, samples);
     for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
     const auto [low, high] = std::ranges::minmax(samples);
     const double farthest = variation.strays(kWidestNodeGap * (s.to - s.from));
-    if (std::max(best.sign * low, best.sign * high) + farthest <= best.to_beat()) return;
+    if (std::max(best.sign * low, best.sign * high) + farthest <= best.to_beat()) return true;
     const double radians = (s.to - s.from) * step_.system().highest_frequency();
     const double needed = std::min(kFewestHalvings + kHalvingsPerRadian * radians, kMostHalvings);
     const long allowed = std::min(halvings_left_, static_cast<long>(needed));
@@ -59,8 +79,8 @@ void ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel cha
     };
     for (std::size_t k = 0; k + 1 < samples.size(); ++k)
         climb(polled, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
-    if (best.intervals < 0) ++incomplete_;
     halvings_left_ -= allowed - std::max(best.intervals, 0L);
+    return best.intervals >= 0;
 }
 
 double ExtremaFinder::rim() { return 2 * std::numbers::pi * step_.system().problem().cam->radius; }
@@ -94,7 +114,7 @@ void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, StepChanne
     for (double& value : samples) value = unwrapped(value, first);
     BestValue best = best_so_far(kArc.kind, sign, e);
     const double before = best.value;
-    climb_step(arc, s, kArc, samples, best);
+    if (!climb_step(arc, s, kArc, samples, best)) ++incomplete_;
     offer_corners(arc, s, feet, best);
     if (!(best.value > before)) return;
     const double value = sign * best.value;
@@ -116,7 +136,7 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) 
         search_parts(s, {kind}, sign, states, e);
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
-    if (!step_.rounding_only(ChannelKind::gap)) raise(ChannelKind::gap, -1, of_gap);
+    if (!step_.errors_only(ChannelKind::gap)) raise(ChannelKind::gap, -1, of_gap);
     peaks = {of_force.max, -of_gap.min};
 }
 

@@ -210,7 +210,7 @@ double ModalChannels::strays_between_nodes(Channel channel, const Variation& pol
 ModalChannels::Range ModalChannels::range(Channel channel, double first, double last) const {
     const ChannelKind kind = channel.kind;
     if (traits(kind).separation) {
-        const double most = bounds_.arm * (bounds_.hub_acceleration + 1.5 * sensitivity_.gravity() / basis_.length);
+        const double most = bounds_.arm * (bounds_.hub_acceleration + pull());
         return {-most, most};
     }
     Range range{std::min(first, last), std::max(first, last)};
@@ -243,11 +243,12 @@ ModalChannels::Range ModalChannels::within(ChannelKind kind, const Range& range)
     return jumps ? Range{0, around} : range;
 }
 
-// What `at_nodes` leaves out: of the tip, terms of third order; of the kinetic energy, ½Θ̇²qᵀBq.
+// Of the tip, terms of third order; of the kinetic energy, ½Θ̇²qᵀBq.
 double ModalChannels::estimate_error(Channel channel) const {
     const double fastest = bounds_.part.motion->theta_dot;
     if (channel.kind == ChannelKind::energy_kinetic)
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
+    if (traits(channel.kind).separation) return bounds_.arm * pull();
     double error = 0;
     if (traits(channel.kind).of_tip)
         sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) {
@@ -311,8 +312,7 @@ ModalChannels::Range ModalChannels::separation_range() const {
     add_on_line(last);
     for (int k = 0; k < kNodes; ++k)
         if (at[k] > first && at[k] < last) add(nodes[k]);
-    const double pull = 1.5 * sensitivity_.gravity() / basis_.length;
-    return {-bounds_.arm * (stray - range.low + pull), bounds_.arm * (range.high + stray + pull)};
+    return {-bounds_.arm * (stray - range.low + pull()), bounds_.arm * (range.high + stray + pull())};
 }
 
 double ModalChannels::contact_value(ChannelKind kind, int k) const {

@@ -44,13 +44,17 @@ class ModalChannels {
     Range mode_range(Channel channel) const;
     // The possible part of that range; of the arc on the disc the whole disc if the mark may be in it.
     Range within(ChannelKind kind, const Range& range) const;
+    // How far the channel may be from what is cheap of it: of the tip, its linear part; of the separation, θ̈ times the
+    // longest arm; of the kinetic energy, that without the change of inertia by bending.
+    double estimate_error(Channel channel) const;
+    double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 
   private:
     double drift(ChannelKind kind) const;
     double line_strays(Channel channel, double length) const;
-    double estimate_error(Channel channel) const;
+    double pull() const { return 1.5 * sensitivity_.gravity() / basis_.length; }  // of gravity, per arm (S41)
     double strays_between_nodes(Channel channel, const Variation& polynomial) const;
     template <class Add>
     void each_unresolved(Channel channel, Add&& add) const;

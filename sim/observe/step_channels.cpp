@@ -117,7 +117,7 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
     }
 }
 
-bool StepChannels::rounding_only(ChannelKind kind) {
+bool StepChannels::errors_only(ChannelKind kind) {
     if (!system().phase().held) return false;
     return traits(kind).zero_where_held || (at_rest_ && traits(kind).zero_at_rest);
 }
@@ -145,6 +145,15 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
     evaluate_state(s, channel.kind, t, y_.data());
     SampledState sampled;
     return value_of_state(channel, t, sampled);
+}
+
+double StepChannels::estimate(const SegmentInterval& s, Channel channel, double t) {
+    evaluate_state(s, channel.kind, t, y_.data());
+    if (!traits(channel.kind).separation) return modal_channels_.tip(channel.kind, y_.data());
+    evaluator_.set(t, y_.data());
+    if (probing_ && evaluator_.system().phase().touching) probe_contact(t);
+    return modal_channels_.longest_arm() *
+           evaluator_.hub_acceleration(evaluator_.system().phase().touching ? evaluator_.contact() : ContactState{});
 }
 
 // Of the state in `y_`; takes contact and energies from `sampled` if they are there, else computes and keeps them.

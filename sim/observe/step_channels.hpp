@@ -28,6 +28,8 @@ class StepChannels {
     struct SampledStates {
         std::array<SampledState, kSamples> states;
         std::optional<Samples> balance;  // of the channel energy_residual
+        // Proven by a search: what is cheap of the separation is at most the first, and at least minus the second.
+        std::array<double, 2> separation{kNan, kNan};
     };
 
     explicit StepChannels(const System& system);
@@ -41,9 +43,9 @@ class StepChannels {
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
-    // In sustained impulsive contact the gap and the energy stored in it are zero but for rounding errors, and so are
-    // rates and accelerations of a beam at rest.
-    bool rounding_only(ChannelKind kind);
+    // In sustained impulsive contact the gap and the energy stored in it are zero but for errors: of rounding at the
+    // ends of steps, of the dense output within. Rates and accelerations of a beam at rest are zero but for rounding.
+    bool errors_only(ChannelKind kind);
     // The channel depends on the state of a bristle.
     bool of_bristle(ChannelKind kind) const {
         return bristled_ && (kind == ChannelKind::energy_contact || kind == ChannelKind::loss_contact ||
@@ -58,6 +60,10 @@ class StepChannels {
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed or evaluated last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
+    // Of a costly channel what is cheap: the channel times `sign` is at most this times `sign`, or zero if that is
+    // more, plus the error.
+    double estimate(const SegmentInterval& s, Channel channel, double t);
+    double estimate_error(Channel channel) const { return modal_channels_.estimate_error(channel); }
     Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
