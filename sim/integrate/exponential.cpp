@@ -107,7 +107,8 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (method_.contact_end && !(touching_ && t == t_)) method_.contact_end->reset_side();
         touching_ = phase.touching;
-        // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback.
+        // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback. At tolerances
+        // near rounding, as in the search of orbits, this method would take shorter ones.
         falling_back_ = phase.held && method_.step.n == 0;
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
