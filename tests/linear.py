@@ -38,6 +38,8 @@ CASES = {  # name: (command, text of n parts)
     "keys of an output": (["check", "{f}.json"], lambda n: outputs(['{"type": "summary", ' + ",".join(f'"x-{i}": 1' for i in range(n)) + "}"])),
     "changes of a comparison": (["check", "{f}.json"], lambda n: outputs(
         ['{"type": "still", "at": 0, "compare": [{}, {"set": {' + ",".join(f'"hub.x-{i}": 1' for i in range(n)) + "}}]}"])),
+    "comparisons with a file": (["check", "{f}.json"], lambda n: outputs(
+        f'{{"type": "still", "at": 0, "file": "s{i}.png", "compare": [{{}}, {{"scene": "x.json"}}]}}' for i in range(n // 10))),
     "outputs": (["check", "{f}.json"], lambda n: outputs(f'{{"type": "summary", "file": "s{i}.json"}}' for i in range(n))),
     "outputs in one line": (["check", "{f}.json"], lambda n: outputs(f'{{"type": "summary", "file": "s{i}.json"}}' for i in range(n)).replace("\n", "")),
     "outputs that clash": (["check", "{f}.json"], lambda n: outputs('{"type": "summary", "file": "s.json"}' for _ in range(n))),

@@ -71,8 +71,9 @@ class Acceptor {
         if (!entry.problem.empty()) return entry.problem.substr(0, entry.problem.find('\n'));
         if (has_pictures(entry, found) || !found.motion_files.empty())
             return found.differs() ? found.not_reproducible : "";
-        for (const auto* lines : {&found.motion_lines, &found.picture_lines})
-            if (!lines->empty()) return lines->back();
+        for (const auto& [verdict, lines] :
+             {std::pair(found.motion, &found.motion_lines), {found.picture, &found.picture_lines}})
+            if (verdict >= Verdict::different && !lines->empty()) return lines->back();
         return "the report contains neither its pictures nor its motion";
     }
 

@@ -27,12 +27,29 @@ bool is_mechanics(std::string_view section) {
     return std::ranges::find(mechanics_sections(), section) != mechanics_sections().end();
 }
 
-Node mechanics_of(const Node& root) {
-    Node out = object_node();
-    out.place = root.place;
+// The sections for which `holds` is true.
+Node sections_of(const Node& root, bool (*holds)(std::string_view section)) {
+    Node out = root;
+    out.members = {};
     for (const Member& member : root.members)
-        if (is_mechanics(member.key)) out.members.add(member);
+        if (holds(member.key)) out.members.add(member);
     return out;
+}
+Node mechanics_of(const Node& root) { return sections_of(root, is_mechanics); }
+
+// Its outputs are not read: they may compare it with the scene that names it.
+OtherScene read_other(const std::string& path) {
+    try {
+        Source source = load_named_source(path);
+        const Parsed parsed = parse(source.text);
+        if (parsed.is_json && std::ranges::none_of(parsed.messages, &Message::fatal)) {
+            const Node root = sections_of(parsed.root, [](std::string_view section) { return section != "outputs"; });
+            if (read_scene(std::move(source), root, {}).scene) return {mechanics_of(root), {}};
+        }
+        return {{}, fmt::format("it is not a valid scene; `beamcam check {}` lists its errors", path)};
+    } catch (const UnreadableFile& unreadable) {
+        return {{}, unreadable.what()};
+    }
 }
 
 // The mechanics in another scene file, whose path is relative to this one; nullopt: an error was reported.
@@ -41,15 +58,11 @@ std::optional<Node> other_mechanics(ObjectReader& r, const Node& node, const std
         r.expect(node, key, "a file name in quotes");
         return std::nullopt;
     }
-    const auto path = std::filesystem::path(r.context().source.name).parent_path() / node.text;
-    try {
-        const Parsed parsed = parse(load_named_source(path.string()).text);
-        if (parsed.is_json && std::ranges::none_of(parsed.messages, &Message::fatal)) return mechanics_of(parsed.root);
-        r.reject_value(node, key, ": it is not a valid scene; `beamcam check {}` lists its errors", path.string());
-    } catch (const UnreadableFile& unreadable) {
-        r.reject_value(node, key, ": {}", unreadable.what());
-    }
-    return std::nullopt;
+    const auto path = (std::filesystem::path(r.context().source.name).parent_path() / node.text).string();
+    auto other = r.context().others.find(path);
+    if (other == r.context().others.end()) other = r.context().others.emplace(path, read_other(path)).first;
+    if (!other->second.mechanics) r.reject_value(node, key, ": {}", other->second.problem);
+    return other->second.mechanics;
 }
 
 void set_values(ObjectReader& r, const Node& set, const std::string& key, Node& out) {
@@ -89,14 +102,14 @@ void visit(SceneVisitor& v, Compared& motion) {
     v.text("label", motion.label, "Its name in the picture; by default its number.");
     v.check([&motion](ObjectReader& r) { check_words(r, "label", motion.label); });
     v.check([&](ObjectReader& r) { base = mechanics_of(r.context().root); });
-    const auto read_other = [&](ObjectReader& r, const Node& node, const std::string& key) {
+    const auto read_scene_key = [&](ObjectReader& r, const Node& node, const std::string& key) {
         const auto other = other_mechanics(r, node, key);
         readable = other.has_value();
         if (!readable) return;
         base = *other;
         move_to(*base, node.place);
     };
-    v.value("scene", {"file name", R"({"type": "string"})", read_other, [] { return Node(); }},
+    v.value("scene", {"file name", R"({"type": "string"})", read_scene_key, [] { return Node(); }},
             "File of another scene, relative to this scene's folder; by default this scene.");
     const auto read_set = [&](ObjectReader& r, const Node& node, const std::string& key) {
         if (readable) set_values(r, node, key, *base);

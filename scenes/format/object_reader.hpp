@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <functional>
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -44,11 +45,19 @@ class Diagnostics {
     std::set<std::string> failed_;
 };
 
-// What the keys of outputs are checked against: the scene as far as it has been read, its tree and its file.
+// The mechanics of another scene file, or why it has none.
+struct OtherScene {
+    std::optional<Node> mechanics;
+    std::string problem;
+};
+
+// What the keys of outputs are checked against: the scene as far as it has been read, its tree, its file, and the
+// files with which it is compared, by path.
 struct SceneContext {
     const Scene& scene;
     const Node& root;
     const Source& source;
+    std::map<std::string, OtherScene>& others;
 };
 
 class ObjectReader final : public SceneVisitor {

@@ -31,7 +31,8 @@ Scene read_tree(const Node& root, const Source& source, const std::string& scene
     Scene scene;
     scene.name = scene_name;
     Diagnostics diagnostics;
-    const SceneContext context{scene, root, source};
+    std::map<std::string, OtherScene> others;
+    const SceneContext context{scene, root, source, others};
     ObjectReader reader(diagnostics, &root, "", "the scene", &context);
     visit(reader, scene);
     reader.finish(place_in_outputs);
@@ -62,7 +63,8 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
     Diagnostics found;
-    const SceneContext context{scene, parsed.root, resolved};
+    std::map<std::string, OtherScene> others;
+    const SceneContext context{scene, parsed.root, resolved, others};
     ObjectReader reader(found, &alone, "", "the scene", &context);
     visit_outputs(reader, scene);
     const bool fine = !found.any();

@@ -106,9 +106,10 @@ std::map<std::string, std::string> texts_of(const Node& object) {
 
 Verdict verdict_of(const Node& part) {
     const std::string& text = required(part, "verdict", Kind::string).text;
-    for (const Verdict verdict : {Verdict::identical, Verdict::equivalent, Verdict::new_renderer, Verdict::different})
+    for (const Verdict verdict :
+         {Verdict::identical, Verdict::equivalent, Verdict::new_renderer, Verdict::different, Verdict::missing})
         if (text == name(verdict)) return verdict;
-    return Verdict::missing;
+    throw std::invalid_argument(fmt::format("\"{}\" is not a verdict", text));
 }
 
 std::vector<std::string> words_of(const Node& part) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
+#include <set>
 
 namespace beamcam::scenes {
 namespace {
@@ -30,19 +31,23 @@ bool matches(const Pattern& pattern, std::string_view file) {
     return std::ranges::all_of(digits, is_digit);
 }
 
+std::string pattern_of(std::string_view file) {
+    const Pattern parts = split_pattern(normal(file));
+    return parts.before + '#' + parts.after;
+}
+
 // What a claim takes, and what none may have taken before it: a file "a/b", a directory "a/", a pattern "f-#.png", and
-// "f-#.png/" for every pattern that would include the file.
+// "f-#.png/" for every claimed pattern that includes the file.
 struct ClaimKeys {
     std::vector<std::string> takes, excludes;
 };
 
-ClaimKeys keys_of(const std::string& file, bool with_patterns) {
-    const std::string path = normal(file);
-    if (is_numbered(path)) {
-        const Pattern parts = split_pattern(path);
-        const std::string pattern = parts.before + '#' + parts.after;
+ClaimKeys keys_of(const std::string& file, const std::set<std::string>& patterns) {
+    if (is_numbered(file)) {
+        const std::string pattern = pattern_of(file);
         return {{pattern}, {pattern, pattern + '/'}};
     }
+    const std::string path = normal(file);
     ClaimKeys keys{{path}, {path, path + '/'}};
     std::size_t last = 0;  // begin of the last part
     for (std::size_t slash = path.find('/'); slash != std::string::npos; slash = path.find('/', last)) {
@@ -50,9 +55,10 @@ ClaimKeys keys_of(const std::string& file, bool with_patterns) {
         keys.excludes.push_back(path.substr(0, slash));
         last = slash + 1;
     }
-    for (std::size_t i = last; with_patterns && i < path.size(); ++i)  // any run of digits may be the number
+    for (std::size_t i = last; !patterns.empty() && i < path.size(); ++i)  // any run of digits may be the number
         for (std::size_t k = i; k < path.size() && is_digit(path[k]); ++k) {
             const std::string pattern = path.substr(0, i) + '#' + path.substr(k + 1);
+            if (!patterns.contains(pattern)) continue;
             keys.takes.push_back(pattern + '/');
             keys.excludes.push_back(pattern);
         }
@@ -111,11 +117,13 @@ std::optional<long> number_of(std::string_view pattern, std::string_view file) {
 void FileClaims::add(std::string_view file, std::size_t owner) { claims_.push_back({std::string(file), owner}); }
 
 std::vector<FileClaims::Clash> FileClaims::clashes() const {
-    const bool with_patterns = std::ranges::any_of(claims_, is_numbered, &Claim::file);
+    std::set<std::string> patterns;
+    for (const Claim& claim : claims_)
+        if (is_numbered(claim.file)) patterns.insert(pattern_of(claim.file));
     std::map<std::string, const Claim*> taken;  // by the first
     std::vector<Clash> found;
     for (const Claim& claim : claims_) {
-        const ClaimKeys keys = keys_of(claim.file, with_patterns);
+        const ClaimKeys keys = keys_of(claim.file, patterns);
         const Claim* earlier = &claim;
         for (const std::string& key : keys.excludes)
             if (const auto other = taken.find(key); other != taken.end() && other->second->owner < earlier->owner)

@@ -384,13 +384,18 @@ TEST(ComparedFiles, MayCompareOneAnother) {
     EXPECT_EQ(std::get<PictureOutput>(reading.scene->outputs[0]).compare[7].problem.beam.modes, 5);
 }
 
-TEST(ComparedFiles, ErrorsOfTheirMechanicsAreReportedWhereTheyAreNamed) {
+TEST(ComparedFiles, AreValidScenesButForTheirOutputs) {
     const testing::Folder folder;
     folder.write("a.json", comparing("b.json"));
-    folder.write("b.json", R"({"beam": {"length": -1}, "outputs": [{"type": "nothing"}]})");
-    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("beam.length")));
-    folder.write("b.json", "{\"beam\": ");
-    EXPECT_THAT(messages(read_file_of(folder, "a.json")), ElementsAre(HasSubstr("it is not a valid scene")));
+    for (const char* wrong : {R"({"beam": {"length": -1}})", "{\"beam\": ", "[1]", "{\"beem\": {\"modes\": 5}}",
+                              R"({"time": {"end": -1}})", R"({"beam": 1})"}) {
+        folder.write("b.json", wrong);
+        EXPECT_THAT(messages(read_file_of(folder, "a.json")),
+                    ElementsAre(AllOf(HasSubstr("it is not a valid scene"), HasSubstr("b.json` lists its errors"))))
+            << wrong;
+    }
+    folder.write("b.json", R"({"beam": {"length": 2}, "outputs": [{"type": "nothing"}]})");
+    EXPECT_TRUE(read_file_of(folder, "a.json").scene);
 }
 
 TEST(ComparedFiles, OnlyRegularFilesAreRead) {

@@ -240,6 +240,10 @@ TEST(Accept, TakesNoFilesButThoseThatWereTested) {
                 "\"motion\": {\"renderer\": \"../x\",\n      \"verdict\"");
     EXPECT_EQ(shell(folder, "$BEAMCAM accept r").code, 6);
     folder.write("r/report.json", report);
+    const std::string inner = "\"motion\": {\n        \"verdict\": ";
+    folder.swap("r/report.json", inner + "\"different\"", inner + "\"differing\"");
+    EXPECT_THAT(shell(folder, "$BEAMCAM accept r").err, HasSubstr("\"differing\" is not a verdict"));
+    folder.write("r/report.json", report);
     shell(folder, "sed -i '$d' r/motion/motion.csv");
     const Finished changed = shell(folder, "$BEAMCAM accept r");
     EXPECT_EQ(changed.code, 6);
