@@ -30,7 +30,7 @@ const char* verdict(sim::Chaos chaos) {
                    "largest exponent does not exceed its error\n";
         case sim::Chaos::not_shown:
             return "no chaos is shown: the largest exponent does not exceed its error, differences grow by less than "
-                   "e³ in the second half, or the motion had not settled\n";
+                   "e³ in the second half, the motion had not settled, or there were no impacts\n";
     }
     return "";
 }

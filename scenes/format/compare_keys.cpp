@@ -29,8 +29,8 @@ bool is_mechanics(std::string_view section) {
 
 // The sections for which `holds` is true.
 Node sections_of(const Node& root, bool (*holds)(std::string_view section)) {
-    Node out = root;
-    out.members = {};
+    Node out = object_node();
+    out.place = root.place;
     for (const Member& member : root.members)
         if (holds(member.key)) out.members.add(member);
     return out;
@@ -42,7 +42,8 @@ OtherScene read_other(const std::string& path) {
     try {
         Source source = load_named_source(path);
         const Parsed parsed = parse(source.text);
-        if (parsed.is_json && std::ranges::none_of(parsed.messages, &Message::fatal)) {
+        if (parsed.is_json && parsed.root.kind == Node::Kind::object &&
+            std::ranges::none_of(parsed.messages, &Message::fatal)) {
             const Node root = sections_of(parsed.root, [](std::string_view section) { return section != "outputs"; });
             if (read_scene(std::move(source), root, {}).scene) return {mechanics_of(root), {}};
         }

@@ -45,9 +45,10 @@ struct Exponents {
     std::vector<std::string> warnings;
 
     bool grows_late() const { return settled && !lambda.empty() && lambda.front() * duration / 2 > kLateGrowth; }
-    // Shown: the largest exponent exceeds three standard errors plus the doubt.
+    // Shown: the largest exponent exceeds three standard errors plus the doubt. Without impacts a positive exponent is
+    // that of an unstable equilibrium or of a growing vibration.
     Chaos chaos() const {
-        if (!grows_late() || !(lambda.front() > 3 * error.front())) return Chaos::not_shown;
+        if (impacts == 0 || !grows_late() || !(lambda.front() > 3 * error.front())) return Chaos::not_shown;
         return lambda.front() > 3 * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
     }
     bool chaotic() const { return chaos() == Chaos::shown; }

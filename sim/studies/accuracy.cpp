@@ -156,7 +156,8 @@ class Assessment {
         for (const ModelKind model : request_.models) out_.models.emplace_back().model = model;
         const auto variant_of = [&](const ModelRow& row) {
             Problem variant = problem_;
-            set_shapes(variant, row.model, variant.beam.basis, std::max(problem_.beam.modes, kModelShapes));
+            const int least = row.model == ModelKind::paper ? kPaperShapes : kModelShapes;
+            set_shapes(variant, row.model, variant.beam.basis, std::max(problem_.beam.modes, least));
             if (row.model == ModelKind::exact || row.model == ModelKind::second_order)
                 variant.solver.rtol = std::max(variant.solver.rtol, std::min(1e-8, 1e-3 * request_.target));
             return variant;

@@ -12,7 +12,8 @@ inline constexpr double kModesRuns = 5;          // the same of each number of s
 inline constexpr double kModelRuns = 10;         // the same of each model
 inline constexpr double kAllRuns = 20;           // after this time, in limits of one run, timings are not repeated
 inline constexpr double kShortestPart = 1.0 / 16;  // of the motion: least part over which models are compared
-inline constexpr int kModelShapes = 6;             // least number of shapes in the comparison of models
+inline constexpr int kModelShapes = 20;            // least number of shapes in the comparison of models
+inline constexpr int kPaperShapes = 6;             // the same of `paper`, which loses its positive inertia with more
 inline constexpr double kAsFar = 0.98;             // of the longest time within the target: as good
 
 // ---- stress campaign ----

@@ -24,6 +24,18 @@ TEST(Exponents_, PeriodicMotionHasTheExponentsOfItsMultipliers) {
     EXPECT_NEAR(sum(e), 2 * impacts_per_second * std::log(0.5), 0.05);  // one impact more or less in 50 s
 }
 
+// Differences from an upright rod grow by √(3 g/2 L), but it stands still.
+TEST(Exponents_, AnUnstableEquilibriumIsNoChaos) {
+    Problem problem = PressedBeam().on_orbit(45);
+    problem.cam.reset();
+    problem.hub.drive = FreeDrive{};
+    problem.gravity = 9.81;
+    problem.initial = {.angle = std::numbers::pi / 2};
+    const Exponents e = lyapunov_exponents(problem, {1, 0, 4, 10});
+    EXPECT_NEAR(e.lambda[0], std::sqrt(1.5 * 9.81 / problem.beam.length), 0.3);
+    EXPECT_FALSE(e.chaotic());
+}
+
 // Differences of a free rotor grow in proportion to the time.
 TEST(Exponents_, LinearGrowthIsNoChaos) {
     Problem problem = PressedBeam().on_orbit(45);
@@ -86,7 +98,7 @@ TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
 
 TEST(Exponents_, TheContributionOfNearGrazingImpactsIsNoProofOfChaos) {
     Exponents e;
-    e.lambda = {1}, e.error = {0.1}, e.duration = 100;
+    e.lambda = {1}, e.error = {0.1}, e.duration = 100, e.impacts = 50;
     EXPECT_EQ(e.chaos(), Chaos::shown);
     e.doubt = 0.6;
     EXPECT_EQ(e.chaos(), Chaos::shown);
