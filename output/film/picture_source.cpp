@@ -114,4 +114,10 @@ bool PictureSource::next(Raster& picture, std::string& name) {
     return true;
 }
 
+bool PictureSource::skip() {
+    if (film_ ? !film_->skip() : next_ == files_.size()) return false;
+    ++next_;
+    return true;
+}
+
 }  // namespace beamcam::output

@@ -23,6 +23,8 @@ class PictureSource {
 
     // The next picture and its name: its file, or "fall.mp4#12". False after the last.
     bool next(Raster& picture, std::string& name);
+    // Passes over it, in a fraction of the time. False after the last.
+    bool skip();
 
   private:
     std::filesystem::path path_;

@@ -92,7 +92,7 @@ class Decoder {
   public:
     virtual ~Decoder() = default;
     virtual const VideoInfo& info() const = 0;
-    // The next picture as 4·width·height bytes R, G, B, A. False after the last.
+    // The next picture as 4·width·height bytes R, G, B, A; null: it is decoded only. False after the last.
     virtual bool next(std::uint8_t* rgba) = 0;
 };
 

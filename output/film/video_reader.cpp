@@ -17,7 +17,13 @@ VideoReader::VideoReader(const std::filesystem::path& file)
 
 bool VideoReader::next(Raster& picture) {
     picture.resize(info().width, info().height);
-    if (decoder_->next(picture.rgba.data())) {
+    return decode(picture.rgba.data());
+}
+
+bool VideoReader::skip() { return decode(nullptr); }
+
+bool VideoReader::decode(std::uint8_t* rgba) {
+    if (decoder_->next(rgba)) {
         ++read_;
         return true;
     }

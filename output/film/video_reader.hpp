@@ -20,8 +20,11 @@ class VideoReader {
 
     const VideoInfo& info() const { return decoder_->info(); }
     bool next(Raster& picture);  // false after the last; throws IoError
+    bool skip();                 // the same without converting the picture
 
   private:
+    bool decode(std::uint8_t* rgba);
+
     std::filesystem::path file_;
     std::unique_ptr<Decoder> decoder_;
     long read_ = 0;

@@ -45,11 +45,8 @@ struct Grid {
 
 long count_of(const std::string& film) {
     output::PictureSource source(film);
-    if (!source.is_film()) return std::ssize(source.files());
-    output::Raster picture;
-    std::string name;
     long count = 0;
-    for (; source.next(picture, name); ++count) stop_if_interrupted();
+    for (; source.skip(); ++count) stop_if_interrupted();
     return count;
 }
 
@@ -68,9 +65,13 @@ render::Image sheet_of(const SheetArguments& args) {
     render::Image sheet;
     int k = 0;
     std::optional<Grid> grid;
-    for (long frame = 0; k < shown && source.next(picture, name); ++frame) {
+    for (long frame = 0; k < shown; ++frame) {
         stop_if_interrupted();
-        if (!is_shown(frame, frames, shown, k)) continue;
+        if (!is_shown(frame, frames, shown, k)) {
+            source.skip();
+            continue;
+        }
+        if (!source.next(picture, name)) break;
         if (!grid) {
             grid.emplace(args, shown, picture);
             if (grid->total_height() > kTallest)

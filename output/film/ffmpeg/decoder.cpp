@@ -139,6 +139,7 @@ class FfmpegDecoder : public Decoder {
         const AVFrame& f = *frame_;
         if (f.width != info_.width || f.height != info_.height) file_.refuse("its pictures have different sizes");
         if ((f.flags & AV_FRAME_FLAG_CORRUPT) != 0 || f.decode_error_flags != 0) file_.refuse(kDamaged);
+        if (rgba == nullptr) return;
         prepare_scaler();
         std::uint8_t* const to[4] = {rgba, nullptr, nullptr, nullptr};
         const int stride[4] = {4 * f.width, 0, 0, 0};
