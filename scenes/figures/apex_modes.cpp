@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
@@ -56,6 +57,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
     }
     return [runs, lang = how.lang, problem = scene.problem, units = scene.units,
             end = scene.end_time](const Results& results) -> Figure {
+        const Measure angle = measure_in(units, "rad");
         std::vector<Series> series;  // hub–beam, cantilever
         for (int k = 0; k < 2; ++k)
             series.push_back(
@@ -67,7 +69,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         for (const ApexRun& run : runs) {
             const std::size_t shapes = run.basis == Basis::hub_beam ? 0 : 1;
             if (const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], end)) {
-                series[shapes].add(run.modes, *apex);
+                series[shapes].add(run.modes, angle.factor * *apex);
                 used.emplace_back(&run.problem, results[run.study]);
             } else {
                 missing[shapes].push_back(run.modes);
@@ -78,7 +80,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
                 "figure apex-modes: θ does not rise above its value at the first touch before the scene ends, or the "
                 "beam strikes the cam from below; raise time.end or set initial.angle");
         return {.panels = {{.x = {.label = "$N$", .counts = true},
-                            .y = {.label = "$θ_{\\r{apex}}$ / rad"},
+                            .y = {.label = axis_label("$θ_{\\r{apex}}$", angle.unit)},
                             .series = std::move(series),
                             .legend = Legend::box}},
                 .aspect = 0.62,

@@ -50,8 +50,13 @@ std::string axis_label(const std::string& symbol, const std::string& unit) {
     return symbol.empty() ? printed : fmt::format("{} / {}", symbol, printed);
 }
 
+std::string with_unit(const std::string& number, const std::string& unit) {
+    if (unit.empty() || unit == "1") return number;
+    return number + (unit.starts_with("°") ? "" : " ") + print_unit(unit);
+}
+
 std::string value_label(const std::string& symbol, double value, const std::string& unit) {
-    return fmt::format("{} = {:g}{}", symbol, value, unit.empty() || unit == "1" ? "" : " " + print_unit(unit));
+    return fmt::format("{} = {}", symbol, with_unit(fmt::format("{:g}", value), unit));
 }
 
 Measure measure_in(const render::Units& units, const std::string& si_unit) {

@@ -12,6 +12,8 @@ namespace beamcam::scenes {
 std::string symbol_of(const std::string& name);
 // "$ω$ / (rad s^{−1})"; without unit the symbol alone.
 std::string axis_label(const std::string& symbol, const std::string& unit);
+// "48 rad s^{−1}", "90° s^{−1}"; without unit the number alone.
+std::string with_unit(const std::string& number, const std::string& unit);
 // "$ω$ = 48 rad s^{−1}"
 std::string value_label(const std::string& symbol, double value, const std::string& unit);
 

@@ -9,16 +9,13 @@
 #include "render/draw/markup.hpp"
 #include "render/plot/lang.hpp"
 #include "render/plot/ticks.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "sim/beam/drive.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 std::string degrees(double angle, int digits) { return number(angle * 180 / M_PI, digits) + "°"; }
-std::string speed(double value, render::SpeedUnit unit) {
-    const bool rpm = unit == render::SpeedUnit::rpm, degrees = unit == render::SpeedUnit::degrees;
-    return number(value * render::factor_of(unit), 4) + (rpm ? " rpm" : degrees ? "° s^{−1}" : " rad s^{−1}");
-}
 
 }  // namespace
 
@@ -77,11 +74,11 @@ std::string drive_fact(const sim::Drive& drive, render::SpeedUnit unit, Lang lan
         std::string operator()(const sim::ConstantSpeed& d) const {
             if (d.speed == 0) return phrase(lang, "hub held", "轮毂固定");
             return phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动",
-                          speed(d.speed, unit));
+                          angular_speed_text(d.speed, unit));
         }
         std::string operator()(const sim::SpinUp& d) const {
-            return phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}", speed(d.speed, unit),
-                          number(d.duration, 4));
+            return phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}",
+                          angular_speed_text(d.speed, unit), number(d.duration, 4));
         }
         std::string operator()(const sim::AngleTable& d) const {
             return phrase(lang, "hub angle from a table of {} instants", "轮毂转角由 {} 个时刻的表给定", d.t.size());
@@ -100,7 +97,7 @@ std::vector<std::string> start_facts(const sim::Problem& p, render::SpeedUnit un
     const double rate = p.initial.angular_velocity;
     if (!prescribed)
         out.push_back(rate == 0 ? phrase(lang, "released at rest", "由静止释放")
-                                : fmt::format("$\\dot{{θ}}$(0) = {}", speed(rate, unit)));
+                                : fmt::format("$\\dot{{θ}}$(0) = {}", angular_speed_text(rate, unit)));
     const bool given = !p.initial.q.empty() || !p.initial.q_dot.empty();
     if (given)
         out.push_back(phrase(lang, "in a given shape at the start", "初始为给定挠形"));
@@ -121,8 +118,9 @@ std::vector<std::string> cam_facts(const sim::Cam& c, render::SpeedUnit unit, La
         out.push_back(phrase(lang, "cam at rest", "凸轮静止"));
     else
         out.push_back(c.speed > 0
-                          ? phrase(lang, "$ω$ = {} clockwise", "$ω$ = {}（顺时针）", speed(c.speed, unit))
-                          : phrase(lang, "$ω$ = {} (counter-clockwise)", "$ω$ = {}（逆时针）", speed(c.speed, unit)));
+                          ? phrase(lang, "$ω$ = {} clockwise", "$ω$ = {}（顺时针）", angular_speed_text(c.speed, unit))
+                          : phrase(lang, "$ω$ = {} (counter-clockwise)", "$ω$ = {}（逆时针）",
+                                   angular_speed_text(c.speed, unit)));
     return out;
 }
 
@@ -179,6 +177,10 @@ std::string one_digit(double value) {
 
 std::string length_text(double metres) {
     return std::abs(metres) >= 0.01 || metres == 0 ? number(metres, 3) + " m" : render::quantity(metres, "m");
+}
+
+std::string angular_speed_text(double speed, render::SpeedUnit unit) {
+    return with_unit(number(speed * render::factor_of(unit), 4), render::name_of(unit));
 }
 
 std::string grouped(double value, int decimals) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "sim/studies/paper.hpp"
 
@@ -82,8 +83,9 @@ Falls falls_of(const Scene& scene, Studies& studies) {
     return out;
 }
 
-// Microseconds about the closed form, microradians about zero, if both beams cross there.
-std::optional<render::figure::Inset> close_up(const Falls& falls, const Results& results) {
+// Microseconds about the closed form, microradians about zero, if both beams cross there. `factor`: of the angles
+// around it.
+std::optional<render::figure::Inset> close_up(const Falls& falls, const Results& results, double factor) {
     const double exact = *falls.closely;
     Panel panel{.x = {.label = fmt::format("($t$ − {} s) / µs", grouped(exact, 6)), .tight = true},
                 .y = {.label = "$θ$ / µrad"},
@@ -108,7 +110,8 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const Results&
         .panel = {std::move(panel)},
         .width = 0.36,
         .height = 0.34,
-        .source = render::figure::Inset::Source{exact - kAround, exact + kAround, -slope * kAround, slope * kAround}};
+        .source = render::figure::Inset::Source{exact - kAround, exact + kAround, -factor * slope * kAround,
+                                                factor * slope * kAround}};
 }
 
 std::string fall_caption(const Falls& falls, const Results& results, double end, Lang lang) {
@@ -146,20 +149,24 @@ std::string fall_caption(const Falls& falls, const Results& results, double end,
     return text;
 }
 
-Panel fall_panel(const Falls& falls, const Results& results, Lang lang) {
+Panel fall_panel(const Falls& falls, const Results& results, const render::Units& units, Lang lang) {
+    const Measure angle = measure_in(units, "rad");
     Panel panel{.x = {.label = "$t$ / s", .tight = true},
-                .y = {.label = "$θ$ / rad"},
+                .y = {.label = axis_label("$θ$", angle.unit)},
                 .rules = {{.at = 0}},
                 .legend = Legend::box};
-    for (const Fall& fall : falls.shown) panel.series.push_back(fall.curve(results, fall.table, fall.label.in(lang)));
+    for (const Fall& fall : falls.shown) {
+        panel.series.push_back(fall.curve(results, fall.table, fall.label.in(lang)));
+        panel.series.back().y = scaled(std::move(panel.series.back().y), angle.factor);
+    }
     panel.series.front().solid = true;
     if (falls.paper) falls.mark_zero(falls.shown.back(), results, false, panel);
-    if (auto inset = falls.closely ? close_up(falls, results) : std::nullopt) {
+    if (auto inset = falls.closely ? close_up(falls, results, angle.factor) : std::nullopt) {
         // Room above the curves for the legend and the inset.
         double low = 0, high = 0;
         for (const Series& s : panel.series)
             for (const double v : s.y) low = std::min(low, v), high = std::max(high, v);
-        panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01;
+        panel.y.to = 1.75 * high - std::min(0.0, 0.1 * low) + 0.01 * angle.factor;
         panel.insets.push_back(std::move(*inset));
     } else {
         if (falls.flexible) falls.mark_zero(falls.shown.front(), results, false, panel);
@@ -174,7 +181,7 @@ FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& s
         Runs runs;
         for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
         return {
-            .panels = {fall_panel(falls, results, lang)},
+            .panels = {fall_panel(falls, results, units, lang)},
             .aspect = 0.74,
             .caption = fall_caption(falls, results, end, lang) + beam_facts(falls.shown.front().problem, units, lang),
             .accuracy = accuracy(runs, lang)};

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 
 namespace beamcam::scenes {
@@ -79,10 +80,15 @@ std::string cut_short(const std::vector<Rung>& all, const Results& results, doub
 }
 
 // States how equation and shapes, each alone, change the first rebound.
-std::string models_caption(const std::vector<Rung>& all, const Results& results, double end, Lang lang) {
+std::string models_caption(const std::vector<Rung>& all, const Results& results, const render::Units& units, double end,
+                           Lang lang) {
     const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
         const Rung* rung = found(all, model, same_shapes);
         return rung ? rebound_apex(rung->problem, *results[rung->study], end) : std::nullopt;
+    };
+    const auto difference = [&](double a, double b, int digits) {
+        const Measure angle = measure_in(units, "rad");
+        return with_unit(number(angle.factor * std::abs(a - b), digits), angle.unit);
     };
     const Rung& reference = all.front();
     std::string text = phrase(
@@ -104,14 +110,14 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
                    "it does not conserve energy. ",
                    "论文模型为原文式 (4)，仅重力符号取自式 (2)，其能量不守恒。");
     if (first && printed)
-        text += phrase(lang, "The apex of the first rebound differs by {} rad between eq. (4) and first-order. ",
-                       "式 (4) 与一阶模型的首次回弹最高点相差 {} rad。", number(std::abs(*first - *printed), 1));
+        text += phrase(lang, "The apex of the first rebound differs by {} between eq. (4) and first-order. ",
+                       "式 (4) 与一阶模型的首次回弹最高点相差 {}。", difference(*first, *printed, 1));
     if (reference_apex && other_apex)
-        text += phrase(lang,
-                       "The other shapes change the apex of the first rebound by {} rad; this is an effect of the "
-                       "shapes, not of the equations. ",
-                       "更换形函数使首次回弹最高点改变 {} rad，这并非方程之差。",
-                       number(std::abs(*reference_apex - *other_apex), 2));
+        text +=
+            phrase(lang,
+                   "The other shapes change the apex of the first rebound by {}; this is an effect of the "
+                   "shapes, not of the equations. ",
+                   "更换形函数使首次回弹最高点改变 {}，这并非方程之差。", difference(*reference_apex, *other_apex, 2));
     if (!results[reference.study]->impacts.empty())
         text += phrase(lang, "Impacts multiply small differences. ", "碰撞会放大微小差别。");
     return text;
@@ -131,19 +137,22 @@ Series largest_difference(Series s, const std::vector<double>& reference) {
 }
 
 // The hub angle of each model, and its difference from the first: for equal shapes, and for others.
-std::vector<Panel> model_panels(const std::vector<Rung>& all, const Results& results, double end) {
+std::vector<Panel> model_panels(const std::vector<Rung>& all, const Results& results, const render::Units& units,
+                                double end) {
+    const Measure shown = measure_in(units, "rad");
     const render::Axis time{.label = "$t$ / s", .from = 0, .to = end, .tight = true};
-    const Panel difference{
-        .x = time, .y = {.label = "max |$Δθ$| / rad", .scale = Scale::logarithmic}, .legend = Legend::none};
-    Panel angle{.x = time, .y = {.label = "$θ$ / rad"}, .legend = Legend::box, .share = 1.4}, models = difference,
-                                                                                              bases = difference;
+    const Panel difference{.x = time,
+                           .y = {.label = axis_label("max |$Δθ$|", shown.unit), .scale = Scale::logarithmic},
+                           .legend = Legend::none};
+    Panel angle{.x = time, .y = {.label = axis_label("$θ$", shown.unit)}, .legend = Legend::box, .share = 1.4},
+        models = difference, bases = difference;
     for (std::size_t k = 0; k < all.size(); ++k) {
         const Rung& rung = all[k];
         if (!has_result(*results[rung.study])) continue;
         const sim::Table& table = results[rung.study]->tables[rung.table];
         Series s{.label = rung.label,
                  .x = column(table, ChannelKind::t),
-                 .y = column(table, ChannelKind::theta),
+                 .y = scaled(column(table, ChannelKind::theta), shown.factor),
                  .look = k == 0 ? 6 : static_cast<int>(k) - 1,
                  .solid = k == 0,
                  .weight = 0.85};
@@ -187,11 +196,11 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         Runs runs;
         for (const Rung& rung : all)
             if (has_result(*results[rung.study])) runs.emplace_back(&rung.problem, results[rung.study]);
-        return {.panels = model_panels(all, results, shown_until(all, results)),
+        return {.panels = model_panels(all, results, units, shown_until(all, results)),
                 .stack = true,
                 .share_x = true,
                 .aspect = 1.5,
-                .caption = models_caption(all, results, end, lang) + cut_short(all, results, end, lang) +
+                .caption = models_caption(all, results, units, end, lang) + cut_short(all, results, end, lang) +
                            facts(problem, units, lang, {.model = true, .modes = true}),
                 .accuracy = accuracy(runs, lang)};
     };

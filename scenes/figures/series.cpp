@@ -106,7 +106,7 @@ FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies&
     SeriesKeys keys = kHubAngle;
     keys.apart = true;
     for (const double speed : kPaperSpeeds) {
-        keys.compare.push_back({fmt::format("$ω$ = {} rad s^{{−1}}", number(speed, 3)), scene.problem});
+        keys.compare.push_back({"$ω$ = " + angular_speed_text(speed, scene.units.speed), scene.problem});
         keys.compare.back().problem.cam->speed = speed;
     }
     return prepare_series(

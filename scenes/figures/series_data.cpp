@@ -92,26 +92,26 @@ std::string agreement_text(const std::vector<Measured>& all, const sim::Result& 
     for (const Measured& each : all)
         for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {
             const std::string symbol = render::print_symbol(a.channel);
-            const auto [factor, unit] = measure_in(units, sim::unit(a.channel, problem));
+            const Measure shown = measure_in(units, sim::unit(a.channel, problem));
+            const auto text_of = [&](double v, int digits) {
+                return with_unit(number(shown.factor * v, digits), shown.unit);
+            };
             if (a.whole.rows == 0 && !a.beyond)
                 text += phrase(lang, "Data “{}”: at no instant {} has both a measured and a computed value. ",
                                "{}：没有任何时刻同时具有 {} 的测量值与计算值。", each.data.label, symbol);
             if (a.whole.rows > 0)
-                text += phrase(lang,
-                               "Data “{}”: at {} instants {} differs by {} {} (root mean square), at most by {} {} at "
-                               "{} s. ",
-                               "{}，{} 个时刻：{} 的均方根差为 {} {}，最大差 {} {}（{} s）。", each.data.label,
-                               a.whole.rows, symbol, number(factor * a.whole.rms, 2), unit,
-                               number(factor * a.whole.largest, 2), unit, number(a.whole.t_largest, 4));
+                text += phrase(
+                    lang, "Data “{}”: at {} instants {} differs by {} (root mean square), at most by {} at {} s. ",
+                    "{}，{} 个时刻：{} 的均方根差为 {}，最大差 {}（{} s）。", each.data.label, a.whole.rows, symbol,
+                    text_of(a.whole.rms, 2), text_of(a.whole.largest, 2), number(a.whole.t_largest, 4));
             if (!a.beyond) continue;
             const auto& [rows, m, c] = *a.beyond;
             text += phrase(lang,
                            "Data “{}”: at {} instants $θ$ is not reproducible, so that only statistics compare: "
-                           "mean {} {} and standard deviation {} {}, computed {} {} and {} {}. ",
-                           "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {} {}、标准差 {} {}，计算值为 {} {}、{} "
-                           "{}。",
-                           each.data.label, rows, number(factor * m.mean, 3), unit, number(factor * m.deviation, 3),
-                           unit, number(factor * c.mean, 3), unit, number(factor * c.deviation, 3), unit);
+                           "mean {} and standard deviation {}, computed {} and {}. ",
+                           "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {}、标准差 {}，计算值为 {}、{}。",
+                           each.data.label, rows, text_of(m.mean, 3), text_of(m.deviation, 3), text_of(c.mean, 3),
+                           text_of(c.deviation, 3));
         }
     return text;
 }

@@ -11,6 +11,7 @@
 #include <sstream>
 
 #include "render/draw/markup.hpp"
+#include "scenes/figures/axis_labels.hpp"
 #include "scenes/plan/plan.hpp"
 #include "tests/scenes/figures/simulated.hpp"
 
@@ -51,6 +52,37 @@ TEST(Figures, EqualPhysicsIsOneStudy) {
     figure_type("energy")->prepare(s, {}, studies);
     figure_type("contact-places")->prepare(s, in(Lang::zh), studies);
     EXPECT_EQ(studies.take().size(), 3u);
+}
+
+TEST(Figures, HaveTheUnitsOfTheScene) {
+    const Scene si = scene_from(R"({"time": {"end": 0.6}, "solver": {"rtol": 1e-6}})");
+    Scene shown = si;
+    shown.units = {.degrees = true, .speed = render::SpeedUnit::rpm};
+    const auto plain = [&](const Scene& s, const char* name) { return render::to_plain(figure_of(s, name).caption); };
+    for (const char* name : {"free-fall", "apex-modes", "models"}) {
+        const auto figure = figure_of(shown, name), same = figure_of(si, name);
+        ASSERT_EQ(figure.panels.size(), same.panels.size());
+        for (std::size_t k = 0; k < figure.panels.size(); ++k) {
+            EXPECT_THAT(figure.panels[k].y.label, ::testing::EndsWith(" / °")) << name;
+            const auto &degrees = figure.panels[k].series.front().y, &radians = same.panels[k].series.front().y;
+            for (std::size_t i = 0; i < radians.size(); i += 50)
+                if (!std::isnan(radians[i])) EXPECT_NEAR(degrees[i], radians[i] * 180 / M_PI, 1e-12) << name;
+        }
+    }
+    EXPECT_NEAR(figure_of(shown, "free-fall").panels[0].insets[0].source->y_to,
+                figure_of(si, "free-fall").panels[0].insets[0].source->y_to * 180 / M_PI, 1e-12);
+    EXPECT_THAT(plain(si, "models"), ::testing::ContainsRegex("change the apex of the first rebound by [^ ]+ rad"));
+    EXPECT_THAT(plain(shown, "models"), ::testing::ContainsRegex("change the apex of the first rebound by [^ ]+°;"));
+    const auto speeds = figure_of(shown, "speeds");
+    EXPECT_THAT(speeds.caption, HasSubstr("$ω$ = 47.75 rpm"));
+    EXPECT_THAT(speeds.caption, Not(HasSubstr("rad s")));
+}
+
+TEST(Figures, DegreesFollowTheirNumberWithoutASpace) {
+    EXPECT_EQ(with_unit("2.5", "°"), "2.5°");
+    EXPECT_EQ(with_unit("90", "°/s"), "90° s^{−1}");
+    EXPECT_EQ(with_unit("5", "rad/s"), "5 rad s^{−1}");
+    EXPECT_EQ(with_unit("3", "1"), "3");
 }
 
 TEST(Figures, FreeFallShowsTheThreePublishedTimes) {
