@@ -27,8 +27,10 @@ inline constexpr double kLeastArc = 0.02;  // smaller angles have no arc [rad]
 double drawn_angle(const sim::Pose& pose);
 // Points of the arc of θ in the flat view; `radius` before the camera that shows everything [px].
 std::vector<Vec2> angle_arc(const MechanismView& at, double radius, const sim::Pose& pose);
-// The horizontal at the start of the arc in the solid view, which has none through the hinge [px].
+// In the solid view, which draws no horizontal through the hinge: a short one at the start of the arc [px].
 std::vector<Vec2> angle_base(const MechanismView& at, double radius);
+// The arc is drawn: it is outside the hub, and the angle is not too small.
+bool shows_angle_arc(const MechanismView& at, double radius, const sim::Pose& pose);
 void draw_angle_arc(const MechanismScene& s);
 void draw_cam_speed(const MechanismScene& s);
 void draw_base_line(const MechanismScene& s);

@@ -116,8 +116,8 @@ std::vector<Box> MechanismPanel::moving_under(const Callout& caption) const {
                 if (const auto arrow = force_arrow_of(pose, drawn, rings_.peak(k, drawn))) swept.add_arrow(*arrow);
                 add_measured(now.at, pose, drawn, swept);
             }
-        if (labels_.angle) {
-            swept.add_curve(angle_arc(now.at, labels_.arc_radius, at_.context.pose(at_.member, k)));
+        if (const Pose pose = at_.context.pose(at_.member, k); shows_angle_arc(now.at, labels_.arc_radius, pose)) {
+            swept.add_curve(angle_arc(now.at, labels_.arc_radius, pose));
             if (now.projection) swept.add_curve(angle_base(now.at, labels_.arc_radius));
         }
         room = std::move(swept.room);

@@ -171,32 +171,54 @@ TEST(Captions, AreClearOfTheArcOfTheAngle) {
     SKIP_WITHOUT_GL();
     FilmSetup setup = film_in(Style::solid);
     setup.problem.cam->centre.x = 0.35;  // the first place of a caption is over the start of the arc
-    Film plain(setup);
+    setup.problem.cam->speed = 0;        // no other arc has this colour
+    FilmSetup without = setup;
+    without.view.show.labels = false;
+    Film plain(setup), bare(without);
+    const FilmContext context(std::make_shared<const FilmSetup>(setup));
+    const MechanismView home(context, *context.places.first(PanelKind::mechanism));
     const Color muted = palette(setup.view.theme).muted;
     const auto of_arc = [&](std::uint32_t p) {
         const auto near = [&](int shift, double value) { return std::abs((p >> shift & 255) / 255.0 - value) < 0.1; };
         return near(16, muted.r) && near(8, muted.g) && near(0, muted.b);
+    };
+    const auto of_arc_in = [&](const Image& image, const Box& box) {
+        int count = 0;
+        for (int y = int(box.y); y < int(box.bottom()); ++y)
+            for (int x = int(box.x); x < int(box.right()); ++x)
+                count += of_arc(image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(x)]);
+        return count;
     };
     int captions = 0;
     for (const char* words : {"touch", "first touch", "the first touch\nof this motion"}) {
         setup.callouts = {{15, 40, words}};
         Film film(setup);
         for (int k = 15; k <= 40; k += 5) {
-            const std::vector<Box> others = plain.geometry(k).texts;
+            const FrameGeometry g = plain.geometry(k);
+            const std::vector<Box>& others = g.texts;
             const Image before = drawn(plain, k);
+            int seen = of_arc_in(before, home.box) - of_arc_in(drawn(bare, k), home.box);
+            for (const Box& label : g.labels) seen -= of_arc_in(before, label);
+            EXPECT_GT(seen, 70) << k;  // the line at its start alone has 44
             for (const Box& text : film.geometry(k).texts) {
                 if (std::ranges::find(others, text) != others.end()) continue;
                 ++captions;
-                int hidden = 0;
-                const Box plate = text.inset(-6);  // at least
-                for (int y = int(plate.y); y < int(plate.bottom()); ++y)
-                    for (int x = int(plate.x); x < int(plate.right()); ++x)
-                        hidden += of_arc(before.pixels[std::size_t(y) * std::size_t(before.width) + std::size_t(x)]);
-                EXPECT_EQ(hidden, 0) << words << ", " << k;
+                EXPECT_EQ(of_arc_in(before, text.inset(-6)), 0) << words << ", " << k;  // its plate is larger
             }
         }
     }
     EXPECT_EQ(captions, 24);  // lines
+}
+
+TEST(MechanismLabels, SmallAnglesAndArcsInTheHubAreNotShown) {
+    const FilmContext context(std::make_shared<const FilmSetup>(test::flat_film({.duration = 0.1}, 1280, 720)));
+    const MechanismView at(context, *context.places.first(PanelKind::mechanism));
+    sim::Pose pose = context.pose(0, 0);
+    pose.theta = 0.5;
+    EXPECT_TRUE(shows_angle_arc(at, 100 * at.unit, pose));
+    EXPECT_FALSE(shows_angle_arc(at, at.hub(), pose));
+    pose.theta = 0.01;
+    EXPECT_FALSE(shows_angle_arc(at, 100 * at.unit, pose));
 }
 
 // Before a near camera, too, they keep one place each, beside beam and disc, while the camera moves.
