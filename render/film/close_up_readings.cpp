@@ -70,10 +70,11 @@ void CloseUpReadings::draw_corner(Canvas& canvas, const sim::Pose& pose, double 
     TextStyle style{.size = context.tick, .color = p.ink, .align = HAlign::right}, strong = style;
     strong.weight = Weight::medium;
     const double counted = count.empty() ? 0 : canvas.measure(count, style).w;
-    const char* widest = near.friction == 0 ? kWidest : kWidestSigned;
+    const bool rubs = !std::holds_alternative<sim::NoFriction>(motion.problem.contact.friction);
+    const char* widest = rubs ? kWidestSigned : kWidest;
     const double read = canvas.measure(context.translate("friction "), strong).w + canvas.measure(widest, strong).w;
     const bool has_force = near.touching && near.force > 0 && plot.h >= 120 * u && read <= room;
-    const bool has_count = counted > 0 && counted < room, has_friction = has_force && near.friction != 0;
+    const bool has_count = counted > 0 && counted < room, has_friction = has_force && rubs;
     if (!has_count && !has_force) return;
     const auto line = [&](int k) { return plot.y + 2 * u + (1.1 + 1.3 * k) * context.tick; };
     const double right = plot.right() - 10 * u, wide = std::max(has_count ? counted : 0, has_force ? read : 0) + 8 * u,

@@ -192,9 +192,10 @@ double instant_of(const Instant& instant, const sim::Result& motion) {
                               : instant.kind == Instant::Kind::collision ? motion.collisions.size()
                               : instant.kind == Instant::Kind::release   ? static_cast<std::size_t>(released)
                                                                          : motion.impacts.size();
-    throw render::PictureError(fmt::format(
-        "{} does not occur: the motion has {} of them until {:g} s; a larger time.end or \"to\" may have more",
-        name_of(instant), count, motion.end_time));
+    throw render::PictureError(
+        fmt::format("{} does not occur: the motion has {} of them until {:g} s; a larger time.end, or \"to\" of a "
+                    "film, may have more",
+                    name_of(instant), count, motion.end_time));
 }
 
 }  // namespace beamcam::scenes

@@ -154,7 +154,8 @@ TEST(Films, AnEventThatDoesNotHappenIsRefusedWithTheCount) {
     folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "at": 0, "size": [96, 96],
         "view": {"style": "flat"}}]})");
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x.png --at apex:3").err,
-                HasSubstr("apex 3 does not occur: the motion has 0 of them until 0.1 s; a larger time.end"));
+                HasSubstr("apex 3 does not occur: the motion has 0 of them until 0.1 s; a larger time.end, or \"to\" "
+                          "of a film, may"));
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json -o x-##.png --from release --to last").err,
                 HasSubstr("release 1 does not occur: the motion has 0"));
     const Finished wrong = shell(folder, "$BEAMCAM render s.json -o x.png --at impact:0");
