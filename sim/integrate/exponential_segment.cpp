@@ -217,13 +217,24 @@ double ExponentialSegment::coordinate(double t, std::size_t index, double* y) co
 
 void ExponentialSegment::coordinates(double t, double* y) const {
     if (!form_->by_arrays() || t == t1) return value_without_vibration_work(t, y);
-    const double s = (t - t0) / h;
+    evolve_all(t, (t - t0) / h, y);
     y[0] = frame_angle(t);
+}
+
+void ExponentialSegment::beam(double t, double* y) const {
+    if (!form_->by_arrays() || t == t1) return value_without_vibration_work(t, y);
+    evolve_all(t, (t - t0) / h, y);
+}
+
+void ExponentialSegment::evolve_all(double t, double s, double* y) const {
+    double* rates = y + 1 + n_;
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
         Lanes x, dx;
         evolve(g, t, s, x, dx);
-        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i)
+        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
             y[1 + i] = x[static_cast<int>(i % kNodes)];
+            rates[1 + i] = dx[static_cast<int>(i % kNodes)];
+        }
     }
 }
 
@@ -237,14 +248,7 @@ void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) cons
     }
     const double s = (t - t0) / h;
     double* rates = y + 1 + n_;
-    for (std::size_t g = 0; g < form_->groups.size(); ++g) {
-        Lanes x, dx;
-        evolve(g, t, s, x, dx);
-        for (std::size_t i = g * kNodes; i < std::min(n_, (g + 1) * kNodes); ++i) {
-            y[1 + i] = x[static_cast<int>(i % kNodes)];
-            rates[1 + i] = dx[static_cast<int>(i % kNodes)];
-        }
-    }
+    evolve_all(t, s, y);
     if (form_->prescribed) {
         const HubMotion motion = drive_.motion(t);
         y[0] = motion.angle;

@@ -23,6 +23,7 @@ class ExponentialSegment final : public StoredSegment {
     void value_without_vibration_work(double t, double* y) const override;
     double coordinate(double t, std::size_t index, double* y) const override;
     void coordinates(double t, double* y) const override;
+    void beam(double t, double* y) const override;
     const MotionBounds* bounds() const override;
     const ModalBounds* modal_bounds() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
@@ -92,6 +93,7 @@ class ExponentialSegment final : public StoredSegment {
     void follow_forcing(std::size_t group, Lanes& value, Lanes& slope) const;
     void evaluate(double t, bool vibration_work, double* y) const;
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
+    void evolve_all(double t, double s, double* y) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
     struct Polynomial;
     struct ProductIntegral;

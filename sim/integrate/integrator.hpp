@@ -48,6 +48,7 @@ struct ModalBounds {
     struct Mode {
         double low = 0, high = 0;                          // of q [m]
         double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
+        double force = 0;                                  // of |q̈ + 2γq̇ + ω²q|
         // |q̈| ≤ q_frequency² amplitude, so for q̇ and q̈ [rad/s]
         double q_frequency = 0, rate_frequency = 0, acceleration_frequency = 0;
         // A free vibration or decay since the start of the step, which no polynomial through the nodes follows: bounds
@@ -88,6 +89,8 @@ class Segment {
     }
     // All of the coordinates, the first components: the same bits. Others are undefined.
     virtual void coordinates(double t, double* y) const { value_without_vibration_work(t, y); }
+    // All that belongs to the beam, its coordinates and rates without the hub's: the same bits. Others are undefined.
+    virtual void beam(double t, double* y) const { value_without_vibration_work(t, y); }
     // Appends the numbers that determine `value`, besides t0 and t1, to `out`; `none`: the segment cannot be stored.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     // Null for steps in which each component is a polynomial of degree `kDegree` at most.

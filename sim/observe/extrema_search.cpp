@@ -53,9 +53,7 @@ bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel
     if (!(aim > 0)) return false;
     best.value = aim - best.left_out;
     const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
-    Samples samples;
-    for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = estimate(sample_time(s, k));
-    const bool complete = climb_step(estimate, s, channel, samples, best);
+    const bool complete = climb_step(estimate, s, channel, step_.estimates(s, channel), best);
     if (complete && shared) proven = best.value;
     return complete && best.value <= most;
 }

@@ -13,6 +13,12 @@ namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+// Of q̈, what stiffness and damping cause; the forcing adds the rest.
+template <class T>
+T restored(const ModeBasis::Mode& mode, const T& q, const T& rate) {
+    return -mode.damping * rate - mode.omega * mode.omega * q;
+}
+
 }  // namespace
 
 ModalChannels::ModalChannels(System& system, const ModeBasis& basis)
@@ -46,6 +52,17 @@ double ModalChannels::hub(ChannelKind kind, const double* y) const {
     const double* x = kind == ChannelKind::theta_dot ? y + 1 + modes_.size() : y;
     double total = x[0];
     for (std::size_t i = 0; i < modes_.size(); ++i) total += basis_.hub[1 + i] * x[1 + i];
+    return total;
+}
+
+bool ModalChannels::accelerated_by_vibration() const {
+    return !touch() && basis_.are_coordinates() && !bounds_.part.modes->resolved && !system_.drive().prescribed();
+}
+
+double ModalChannels::hub_vibration(const double* y) const {
+    const double *q = y + 1, *rate = y + 2 + modes_.size();
+    double total = 0;
+    for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].turn * restored(modes_[i], q[i], rate[i]);
     return total;
 }
 
@@ -83,6 +100,13 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
             if (basis_.coupled || basis_.bends_far) return false;
             values = (0.5 * basis_.J) * modes.theta_dot * modes.theta_dot;
             for (const Lanes& rate : modes.rate) values += (0.5 * basis_.mass) * rate * rate;
+            return true;
+        case ChannelKind::separation:
+        case ChannelKind::separation_paper:
+            if (!accelerated_by_vibration()) return false;
+            values = Lanes{};
+            for (std::size_t i = 0; i < modes_.size(); ++i)
+                values += (bounds_.arm * modes_[i].turn) * restored(modes_[i], modes.q[i], modes.rate[i]);
             return true;
         default:
             return false;
@@ -248,8 +272,14 @@ double ModalChannels::estimate_error(Channel channel) const {
     const double fastest = bounds_.part.motion->theta_dot;
     if (channel.kind == ChannelKind::energy_kinetic)
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
-    if (traits(channel.kind).separation) return bounds_.arm * pull();
     double error = 0;
+    if (traits(channel.kind).separation) {
+        if (accelerated_by_vibration()) {
+            error = bounds_.part.motion->theta_ddot;
+            for (std::size_t i = 0; i < modes_.size(); ++i) error += modes_[i].h * bounds_.part.modes->modes[i].force;
+        }
+        return bounds_.arm * (error + pull());
+    }
     if (traits(channel.kind).of_tip)
         sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) {
             error += sum(s.mixed ? *s.mixed : *s.mixed_rate);
@@ -282,10 +312,8 @@ ModalChannels::Range ModalChannels::separation_range() const {
     const ModalBounds& modes = *bounds_.part.modes;
     const double length = kWidestNodeGap * modes.h, least = kFollowedRadians / modes.h;
     Lanes nodes{}, vibrations{}, unresolved{};
-    for (std::size_t i = 0; i < modes_.size(); ++i) {
-        const ModeBasis::Mode& m = modes_[i];
-        nodes += m.turn * (modes.force[i] - m.damping * modes.rate[i] - m.omega * m.omega * modes.q[i]);
-    }
+    for (std::size_t i = 0; i < modes_.size(); ++i)
+        nodes += modes_[i].turn * (modes.force[i] + restored(modes_[i], modes.q[i], modes.rate[i]));
     for (std::size_t g = 0; g < bounds_.groups.size(); ++g) {
         const ModeVibrations& m = bounds_.groups[g];
         const Lanes& turn = basis_.groups[g].h;

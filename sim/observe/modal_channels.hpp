@@ -31,8 +31,11 @@ class ModalChannels {
     double tip(ChannelKind kind, const double* y) const;
     // The hub's angle or rate in that state.
     double hub(ChannelKind kind, const double* y) const;
+    // In flight vibration alone accelerates the hub by this, the forcing of the modes and the frame by little more.
+    bool accelerated_by_vibration() const;
+    double hub_vibration(const double* y) const;
     // The same at the nodes, or q, or the kinetic energy but for the change of inertia by bending; false where the part
-    // is not the whole step, or the channel is none of these.
+    // is not the whole step, or the channel is none of these. Of the separation that by vibration.
     bool at_nodes(Channel channel, Lanes& values) const;
     // The values of a channel at the nodes that need no evaluation, if there are any.
     bool known_at_nodes(Channel channel, Lanes& values) const;
@@ -44,8 +47,9 @@ class ModalChannels {
     Range mode_range(Channel channel) const;
     // The possible part of that range; of the arc on the disc the whole disc if the mark may be in it.
     Range within(ChannelKind kind, const Range& range) const;
-    // How far the channel may be from what is cheap of it: of the tip, its linear part; of the separation, θ̈ times the
-    // longest arm; of the kinetic energy, that without the change of inertia by bending.
+    // How far the channel may be from what is cheap of it: of the tip, its linear part; of the separation, θ̈ (if it may
+    // be, that by vibration) times the longest arm; of the kinetic energy, that without the change of inertia by
+    // bending.
     double estimate_error(Channel channel) const;
     double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
     // Vibrations that a polynomial of degree 7 over that part does not resolve.

@@ -148,12 +148,29 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
 }
 
 double StepChannels::estimate(const SegmentInterval& s, Channel channel, double t) {
+    if (!traits(channel.kind).separation) {
+        s.segment->beam(t, y_.data());
+        return modal_channels_.tip(channel.kind, y_.data());
+    }
+    if (modal_channels_.accelerated_by_vibration()) {
+        s.segment->beam(t, y_.data());
+        return modal_channels_.longest_arm() * modal_channels_.hub_vibration(y_.data());
+    }
     evaluate_state(s, channel.kind, t, y_.data());
-    if (!traits(channel.kind).separation) return modal_channels_.tip(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     if (probing_ && evaluator_.system().phase().touching) probe_contact(t);
     return modal_channels_.longest_arm() *
            evaluator_.hub_acceleration(evaluator_.system().phase().touching ? evaluator_.contact() : ContactState{});
+}
+
+StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel channel) {
+    Samples values;
+    Lanes nodes;
+    const bool at_nodes = modal_channels_.at_nodes(channel, nodes);
+    for (std::size_t k = 0; k < kSamples; ++k)
+        values[k] =
+            at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, channel, sample_time(s, k));
+    return values;
 }
 
 // Of the state in `y_`; takes contact and energies from `sampled` if they are there, else computes and keeps them.

@@ -63,6 +63,7 @@ class StepChannels {
     // Of a costly channel what is cheap: the channel times `sign` is at most this times `sign`, or zero if that is
     // more, plus the error.
     double estimate(const SegmentInterval& s, Channel channel, double t);
+    Samples estimates(const SegmentInterval& s, Channel channel);
     double estimate_error(Channel channel) const { return modal_channels_.estimate_error(channel); }
     Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
     // How far the channel strays from the lines between neighbouring samples.

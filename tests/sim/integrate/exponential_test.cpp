@@ -723,6 +723,11 @@ TEST(ExponentialFlight, HasTheSameStateWithoutTheWorkOfVibration) {
             segment.coordinates(t, part.data());
             EXPECT_TRUE(std::equal(whole.begin(), whole.begin() + flight.system.coordinates(), part.begin()));
             EXPECT_EQ(segment.coordinate(t, 0, part.data()), whole[0]);
+            segment.beam(t, part.data());
+            part[0] = whole[0];
+            part[static_cast<std::size_t>(flight.system.coordinates())] =
+                whole[static_cast<std::size_t>(flight.system.coordinates())];
+            EXPECT_TRUE(std::equal(whole.begin(), whole.begin() + 2 * flight.system.coordinates(), part.begin()));
         }
     }
 }

@@ -1,0 +1,100 @@
+// Channels within the steps of a motion: estimates against true values, and samples of a contact against its law.
+#include "sim/observe/step_channels.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "sim/run/run.hpp"
+#include "tests/sim/support.hpp"
+
+namespace beamcam::sim {
+namespace {
+
+using namespace testing;
+
+// Visits every step of a motion, with its channels.
+template <class Visit>
+class EachStep final : public MotionObserver {
+  public:
+    EachStep(const Problem& problem, Visit visit) : system_(problem), step_(system_), visit_(std::move(visit)) {}
+    double end() const override { return 0; }
+    void resume(double, const std::vector<double>&, const Phase& phase) override { step_.set_phase(phase); }
+    void segment(const SegmentInterval& s) override {
+        step_.begin(s);
+        visit_(s, step_);
+    }
+    void touch(double, const std::vector<double>&, const ContactState&) override {}
+    void release(double, const std::vector<double>&, const ContactState&) override {}
+    bool done() const override { return false; }
+
+  private:
+    System system_;
+    StepChannels step_;
+    Visit visit_;
+};
+
+template <class Visit>
+void visit_steps(const Problem& p, double end, Visit visit) {
+    EachStep<Visit> observer(p, std::move(visit));
+    Request request;
+    request.end_time = end;
+    RunOptions options;
+    options.observer = &observer;
+    const Progress silent;  // `run` refers to it
+    Run run(p, {&request, 1}, silent, options);
+    run.integrate();
+}
+
+TEST(StepChannels, EstimatesKeepTheirError) {
+    constexpr int kInstants = 50;
+    constexpr double kSlack = 1 + 1e-9;
+    for (const ContactModel model : {ContactModel::restitution, ContactModel::compliant}) {
+        Problem p;
+        p.beam.modes = 8;
+        p.cam->speed = 10;
+        p.contact.model = model;
+        double largest = 0, error = 0;  // of the separation in flight
+        visit_steps(p, 0.4, [&](const SegmentInterval& s, StepChannels& step) {
+            for (const auto* name : {"tip_deflection", "tip_rate", "separation", "separation_paper"}) {
+                const Channel c = channel(name);
+                const double most = kSlack * step.estimate_error(c);
+                for (int k = 0; k <= kInstants; ++k) {
+                    const double t = s.from + (s.to - s.from) * k / kInstants;
+                    const double value = step.value(s, c, t), estimate = step.estimate(s, c, t);
+                    for (const double sign : {1.0, -1.0})
+                        EXPECT_LE(sign * value, std::max(0.0, sign * estimate) + most) << name << " at " << t;
+                    if (!traits(c.kind).separation || step.modes().touch()) continue;
+                    largest = std::max(largest, std::fabs(value));
+                    error = std::max(error, most);
+                }
+                const StepChannels::Samples samples = step.estimates(s, c);
+                for (std::size_t k = 0; k < samples.size(); ++k)
+                    EXPECT_NEAR(samples[k], step.estimate(s, c, sample_time(s, k)),
+                                1e-9 * (most + std::fabs(samples[k])));
+            }
+        });
+        EXPECT_LT(error, 0.05 * largest);
+    }
+}
+
+// Where the state of a bristle ends, the end of a step is moved without solving the step again.
+TEST(StepChannels, SamplesOfAContactFollowItsLaw) {
+    Problem p;
+    p.beam.modes = 4;
+    p.contact.friction = StickSlipFriction{0.3, {}, {}, {}};
+    int moved = 0;
+    visit_steps(p, 0.45, [&](const SegmentInterval& s, StepChannels& step) {
+        const TouchSamples* touch = s.segment->touch();
+        if (!touch || s.to != s.segment->t1) return;
+        if (touch->ending == TouchSamples::Ending::friction) ++moved;
+        for (const int k : {0, TouchSamples::kCount - 1}) {
+            const double t = touch->t[k], force = step.value(s, channel("contact_force"), t);
+            EXPECT_NEAR(touch->force[k], force, 1e-9 * (1 + force)) << t;
+            EXPECT_NEAR(touch->friction[k], step.value(s, channel("friction_force"), t), 1e-9 * (1 + force)) << t;
+        }
+    });
+    EXPECT_GT(moved, 3);
+}
+
+}  // namespace
+}  // namespace beamcam::sim
