@@ -96,6 +96,11 @@ Color curve_color(const FilmContext& context, Channel channel, std::size_t i, in
     return energy_color(*context.palette, channel.kind).value_or(series_color(*context.palette, i));
 }
 
+// Of places of contact where no force colors them.
+Color place_color(const FilmContext& context, int member) {
+    return context.members() > 1 ? context.member_color(member) : context.palette->contact;
+}
+
 // Single dots are too small to be seen in the pale colour of the future: if the motion's dots, from `first` on in the
 // order of time, nowhere form a line, they get a stronger one.
 void strengthen_single(const FilmContext& context, int member, ChartContent& c, std::size_t first) {
@@ -105,8 +110,7 @@ void strengthen_single(const FilmContext& context, int member, ChartContent& c, 
         if (dots[i].x - dots[i - 1].x >= gap) begin = i;
         if (dots[i].x - dots[begin].x > gap) return;
     }
-    const Palette& p = *context.palette;
-    const Color strong = p.tint(context.members() > 1 ? context.member_color(member) : p.contact, kSingleShare);
+    const Color strong = context.palette->tint(place_color(context, member), kSingleShare);
     for (figure::Dot& dot : dots) dot.faint = strong;
 }
 
@@ -114,7 +118,7 @@ void strengthen_single(const FilmContext& context, int member, ChartContent& c, 
 void add_impulses(const FilmContext& context, int member, const Range& shown, ChartContent& c, Extent& places) {
     if (context.motion(member).problem.contact.model != sim::ContactModel::restitution) return;
     const Palette& p = *context.palette;
-    const Color color = context.members() > 1 ? context.member_color(member) : p.contact;
+    const Color color = place_color(context, member);
     const std::size_t first = c.panel.dots.size();
     for (const sim::Impact& impact : context.motion(member).impacts) {
         if (impact.t_start < c.time().low || impact.t_start > c.time().high) continue;

@@ -55,9 +55,9 @@ std::array<PathSegment<T>, 2> impulse_path(const ComplianceOf<T>& c, const T& v_
     return {{{T(slope), stops}, {after, T(kForever)}}};
 }
 
-// How far an impact has come.
+// The state of an impact.
 template <class T>
-struct Progress {
+struct State {
     bool compressing = true;
     T impulse_n, v_n;                              // now
     T compression_impulse = 0;                     // of the whole compression
@@ -66,7 +66,7 @@ struct Progress {
 
 // What P_n needs to the end of compression or, after that, of restitution while dv_n/dP_n = rate. kForever: no end.
 template <class T>
-T remaining(const Progress<T>& now, const T& rate, const T& v_n_before, double restitution, ImpactLaw law) {
+T remaining(const State<T>& now, const T& rate, const T& v_n_before, double restitution, ImpactLaw law) {
     using std::sqrt;
     if (now.compressing) return rate > 0 ? T(-now.v_n / rate) : T(kForever);
     if (law == ImpactLaw::newton) return rate > 0 ? T((-restitution * v_n_before - now.v_n) / rate) : T(kForever);
@@ -94,7 +94,7 @@ ImpactResultOf<T> resolve_impact(const ComplianceOf<T>& c, const std::type_ident
     const std::array<impulse::PathSegment<T>, 2> path = impulse::impulse_path(c, v_t, friction);
 
     // Follow the path; v_n is linear in P_n on each segment. Compression ends where v_n passes zero.
-    impulse::Progress<T> now{.impulse_n = 0, .v_n = v_n};
+    impulse::State<T> now{.impulse_n = 0, .v_n = v_n};
     for (std::size_t k = 0; k < path.size();) {
         const impulse::PathSegment<T>& segment = path[k];
         const T rate = c.nn + c.nt * segment.slope;  // dv_n/dP_n; negative while the contact jams

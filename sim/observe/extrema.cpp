@@ -121,7 +121,7 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     const Channel& channel = channels_[c];
     const ModalChannels& modes = step_.modes();
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
-    if (step_.of_bristle(channel.kind)) return step_.sampled_range(s, channel, sampled_);
+    if (step_.depends_on_bristle(channel.kind)) return step_.sampled_range(s, channel, sampled_);
     const bool errors = step_.errors_only(channel.kind);
     if (errors && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
     if (traits(channel.kind).monotone || errors) return std::nullopt;

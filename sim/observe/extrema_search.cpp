@@ -41,11 +41,11 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
-// What is cheap of a costly channel, and its error, exclude most steps.
+// The estimate of a costly channel, plus its error, excludes most steps.
 bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e,
                                        StepChannels::SampledStates& sampled) {
     BestValue best = best_so_far(channel.kind, sign, e);
-    const double error = step_.estimate_error(channel), most = best.value - error;
+    const double error = step_.modes().estimate_error(channel), most = best.value - error;
     const bool shared = traits(channel.kind).separation;
     double& proven = sampled.separation[sign > 0 ? 0 : 1];
     if (shared && proven <= most) return true;

@@ -47,9 +47,8 @@ class ModalChannels {
     Range mode_range(Channel channel) const;
     // The possible part of that range; of the arc on the disc the whole disc if the mark may be in it.
     Range within(ChannelKind kind, const Range& range) const;
-    // How far the channel may be from what is cheap of it: of the tip, its linear part; of the separation, θ̈ (if it may
-    // be, that by vibration) times the longest arm; of the kinetic energy, that without the change of inertia by
-    // bending.
+    // How far the channel may be from its estimate. That of the tip is its linear part; of the separation, θ̈ (in flight
+    // that by vibration) times the longest arm; of the kinetic energy, that without the change of inertia by bending.
     double estimate_error(Channel channel) const;
     double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
     // Vibrations that a polynomial of degree 7 over that part does not resolve.

@@ -28,7 +28,7 @@ class StepChannels {
     struct SampledStates {
         std::array<SampledState, kSamples> states;
         std::optional<Samples> balance;  // of the channel energy_residual
-        // Proven by a search: what is cheap of the separation is at most the first, and at least minus the second.
+        // Proven by a search: the estimate of the separation is at most the first, and at least minus the second.
         std::array<double, 2> separation{kNan, kNan};
     };
 
@@ -46,8 +46,7 @@ class StepChannels {
     // In sustained impulsive contact the gap and the energy stored in it are zero but for errors: of rounding at the
     // ends of steps, of the dense output within. Rates and accelerations of a beam at rest are zero but for rounding.
     bool errors_only(ChannelKind kind);
-    // The channel depends on the state of a bristle.
-    bool of_bristle(ChannelKind kind) const {
+    bool depends_on_bristle(ChannelKind kind) const {
         return bristled_ && (kind == ChannelKind::energy_contact || kind == ChannelKind::loss_contact ||
                              kind == ChannelKind::loss_friction);
     }
@@ -60,11 +59,10 @@ class StepChannels {
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed or evaluated last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
-    // Of a costly channel what is cheap: the channel times `sign` is at most this times `sign`, or zero if that is
-    // more, plus the error.
+    // An estimate of a costly channel: the channel times +1 or −1 is at most this, times the same, or zero if that is
+    // more, plus ModalChannels::estimate_error.
     double estimate(const SegmentInterval& s, Channel channel, double t);
     Samples estimates(const SegmentInterval& s, Channel channel);
-    double estimate_error(Channel channel) const { return modal_channels_.estimate_error(channel); }
     Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;

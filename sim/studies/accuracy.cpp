@@ -150,8 +150,8 @@ class Assessment {
         std::ranges::reverse(out_.modes);
     }
 
-    // All models with so many shapes that their different bases do not matter, against the most accurate one that the
-    // time allows; over a shorter motion if `exact` is affordable only for that.
+    // All models with so many shapes that their different bases do not matter (`paper` with those that it bears),
+    // against the most accurate one that the time allows; over a shorter motion if `exact` is affordable only for that.
     void compare_models() {
         for (const ModelKind model : request_.models) out_.models.emplace_back().model = model;
         const auto variant_of = [&](const ModelRow& row) {

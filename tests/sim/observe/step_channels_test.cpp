@@ -57,7 +57,7 @@ TEST(StepChannels, EstimatesKeepTheirError) {
         visit_steps(p, 0.4, [&](const SegmentInterval& s, StepChannels& step) {
             for (const auto* name : {"tip_deflection", "tip_rate", "separation", "separation_paper"}) {
                 const Channel c = channel(name);
-                const double most = kSlack * step.estimate_error(c);
+                const double most = kSlack * step.modes().estimate_error(c);
                 for (int k = 0; k <= kInstants; ++k) {
                     const double t = s.from + (s.to - s.from) * k / kInstants;
                     const double value = step.value(s, c, t), estimate = step.estimate(s, c, t);
