@@ -74,6 +74,11 @@ void ChannelEvaluator::set_energies(const Energies& energies) {
     energies_known_ = true;
 }
 
+void ChannelEvaluator::set_hub_acceleration(double acceleration) {
+    hub_acceleration_ = acceleration;
+    acceleration_known_ = true;
+}
+
 // A prescribed hub has the angle of its drive.
 bool ChannelEvaluator::is_of_coordinates(Channel channel) const {
     return channel.kind == ChannelKind::t || channel.kind == ChannelKind::q ||
@@ -185,9 +190,9 @@ double ChannelEvaluator::hub_acceleration(const ContactState& c) {
         system_.acceleration(t_, y_.data(), acc);
         system_.set_state(t_, y_.data());
     }
-    hub_acceleration_ = 0;
-    for (int i = 0; i < system_.coordinates(); ++i) hub_acceleration_ += beam.hub_row()[i] * acc[i];
-    acceleration_known_ = true;
+    double total = 0;
+    for (int i = 0; i < system_.coordinates(); ++i) total += beam.hub_row()[i] * acc[i];
+    set_hub_acceleration(total);
     return hub_acceleration_;
 }
 

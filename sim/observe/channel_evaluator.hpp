@@ -29,6 +29,7 @@ class ChannelEvaluator {
     // Each of these spares a computation whose result at this instant is available.
     void set_energy_balance(const System::EnergyBalance& balance);
     void set_energies(const Energies& energies);
+    void set_hub_acceleration(double acceleration);
     // Enough for the energy balance; other channels of the contact are undefined until the next `set`.
     void set_gap(double gap, double force);
     void set_contact(const ContactState& contact);

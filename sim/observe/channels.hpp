@@ -54,7 +54,7 @@ struct ChannelTraits {
     bool separation = false;
     bool monotone = false;         // largest and smallest at ends, where the contact follows its law and the cam turns
     bool zero_where_held = false;  // but for errors, where contact is a constraint
-    bool zero_at_rest = false;     // but for rounding, where in such contact nothing moves
+    bool zero_at_rest = false;     // but for errors, where nothing moves
     bool estimated() const { return of_tip || separation; }
 };
 

@@ -15,6 +15,7 @@ inline constexpr double kValueRounding = 1e-14;  // of the channel's largest mag
 // needs. A vibration that neither grows nor decays over millions of periods has no end otherwise.
 inline constexpr double kFewestHalvings = 20'000, kHalvingsPerRadian = 32, kMostHalvings = 50'000;
 inline constexpr long kHalvingsOfRun = 3'000'000, kHalvingsPerStep = 1000;
+inline constexpr double kRestTolerances = 10;               // times `atol`: a beam whose rates are smaller is at rest
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, until those that are beaten are dropped

@@ -83,9 +83,10 @@ void StepChannels::bound(const SegmentInterval& s) {
     System& system = evaluator_.system();
     const ModalBounds* modes = segment.modal_bounds();
     polynomial_ = !modes;
-    at_rest_ = modes && largest(modes->theta_dot) < system.problem().solver.atol;
+    const double resting = kRestTolerances * system.problem().solver.atol;
+    at_rest_ = modes && largest(modes->theta_dot) < resting;
     if (modes) {
-        for (const Lanes& rate : modes->rate) at_rest_ = at_rest_ && largest(rate) < system.problem().solver.atol;
+        for (const Lanes& rate : modes->rate) at_rest_ = at_rest_ && largest(rate) < resting;
         const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
         modal_channels_.set({s.from, s.to, s.from - segment.t0, whole && !system.drive().prescribed(), modes,
                              segment.bounds(), segment.touch()});
@@ -118,8 +119,9 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
 }
 
 bool StepChannels::errors_only(ChannelKind kind) {
-    if (!system().phase().held) return false;
-    return traits(kind).zero_where_held || (at_rest_ && traits(kind).zero_at_rest);
+    const System& of = system();
+    if (of.phase().held && traits(kind).zero_where_held) return true;
+    return at_rest_ && (traits(kind).zero_at_rest || !of.has_cam() || of.problem().cam->speed == 0);
 }
 
 // The state of a prescribed hub is that of its drive, not the solution.
@@ -173,7 +175,7 @@ StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel 
     return values;
 }
 
-// Of the state in `y_`; takes contact and energies from `sampled` if they are there, else computes and keeps them.
+// Of the state in `y_`; takes from `sampled` what is there, else computes and keeps them.
 double StepChannels::value_of_state(Channel channel, double t, SampledState& sampled) {
     std::optional<ContactState>& contact = sampled.contact;
     if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
@@ -186,9 +188,13 @@ double StepChannels::value_of_state(Channel channel, double t, SampledState& sam
         probe_contact(t);
         contact = evaluator_.contact();
     }
-    if (!traits(channel.kind).of_beam_energy) return evaluator_.value(channel);
-    if (sampled.energies) evaluator_.set_energies(*sampled.energies);
-    sampled.energies = evaluator_.energies();
+    if (traits(channel.kind).of_beam_energy) {
+        if (sampled.energies) evaluator_.set_energies(*sampled.energies);
+        sampled.energies = evaluator_.energies();
+    } else if (traits(channel.kind).separation) {
+        if (sampled.hub_acceleration) evaluator_.set_hub_acceleration(*sampled.hub_acceleration);
+        sampled.hub_acceleration = evaluator_.hub_acceleration(evaluator_.contact());
+    }
     return evaluator_.value(channel);
 }
 

@@ -23,6 +23,7 @@ class StepChannels {
         std::vector<double> y;  // without the work of vibration
         std::optional<ContactState> contact;
         std::optional<Energies> energies;
+        std::optional<double> hub_acceleration;
     };
     // The same at the samples of one step.
     struct SampledStates {
@@ -44,7 +45,8 @@ class StepChannels {
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
     // In sustained impulsive contact the gap and the energy stored in it are zero but for errors: of rounding at the
-    // ends of steps, of the dense output within. Rates and accelerations of a beam at rest are zero but for rounding.
+    // ends of steps, of the dense output within. Rates and accelerations of a beam at rest are zero but for errors, and
+    // if the cam does not turn either, all channels are constant.
     bool errors_only(ChannelKind kind);
     bool depends_on_bristle(ChannelKind kind) const {
         return bristled_ && (kind == ChannelKind::energy_contact || kind == ChannelKind::loss_contact ||
@@ -94,7 +96,7 @@ class StepChannels {
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
     bool bristled_ = false;                       // it has a bristle
-    bool at_rest_ = false;                        // all rates at the nodes are below the absolute tolerance
+    bool at_rest_ = false;                        // all rates at the nodes are errors
     double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };
 
