@@ -22,6 +22,7 @@ inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, un
 // A costly channel with loose bounds is evaluated where its bound is this many times the highest so far, so that later
 // steps are excluded sooner.
 inline constexpr double kHigherPromise = 1.2;
+inline constexpr std::size_t kMostPromising = 64;  // steps of a channel that are searched before all others
 // Parabolas at a crest: each squares the distance from it, or halves the interval.
 inline constexpr int kMostParabolas = 8;
 inline constexpr double kParabolaMargin = 0.02;     // of the interval: new points keep this distance from its ends
@@ -36,6 +37,7 @@ inline constexpr double kFadedRadians = 8, kPartRatio = 0.125;
 inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
 inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
 inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode
+inline constexpr std::size_t kMissedTerms = 2;  // of the eight of a polynomial: twice the last are its error
 inline constexpr double kWidestNodeGap = 0.2;   // of the step: no instant is farther from a node than half of this
 // Beyond the outer nodes the line through two of them is extended by a quarter of their distance.
 inline constexpr double kBeyondNodes = 1.25;

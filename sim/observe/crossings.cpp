@@ -18,8 +18,7 @@ void each_sign_change(StepChannels& step, const SegmentInterval& s, Channel chan
     const auto above = [&](double t) { return step.value(s, channel, t) - level; };
     for (const SegmentInterval& part : step.parts(s)) {
         step.begin(part);
-        StepChannels::SampledStates states;
-        StepChannels::Samples values = step.sample(part, channel, states);
+        StepChannels::Samples values = step.sample(part, channel);
         double largest = scale;
         for (double& value : values) {
             value -= level;

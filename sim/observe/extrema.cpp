@@ -30,7 +30,6 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
     if (channels_.empty()) return;
     halvings_left_ += kHalvingsPerStep;
     step_.begin(s);
-    sampled_ = {};
     const bool follows = last_time_ == s.from;
     if (follows)
         std::swap(first_, last_);
@@ -84,14 +83,14 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
             if (is_beaten(range, kind, sign, e)) continue;
         }
         if (has_only_nodes(kind)) {
-            if (promising) search_parts(s, channels_[c], sign, sampled_, e);
-            if (sampled_.balance) continue;  // of both signs
+            if (promising) search_parts(s, channels_[c], sign, e);
+            if (step_.balance()) continue;  // of both signs
         }
         if (!kept) kept = keep(s);
         if (kept->kind != SegmentKind::none)
             candidates.steps.push_back({high, kept});
         else
-            search_parts(s, channels_[c], sign, sampled_, e);
+            search_parts(s, channels_[c], sign, e);
     }
 }
 
@@ -121,7 +120,7 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     const Channel& channel = channels_[c];
     const ModalChannels& modes = step_.modes();
     if (step_.polynomial() && channel.kind == ChannelKind::energy_residual) return residual_range(s, c);
-    if (step_.depends_on_bristle(channel.kind)) return step_.sampled_range(s, channel, sampled_);
+    if (step_.depends_on_bristle(channel.kind)) return step_.sampled_range(s, channel);
     const bool errors = step_.errors_only(channel.kind);
     if (errors && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
     if (traits(channel.kind).monotone || errors) return std::nullopt;
@@ -132,7 +131,7 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     Lanes nodes;
     if (modes.known_at_nodes(channel, nodes) && offer_nodes(s, nodes, e) && is_beaten(range, channel.kind, e))
         return std::nullopt;
-    if (step_.polynomial() && !traits(channel.kind).separation) return step_.sampled_range(s, channel, sampled_);
+    if (step_.polynomial() && !traits(channel.kind).separation) return step_.sampled_range(s, channel);
     if (mode) return range;
     const ModalChannels::Range closer = modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
     return ModalChannels::Range{std::max(range.low, closer.low), std::min(range.high, closer.high)};
@@ -148,7 +147,7 @@ ModalChannels::Range ExtremaFinder::residual_range(const SegmentInterval& s, std
 
 std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const SegmentInterval& s) {
     auto step = std::make_shared<KeptStep>(KeptStep{
-        step_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, kept_steps_++, SegmentKind::none, {}, {}});
+        step_.system().phase(), s.from, s.to, s.segment->t0, s.segment->t1, kept_steps_++, SegmentKind::none, {}});
     step->numbers.reserve(numbers_of_step_);
     step->kind = s.segment->numbers(step->numbers);
     numbers_of_step_ = std::max(numbers_of_step_, step->numbers.size());
@@ -157,12 +156,22 @@ std::shared_ptr<const ExtremaFinder::KeptStep> ExtremaFinder::keep(const Segment
     return step;
 }
 
+// The most promising steps first, until the rest is beaten. If that takes too many, the rest in time, where channels
+// share what they evaluate.
 void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     const Phase phase = step_.system().phase();
     loaded_ = nullptr;
+    constexpr std::array kSigns{1.0, -1.0};
     for (std::size_t c = 0; c < channels_.size(); ++c)
-        for (const double sign : {1.0, -1.0})
-            search_candidates(c, sign, candidates_[c][sign > 0 ? 0 : 1].steps, extrema[c]);
+        for (const double sign : kSigns) search_most_promising(c, sign, extrema[c]);
+    for (const auto& step : kept_)
+        for (std::size_t c = 0; c < channels_.size(); ++c)
+            for (std::size_t i = 0; i < kSigns.size(); ++i) {
+                std::vector<Candidate>& left = candidates_[c][i].steps;
+                if (left.empty() || left.back().step != step) continue;
+                search_candidate(c, kSigns[i], left.back(), extrema[c]);
+                left.pop_back();
+            }
     kept_.clear();
     kept_numbers_ = 0;
     drop_at_ = kNumbersPerDrop;
@@ -173,34 +182,41 @@ bool ExtremaFinder::less_promising(const Candidate& a, const Candidate& b) {
     return a.high != b.high ? a.high < b.high : a.step->order > b.step->order;
 }
 
-// The most promising first, until the rest is beaten.
-void ExtremaFinder::search_candidates(std::size_t c, double sign, std::vector<Candidate>& candidates, Extremum& e) {
+// Leaves candidates that are not beaten, the last first.
+void ExtremaFinder::search_most_promising(std::size_t c, double sign, Extremum& e) {
+    std::vector<Candidate>& candidates = candidates_[c][sign > 0 ? 0 : 1].steps;
     std::ranges::make_heap(candidates, less_promising);
-    for (; !candidates.empty(); candidates.pop_back()) {
+    for (std::size_t searched = 0; !candidates.empty() && searched < kMostPromising; ++searched) {
         std::ranges::pop_heap(candidates, less_promising);
-        const Candidate& candidate = candidates.back();
-        if (candidate.high <= best_so_far(channels_[c].kind, sign, e).to_beat()) break;
-        const KeptStep& step = *candidate.step;
-        // The residual of a collocation step is searched for both signs at once.
-        const bool nodes_only = step.kind == SegmentKind::exponential && step.sampled.balance;
-        if (nodes_only && channels_[c].kind == ChannelKind::energy_residual) continue;
-        std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
-        if (!stored) stored = make_stored_segment(step.kind, step_.system());
-        const SegmentInterval s{stored.get(), step.from, step.to, false};
-        if (loaded_ != &step) {
-            loaded_ = &step;
-            stored->load(step.t0, step.t1, step.numbers);
-            set_phase(step.phase);
-            step_.begin(s);
-        }
-        try {
-            search_parts(s, channels_[c], sign, step.sampled, e);
-        } catch (const StepFailure&) {  // a run that failed, in the step before
-            ++incomplete_;
-        }
-        if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
+        if (!search_candidate(c, sign, candidates.back(), e)) candidates.clear();
+        if (!candidates.empty()) candidates.pop_back();
     }
-    candidates.clear();
+    std::ranges::sort(candidates, [](const auto& a, const auto& b) { return a.step->order > b.step->order; });
+}
+
+// False if it is beaten.
+bool ExtremaFinder::search_candidate(std::size_t c, double sign, const Candidate& candidate, Extremum& e) {
+    if (candidate.high <= best_so_far(channels_[c].kind, sign, e).to_beat()) return false;
+    const KeptStep& step = *candidate.step;
+    std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
+    if (!stored) stored = make_stored_segment(step.kind, step_.system());
+    const SegmentInterval s{stored.get(), step.from, step.to, false};
+    if (loaded_ != &step) {
+        loaded_ = &step;
+        stored->load(step.t0, step.t1, step.numbers);
+        set_phase(step.phase);
+        step_.begin(s);
+    }
+    // The residual of a collocation step is searched for both signs at once.
+    if (step.kind == SegmentKind::exponential && channels_[c].kind == ChannelKind::energy_residual && step_.balance())
+        return true;
+    try {
+        search_parts(s, channels_[c], sign, e);
+    } catch (const StepFailure&) {  // a run that failed, in the step before
+        ++incomplete_;
+    }
+    if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
+    return true;
 }
 
 }  // namespace beamcam::sim

@@ -46,7 +46,6 @@ class ExtremaFinder {
         long order;
         SegmentKind kind;
         std::vector<double> numbers;  // of the segment
-        mutable StepChannels::SampledStates sampled;
     };
     struct Candidate {
         double high;  // bound of the channel, or of its negative
@@ -56,8 +55,8 @@ class ExtremaFinder {
         std::vector<Candidate> steps;
         double promise = 0;  // the highest bound at which a costly channel was evaluated
     };
-    static bool less_promising(const Candidate& a, const Candidate& b);
 
+    static bool less_promising(const Candidate& a, const Candidate& b);
     void offer_end(const SegmentInterval& s, std::size_t channel, Extremum& e);
     bool has_only_nodes(ChannelKind kind) const;
     bool offer_nodes(const SegmentInterval& s, const Lanes& nodes, Extremum& e);
@@ -68,33 +67,30 @@ class ExtremaFinder {
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void drop_beaten(const std::vector<Extremum>& extrema);
     void search_kept(std::vector<Extremum>& extrema);
-    void search_candidates(std::size_t channel, double sign, std::vector<Candidate>& candidates, Extremum& e);
-    void search_parts(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
-                      Extremum& e);
-    void search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
-                Extremum& e);
-    bool estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e,
-                            StepChannels::SampledStates& sampled);
+    void search_most_promising(std::size_t channel, double sign, Extremum& e);
+    bool search_candidate(std::size_t channel, double sign, const Candidate& candidate, Extremum& e);
+    void search_parts(const SegmentInterval& s, Channel channel, double sign, Extremum& e);
+    void search(const SegmentInterval& s, Channel channel, double sign, Extremum& e);
+    bool estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e);
     template <class F>
     bool climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
     template <class F>
     void offer_corners(const F& arc, const SegmentInterval& s, const Samples& feet, BestValue& best);
-    void search_arc(const SegmentInterval& s, double sign, StepChannels::SampledStates& sampled, Extremum& e);
+    void search_arc(const SegmentInterval& s, double sign, Extremum& e);
     double rim();
     double unwrapped(double arc, double near);
 
     StepChannels step_;
     Poll poll_;
     std::vector<Channel> channels_;
-    std::vector<double> first_, last_;     // all channels at the ends of the step
-    double last_time_ = -1;                // of `last_`, while the phase lasts
-    StepChannels::SampledStates sampled_;  // of the step that is recorded
+    std::vector<double> first_, last_;  // all channels at the ends of the step
+    double last_time_ = -1;             // of `last_`, while the phase lasts
     long incomplete_ = 0, halvings_left_ = kHalvingsOfRun, evaluations_ = 0;
 
-    std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum
+    std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum; in time
     std::vector<std::shared_ptr<const KeptStep>> kept_;  // all that candidates share
-    std::size_t kept_numbers_ = 0, numbers_of_step_ = 0, drop_at_ = kNumbersPerDrop;
     long kept_steps_ = 0;
+    std::size_t kept_numbers_ = 0, numbers_of_step_ = 0, drop_at_ = kNumbersPerDrop;
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> stored_;
     const KeptStep* loaded_ = nullptr;
 };

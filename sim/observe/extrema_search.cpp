@@ -9,28 +9,25 @@
 
 namespace beamcam::sim {
 
-void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign,
-                                 StepChannels::SampledStates& sampled, Extremum& e) {
+void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     step_.begin(s);  // as if nothing had been searched before
     const std::vector<SegmentInterval> parts = step_.parts(s);
-    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, sampled, e);
+    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, e);
     // Vibrations of which too little reaches the channel need no parts.
-    if (is_beaten(step_.sampled_range(s, channel, sampled), channel.kind, sign, e)) return;
+    if (is_beaten(step_.sampled_range(s, channel), channel.kind, sign, e)) return;
     for (const SegmentInterval& part : parts) {
         step_.begin(part);
         if (is_beaten(step_.range(part, channel), channel.kind, sign, e)) continue;
         step_.begin(part);
-        StepChannels::SampledStates states;
-        search(part, channel, sign, states, e);
+        search(part, channel, sign, e);
     }
     step_.begin(s);
 }
 
-void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, StepChannels::SampledStates& sampled,
-                           Extremum& e) {
-    if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, sampled, e);
-    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e, sampled)) return;
-    const Samples samples = step_.sample(s, channel, sampled);
+void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
+    if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, e);
+    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e)) return;
+    const Samples samples = step_.sample(s, channel);
     if (has_only_nodes(channel.kind)) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
         return;
@@ -42,12 +39,11 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
 }
 
 // The estimate of a costly channel, plus its error, excludes most steps.
-bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e,
-                                       StepChannels::SampledStates& sampled) {
+bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e) {
     BestValue best = best_so_far(channel.kind, sign, e);
     const double error = step_.modes().estimate_error(channel), most = best.value - error;
     const bool shared = traits(channel.kind).separation;
-    double& proven = sampled.separation[sign > 0 ? 0 : 1];
+    double& proven = step_.proven_separation()[sign > 0 ? 0 : 1];
     if (shared && proven <= most) return true;
     const double aim = shared ? most - 2 * error : most;  // the other separation differs by this
     if (!(aim > 0)) return false;
@@ -102,11 +98,10 @@ void ExtremaFinder::offer_corners(const F& arc, const SegmentInterval& s, const 
     }
 }
 
-void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, StepChannels::SampledStates& sampled,
-                               Extremum& e) {
+void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, Extremum& e) {
     constexpr Channel kArc{ChannelKind::contact_s};
-    Samples samples = step_.sample(s, kArc, sampled);
-    const Samples feet = step_.sample(s, {ChannelKind::contact_x}, sampled);
+    Samples samples = step_.sample(s, kArc);
+    const Samples feet = step_.sample(s, {ChannelKind::contact_x});
     const double first = samples[0];
     const auto arc = [&](double t) { return unwrapped(step_.value(s, kArc, t), first); };
     for (double& value : samples) value = unwrapped(value, first);
@@ -128,10 +123,9 @@ void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, StepChanne
 void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) {
     step_.begin(s);
     Extremum of_force{0, s.from, peaks.force.value_or(0), s.from}, of_gap{-peaks.penetration, s.from, 0, s.from};
-    StepChannels::SampledStates states;
     const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
         if (step_.modes().touch() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
-        search_parts(s, {kind}, sign, states, e);
+        search_parts(s, {kind}, sign, e);
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
     if (!step_.errors_only(ChannelKind::gap)) raise(ChannelKind::gap, -1, of_gap);

@@ -31,6 +31,7 @@ ModalChannels::ModalChannels(System& system, const ModeBasis& basis)
 void ModalChannels::set(const PartBounds::Part& part) {
     bounds_.set(part);
     separation_.reset();
+    forced_.reset();
 }
 
 double ModalChannels::fading() const {
@@ -55,14 +56,38 @@ double ModalChannels::hub(ChannelKind kind, const double* y) const {
     return total;
 }
 
-bool ModalChannels::accelerated_by_vibration() const {
-    return !touch() && basis_.are_coordinates() && !bounds_.part.modes->resolved && !system_.drive().prescribed();
+bool ModalChannels::accelerated_by_modes() const {
+    return !bounds_.part.modes->resolved && !system_.drive().prescribed();
 }
 
-double ModalChannels::hub_vibration(const double* y) const {
-    const double *q = y + 1, *rate = y + 2 + modes_.size();
+// θ̈ without what stiffness and damping cause: a polynomial.
+const ModalChannels::Forced& ModalChannels::forced() const {
+    if (forced_) return *forced_;
+    const Collocation& gauss = Collocation::get();
+    const ModalBounds& modes = *bounds_.part.modes;
+    forced_.emplace();
+    Lanes& nodes = forced_->nodes;
+    for (std::size_t l = 0; l < kNodes; ++l) nodes += (modes.theta_dot[static_cast<int>(l)] / modes.h) * gauss.slope[l];
+    for (std::size_t i = 0; i < modes_.size(); ++i) nodes += modes_[i].turn * modes.force[i];
+    for (std::size_t j = 0; j < kNodes; ++j) forced_->powers[j] = sum(gauss.monomial[j] * nodes);
+    for (std::size_t j = kNodes - kMissedTerms; j < kNodes; ++j)
+        forced_->error += 2 * std::fabs(sum(gauss.legendre[j] * nodes));
+    return *forced_;
+}
+
+double ModalChannels::hub_acceleration(double t, const double* y) const {
+    const std::size_t size = 1 + modes_.size();
+    double z[kMaxSize], rate[kMaxSize];
+    std::copy_n(y, size, z);
+    std::copy_n(y + size, size, rate);
+    basis_.to_modes(z);
+    basis_.to_modes(rate);
+    const PartBounds::Part& part = bounds_.part;
+    const double place = 2 * (t - part.from + part.elapsed) / part.modes->h - 1;
     double total = 0;
-    for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].turn * restored(modes_[i], q[i], rate[i]);
+    for (std::size_t j = kNodes; j-- > 0;) total = total * place + forced().powers[j];
+    for (std::size_t i = 0; i < modes_.size(); ++i)
+        total += modes_[i].turn * restored(modes_[i], z[1 + i], rate[1 + i]);
     return total;
 }
 
@@ -103,8 +128,8 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
             return true;
         case ChannelKind::separation:
         case ChannelKind::separation_paper:
-            if (!accelerated_by_vibration()) return false;
-            values = Lanes{};
+            if (!accelerated_by_modes()) return false;
+            values = bounds_.arm * forced().nodes;
             for (std::size_t i = 0; i < modes_.size(); ++i)
                 values += (bounds_.arm * modes_[i].turn) * restored(modes_[i], modes.q[i], modes.rate[i]);
             return true;
@@ -272,14 +297,8 @@ double ModalChannels::estimate_error(Channel channel) const {
     const double fastest = bounds_.part.motion->theta_dot;
     if (channel.kind == ChannelKind::energy_kinetic)
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
+    if (traits(channel.kind).separation) return bounds_.arm * ((accelerated_by_modes() ? forced().error : 0) + pull());
     double error = 0;
-    if (traits(channel.kind).separation) {
-        if (accelerated_by_vibration()) {
-            error = bounds_.part.motion->theta_ddot;
-            for (std::size_t i = 0; i < modes_.size(); ++i) error += modes_[i].h * bounds_.part.modes->modes[i].force;
-        }
-        return bounds_.arm * (error + pull());
-    }
     if (traits(channel.kind).of_tip)
         sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) {
             error += sum(s.mixed ? *s.mixed : *s.mixed_rate);

@@ -1,6 +1,7 @@
 // Bounds of the channels within one step, or a part of it, and their values at its nodes. MODEL.md §12, (S59).
 #pragma once
 
+#include <array>
 #include <optional>
 #include <vector>
 
@@ -31,11 +32,12 @@ class ModalChannels {
     double tip(ChannelKind kind, const double* y) const;
     // The hub's angle or rate in that state.
     double hub(ChannelKind kind, const double* y) const;
-    // In flight vibration alone accelerates the hub by this, the forcing of the modes and the frame by little more.
-    bool accelerated_by_vibration() const;
-    double hub_vibration(const double* y) const;
+    // In steps of the collocation θ̈ in the state y follows from its modes, but for the error of the polynomial through
+    // their nodal forcing. A prescribed hub follows its drive.
+    bool accelerated_by_modes() const;
+    double hub_acceleration(double t, const double* y) const;
     // The same at the nodes, or q, or the kinetic energy but for the change of inertia by bending; false where the part
-    // is not the whole step, or the channel is none of these. Of the separation that by vibration.
+    // is not the whole step, or the channel is none of these. Of the separation θ̈ times the longest arm.
     bool at_nodes(Channel channel, Lanes& values) const;
     // The values of a channel at the nodes that need no evaluation, if there are any.
     bool known_at_nodes(Channel channel, Lanes& values) const;
@@ -47,14 +49,20 @@ class ModalChannels {
     Range mode_range(Channel channel) const;
     // The possible part of that range; of the arc on the disc the whole disc if the mark may be in it.
     Range within(ChannelKind kind, const Range& range) const;
-    // How far the channel may be from its estimate. That of the tip is its linear part; of the separation, θ̈ (in flight
-    // that by vibration) times the longest arm; of the kinetic energy, that without the change of inertia by bending.
+    // How far the channel may be from its estimate. That of the tip is its linear part; of the separation, θ̈ times the
+    // longest arm; of the kinetic energy, that without the change of inertia by bending.
     double estimate_error(Channel channel) const;
     double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 
   private:
+    struct Forced {
+        Lanes nodes{};                        // values [rad/s²]
+        std::array<double, kNodes> powers{};  // coefficients of (2s − 1)ʲ
+        double error = 0;                     // estimate, by its last terms
+    };
+    const Forced& forced() const;
     double drift(ChannelKind kind) const;
     double line_strays(Channel channel, double length) const;
     double pull() const { return 1.5 * sensitivity_.gravity() / basis_.length; }  // of gravity, per arm (S41)
@@ -71,6 +79,7 @@ class ModalChannels {
     PartBounds bounds_;
     ChannelSensitivity sensitivity_;
     mutable std::optional<Range> separation_;  // both channels have the same
+    mutable std::optional<Forced> forced_;
     double cam_speed_ = 0, disc_speed_ = 0;
 };
 

@@ -35,12 +35,12 @@ PolynomialBounds::PolynomialBounds(const ModeBasis& basis) : basis_(basis), q_(b
     for (auto* v : {&first_, &last_, &first_rate_, &last_rate_}) v->resize(basis.size() + 1);
 }
 
-void PolynomialBounds::set(System& system, double from, double to, const std::vector<double>* states) {
+void PolynomialBounds::set(System& system, double from, double to, const States& states) {
     const std::size_t size = basis_.size() + 1;
     for (std::size_t k = 0; k < kNodes + 2; ++k) {
         double x[kMaxSize], v[kMaxSize];
-        std::copy_n(states[k].data(), size, x);
-        std::copy_n(states[k].data() + size, size, v);
+        std::copy_n(states[k], size, x);
+        std::copy_n(states[k] + size, size, v);
         basis_.to_modes(x);
         basis_.to_modes(v);
         if (k == 0 || k == kNodes + 1) {
@@ -127,11 +127,11 @@ void PolynomialBounds::bound_points() {
 }
 
 // The ledger is a polynomial, too.
-void PolynomialBounds::bound_power(System& system, double h, const std::vector<double>* states) {
+void PolynomialBounds::bound_power(System& system, double h, const States& states) {
     const auto power = [&](Ledger entry) {
         const auto at = static_cast<std::size_t>(system.controlled + entry);
         Lanes values;
-        for (int k = 0; k < kNodes; ++k) values[k] = states[k + 1][at];
+        for (int k = 0; k < kNodes; ++k) values[k] = states[static_cast<std::size_t>(k) + 1][at];
         return kNodeOvershoot * largest(derivative(values, h));
     };
     modes_.power_cam = power(kWorkCam);

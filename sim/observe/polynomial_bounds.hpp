@@ -2,6 +2,7 @@
 // and the contact there. The same as the steps of the exponential collocation provide by themselves.
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "sim/integrate/integrator.hpp"
@@ -13,8 +14,9 @@ class PolynomialBounds {
   public:
     explicit PolynomialBounds(const ModeBasis& basis);  // which must outlive it
 
-    // `states`: at the samples of [from, to], one after the other.
-    void set(System& system, double from, double to, const std::vector<double>* states);
+    // `states`: at both ends of [from, to] and, between them, at its nodes.
+    using States = std::array<const double*, kNodes + 2>;
+    void set(System& system, double from, double to, const States& states);
     const ModalBounds& modes() const { return modes_; }
     const MotionBounds& motion() const { return motion_; }
 
@@ -22,7 +24,7 @@ class PolynomialBounds {
     ModalBounds::Mode bound(std::size_t i, double h, Lanes& rate, Lanes& force);
     void bound_hub(System& system, double from, double to);
     void bound_points();
-    void bound_power(System& system, double h, const std::vector<double>* states);
+    void bound_power(System& system, double h, const States& states);
 
     const ModeBasis& basis_;
     std::vector<Lanes> q_, rate_, force_;                        // at the nodes

@@ -9,11 +9,6 @@
 namespace beamcam::sim {
 namespace {
 
-// Of the state, all that the channel needs.
-void evaluate_state(const SegmentInterval& s, ChannelKind kind, double t, double* y) {
-    traits(kind).needs_vibration_work ? s.segment->value(t, y) : s.segment->value_without_vibration_work(t, y);
-}
-
 StepChannels::Samples copied(const double* samples) {
     StepChannels::Samples values;
     std::copy_n(samples, values.size(), values.begin());
@@ -40,18 +35,28 @@ StepChannels::StepChannels(const System& system)
       modal_channels_(evaluator_.system(), basis_),
       polynomial_bounds_(basis_),
       y_(static_cast<std::size_t>(system.size)) {
-    polynomial_states_.fill(y_);
+    for (Instant& sample : polynomial_samples_) sample.y = y_;
 }
 
 void StepChannels::set_phase(const Phase& phase) {
     evaluator_.set_phase(phase);
     bounded_from_ = -1;
+    forget();
+}
+
+void StepChannels::forget() {
+    instants_.clear();
+    balance_.reset();
 }
 
 void StepChannels::begin(const SegmentInterval& s) {
     const Phase& phase = evaluator_.system().phase();
     probing_ = !(phase.touching && phase.held);
     bristled_ = phase.touching && evaluator_.system().has_bristle();
+    if (segment_ != s.segment || segment_from_ != s.segment->t0 || segment_to_ != s.segment->t1) forget();
+    segment_ = s.segment;
+    segment_from_ = s.segment->t0;
+    segment_to_ = s.segment->t1;
     if (bounded_from_ != s.from || bounded_to_ != s.to) bound(s);
     bounded_from_ = s.from;
     bounded_to_ = s.to;
@@ -83,6 +88,7 @@ void StepChannels::bound(const SegmentInterval& s) {
     System& system = evaluator_.system();
     const ModalBounds* modes = segment.modal_bounds();
     polynomial_ = !modes;
+    proven_separation_ = {kNan, kNan};
     const double resting = kRestTolerances * system.problem().solver.atol;
     at_rest_ = modes && largest(modes->theta_dot) < resting;
     if (modes) {
@@ -92,8 +98,16 @@ void StepChannels::bound(const SegmentInterval& s) {
                              segment.bounds(), segment.touch()});
         return;
     }
-    for (std::size_t k = 0; k < kSamples; ++k) segment.value(sample_time(s, k), polynomial_states_[k].data());
-    polynomial_bounds_.set(system, s.from, s.to, polynomial_states_.data());
+    PolynomialBounds::States states;
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        Instant& sample = polynomial_samples_[k];
+        segment.value(sample_time(s, k), sample.y.data());
+        states[k] = sample.y.data();
+        sample.contact.reset();
+        sample.energies.reset();
+        sample.hub_acceleration.reset();
+    }
+    polynomial_bounds_.set(system, s.from, s.to, states);
     const bool touching = system.has_cam() && system.phase().touching;
     if (touching) sample_touch(s);
     modal_channels_.set({s.from, s.to, 0, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
@@ -104,12 +118,12 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
     TouchSamples& touch = polynomial_touch_;
     search_again();
     for (std::size_t k = 0; k < kSamples; ++k) {
-        y_ = polynomial_states_[k];
+        y_ = polynomial_samples_[k].y;
         touch.t[k] = sample_time(s, k);
         evaluator_.set(touch.t[k], y_.data());
         if (probing_) probe_contact(touch.t[k]);
         const ContactState& c = evaluator_.contact();
-        polynomial_contacts_[k] = c;
+        polynomial_samples_[k].contact = c;
         touch.gap[k] = c.gap;
         touch.gap_rate[k] = c.gap_rate;
         touch.force[k] = c.force;
@@ -141,28 +155,44 @@ void StepChannels::probe_contact(double t) {
     evaluator_.set_contact(c);
 }
 
+// Without the work of vibration.
+StepChannels::Instant& StepChannels::at(const SegmentInterval& s, double t) {
+    if (instants_.size() > kMostSharedInstants) instants_.clear();
+    Instant& instant = instants_[t];
+    if (!instant.y.empty()) return instant;
+    instant.y.resize(y_.size());
+    s.segment->value_without_vibration_work(t, instant.y.data());
+    return instant;
+}
+
+// The state of the beam without the hub's. Where the modes are the coordinates it costs little.
+const double* StepChannels::beam(const SegmentInterval& s, double t) {
+    if (!basis_.are_coordinates()) return at(s, t).y.data();
+    s.segment->beam(t, y_.data());
+    return y_.data();
+}
+
 double StepChannels::value(const SegmentInterval& s, Channel channel, double t) {
-    if (channel.kind == ChannelKind::q)
+    if (channel.kind == ChannelKind::q && basis_.are_coordinates())  // one group of modes
         return s.segment->coordinate(t, static_cast<std::size_t>(channel.index), y_.data());
-    evaluate_state(s, channel.kind, t, y_.data());
-    SampledState sampled;
-    return value_of_state(channel, t, sampled);
+    if (traits(channel.kind).needs_vibration_work && !polynomial_) {
+        Instant own;
+        own.y.resize(y_.size());
+        s.segment->value(t, own.y.data());
+        return value_at(t, channel, own);
+    }
+    return value_at(t, channel, at(s, t));
 }
 
 double StepChannels::estimate(const SegmentInterval& s, Channel channel, double t) {
-    if (!traits(channel.kind).separation) {
-        s.segment->beam(t, y_.data());
-        return modal_channels_.tip(channel.kind, y_.data());
-    }
-    if (modal_channels_.accelerated_by_vibration()) {
-        s.segment->beam(t, y_.data());
-        return modal_channels_.longest_arm() * modal_channels_.hub_vibration(y_.data());
-    }
-    evaluate_state(s, channel.kind, t, y_.data());
+    if (!traits(channel.kind).separation) return modal_channels_.tip(channel.kind, beam(s, t));
+    if (modal_channels_.accelerated_by_modes())
+        return modal_channels_.longest_arm() * modal_channels_.hub_acceleration(t, beam(s, t));
+    Instant& shared = at(s, t);
+    y_ = shared.y;
     evaluator_.set(t, y_.data());
-    if (probing_ && evaluator_.system().phase().touching) probe_contact(t);
-    return modal_channels_.longest_arm() *
-           evaluator_.hub_acceleration(evaluator_.system().phase().touching ? evaluator_.contact() : ContactState{});
+    if (probing_ && evaluator_.system().phase().touching) share_contact(t, shared);
+    return modal_channels_.longest_arm() * hub_acceleration(shared);
 }
 
 StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel channel) {
@@ -175,27 +205,38 @@ StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel 
     return values;
 }
 
-// Of the state in `y_`; takes from `sampled` what is there, else computes and keeps them.
-double StepChannels::value_of_state(Channel channel, double t, SampledState& sampled) {
-    std::optional<ContactState>& contact = sampled.contact;
+// Takes from `shared` what is there, else computes and keeps it.
+double StepChannels::value_at(double t, Channel channel, Instant& shared) {
+    y_ = shared.y;
+    if (channel.kind == ChannelKind::q) return y_[static_cast<std::size_t>(channel.index)];
     if (is_linear(channel.kind)) return modal_channels_.hub(channel.kind, y_.data());
     evaluator_.set(t, y_.data());
     const System& system = evaluator_.system();
     const bool stored = traits(channel.kind).needs_gap && system.phase().touching;
-    if (contact) {
-        evaluator_.set_contact(*contact);
-    } else if (probing_ && system.has_cam() && (stored || traits(channel.kind).needs_contact)) {
-        probe_contact(t);
-        contact = evaluator_.contact();
-    }
+    if (shared.contact || (probing_ && system.has_cam() && (stored || traits(channel.kind).needs_contact)))
+        share_contact(t, shared);
     if (traits(channel.kind).of_beam_energy) {
-        if (sampled.energies) evaluator_.set_energies(*sampled.energies);
-        sampled.energies = evaluator_.energies();
+        if (shared.energies) evaluator_.set_energies(*shared.energies);
+        shared.energies = evaluator_.energies();
     } else if (traits(channel.kind).separation) {
-        if (sampled.hub_acceleration) evaluator_.set_hub_acceleration(*sampled.hub_acceleration);
-        sampled.hub_acceleration = evaluator_.hub_acceleration(evaluator_.contact());
+        hub_acceleration(shared);
     }
     return evaluator_.value(channel);
+}
+
+void StepChannels::share_contact(double t, Instant& shared) {
+    if (shared.contact)
+        evaluator_.set_contact(*shared.contact);
+    else
+        probe_contact(t);
+    shared.contact = evaluator_.contact();
+}
+
+double StepChannels::hub_acceleration(Instant& shared) {
+    if (shared.hub_acceleration) evaluator_.set_hub_acceleration(*shared.hub_acceleration);
+    const bool touching = evaluator_.system().phase().touching;
+    shared.hub_acceleration = evaluator_.hub_acceleration(touching ? evaluator_.contact() : ContactState{});
+    return *shared.hub_acceleration;
 }
 
 void StepChannels::values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
@@ -218,14 +259,14 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
     }
 }
 
-StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel channel, SampledStates& sampled) {
+StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel channel) {
     const TouchSamples* touch = touch_at_samples(modal_channels_.touch(), s);
     if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
     if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
     if (touch && channel.kind == ChannelKind::friction_force) return copied(touch->friction);
     if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
     const bool is_balance = channel.kind == ChannelKind::energy_residual;
-    if (is_balance && sampled.balance) return *sampled.balance;
+    if (is_balance && balance_) return *balance_;
     Samples values;
     Lanes nodes;
     const bool at_nodes =
@@ -234,37 +275,19 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
         const double t = sample_time(s, k);
         if (at_nodes && k > 0 && k <= kNodes) {
             values[k] = nodes[static_cast<int>(k) - 1];
-        } else if (channel.kind == ChannelKind::q) {
-            values[k] = value(s, channel, t);
+        } else if (touch && probing_ && traits(channel.kind).needs_gap) {
+            s.segment->value(t, y_.data());
+            evaluator_.set(t, y_.data());
+            evaluator_.set_gap(touch->gap[k], touch->force[k]);
+            values[k] = evaluator_.value(channel);
+        } else if (polynomial_) {
+            values[k] = value_at(t, channel, polynomial_samples_[k]);
         } else {
-            place_sample(s, channel.kind, k, sampled);
-            if (touch && probing_ && traits(channel.kind).needs_gap) {
-                evaluator_.set(t, y_.data());
-                evaluator_.set_gap(touch->gap[k], touch->force[k]);
-                values[k] = evaluator_.value(channel);
-            } else {
-                if (touch && polynomial_) sampled.states[k].contact = polynomial_contacts_[k];
-                values[k] = value_of_state(channel, t, sampled.states[k]);
-            }
+            values[k] = value(s, channel, t);
         }
     }
-    if (is_balance) sampled.balance = values;
+    if (is_balance) balance_ = values;
     return values;
-}
-
-// Puts the state of the sample into `y_`. Those without the work of vibration are kept for other channels.
-void StepChannels::place_sample(const SegmentInterval& s, ChannelKind kind, std::size_t k, SampledStates& sampled) {
-    if (polynomial_) {
-        y_ = polynomial_states_[k];
-        return;
-    }
-    if (traits(kind).needs_vibration_work) return evaluate_state(s, kind, sample_time(s, k), y_.data());
-    std::vector<double>& state = sampled.states[k].y;
-    if (state.empty()) {
-        state.resize(y_.size());
-        evaluate_state(s, kind, sample_time(s, k), state.data());
-    }
-    y_ = state;
 }
 
 // The polynomial through the inner samples, its error at the ends, and the vibrations that it does not resolve.
@@ -284,8 +307,8 @@ ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel chann
     return modal_channels_.range(channel, first, last);
 }
 
-ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel, SampledStates& sampled) {
-    const Samples values = sample(s, channel, sampled);
+ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel) {
+    const Samples values = sample(s, channel);
     const auto [low, high] = std::ranges::minmax(values);
     const double stray = variation(s, channel, values).strays(kWidestNodeGap * (s.to - s.from));
     return modal_channels_.within(channel.kind, {low - stray, high + stray});

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <optional>
+#include <unordered_map>
 #include <vector>
 
 #include "sim/integrate/gap_probe.hpp"
@@ -18,21 +19,6 @@ class StepChannels {
   public:
     static constexpr std::size_t kSamples = kNodes + 2;  // both ends and the Gauss nodes
     using Samples = std::array<double, kSamples>;
-    // What channels share at a sample, each computed when first needed.
-    struct SampledState {
-        std::vector<double> y;  // without the work of vibration
-        std::optional<ContactState> contact;
-        std::optional<Energies> energies;
-        std::optional<double> hub_acceleration;
-    };
-    // The same at the samples of one step.
-    struct SampledStates {
-        std::array<SampledState, kSamples> states;
-        std::optional<Samples> balance;  // of the channel energy_residual
-        // Proven by a search: the estimate of the separation is at most the first, and at least minus the second.
-        std::array<double, 2> separation{kNan, kNan};
-    };
-
     explicit StepChannels(const System& system);
     void set_phase(const Phase& phase);
     void set_start_energy(double total) { evaluator_.set_start_energy(total); }
@@ -59,39 +45,59 @@ class StepChannels {
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
                 const System::EnergyBalance* balance, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
-    // Of the state that was placed or evaluated last.
+    // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
     // An estimate of a costly channel: the channel times +1 or −1 is at most this, times the same, or zero if that is
     // more, plus ModalChannels::estimate_error.
     double estimate(const SegmentInterval& s, Channel channel, double t);
     Samples estimates(const SegmentInterval& s, Channel channel);
-    Samples sample(const SegmentInterval& s, Channel channel, SampledStates& sampled);
+    Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // Bounds of the channel from its values at the ends.
     ModalChannels::Range range(const SegmentInterval& s, Channel channel);
     // The same from its samples.
-    ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel, SampledStates& sampled);
+    ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel);
+    // The samples of the energy balance if they have been asked for.
+    const std::optional<Samples>& balance() const { return balance_; }
+    // Proven by a search: within this interval the estimate of the separation is at most the first, and at least minus
+    // the second.
+    std::array<double, 2>& proven_separation() { return proven_separation_; }
 
     System& system() { return evaluator_.system(); }
 
   private:
-    double value_of_state(Channel channel, double t, SampledState& sampled);
+    // What channels share at an instant of a step, each computed when first needed.
+    struct Instant {
+        std::vector<double> y;  // without the work of vibration
+        std::optional<ContactState> contact;
+        std::optional<Energies> energies;
+        std::optional<double> hub_acceleration;
+    };
+    Instant& at(const SegmentInterval& s, double t);
+    const double* beam(const SegmentInterval& s, double t);
+    double value_at(double t, Channel channel, Instant& shared);
+    void share_contact(double t, Instant& shared);
+    double hub_acceleration(Instant& shared);
+    void forget();
     void search_again();
     void bound(const SegmentInterval& s);
     void sample_touch(const SegmentInterval& s);
     bool is_linear(ChannelKind kind);
     void probe_contact(double t);
-    void place_sample(const SegmentInterval& s, ChannelKind kind, std::size_t k, SampledStates& sampled);
 
     ChannelEvaluator evaluator_;
     GapProbe probe_;
     const ModeBasis basis_;
     ModalChannels modal_channels_;
     PolynomialBounds polynomial_bounds_;
-    std::array<std::vector<double>, kSamples> polynomial_states_;
+    std::array<Instant, kSamples> polynomial_samples_;
     TouchSamples polynomial_touch_;
-    std::array<ContactState, kSamples> polynomial_contacts_;
+    const Segment* segment_ = nullptr;
+    double segment_from_ = kNan, segment_to_ = kNan;
+    std::unordered_map<double, Instant> instants_;  // of that segment
+    std::optional<Samples> balance_;
+    std::array<double, 2> proven_separation_{kNan, kNan};
     std::vector<double> y_;
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
