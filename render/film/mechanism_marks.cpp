@@ -102,19 +102,20 @@ static bool crosses_angle_arc(const MechanismScene& s, Vec2 from, Vec2 to) {
     return false;
 }
 
-static bool clears_hub(const MechanismView& at, double radius) {
-    return radius * at.zoom() >= at.hub() + 22 * at.marks;
+// The angle has a place: outside the hub.
+static bool shows_angle(const MechanismView& at, double radius) {
+    return at.labelled() && radius * at.zoom() >= at.hub() + 22 * at.marks;
 }
 
 bool shows_angle_arc(const MechanismView& at, double radius, const sim::Pose& pose) {
-    return at.labelled() && clears_hub(at, radius) && std::abs(drawn_angle(pose)) >= kLeastArc;
+    return shows_angle(at, radius) && std::abs(drawn_angle(pose)) >= kLeastArc;
 }
 
 void draw_angle_arc(const MechanismScene& s) {
-    if (!s.at.labelled() || !clears_hub(s.at, s.at.labels->arc_radius)) return;
+    if (!shows_angle(s.at, s.at.labels->arc_radius)) return;
     const double radius = s.at.labels->arc_radius * s.at.zoom(), angle = drawn_angle(s.pose);
     const Vec2 o = s.at.px({0, 0});
-    if (shows_angle_arc(s.at, s.at.labels->arc_radius, s.pose)) {
+    if (std::abs(angle) >= kLeastArc) {
         if (s.view) {
             const std::vector<Vec2> base = angle_base(s.at, s.at.labels->arc_radius);
             s.canvas.line(s.on(base[0]), s.on(base[1]), {s.at.palette.muted, 1.6 * s.at.unit, {}, Cap::butt});

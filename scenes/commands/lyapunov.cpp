@@ -70,7 +70,7 @@ void act(const LyapunovArguments& args) {
         progress.end();
     }
     write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
-                  [&] { return exponents_figure(found, scene.problem, scene.units, args.files.lang); }},
+                  [&] { return exponents_figure(found, subject_of(scene, args.files.lang)); }},
                  args.files, scene, args.common, manifest);
     if (std::cmp_greater(args.count, found.lambda.size()))
         inform(args.common,

@@ -55,9 +55,9 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         studies.may_fail(run.study);
         studies.stop_after(run.study, {.collisions = kSearchedCollisions});
     }
-    return [runs, lang = how.lang, problem = scene.problem, units = scene.units,
-            end = scene.end_time](const Results& results) -> Figure {
-        const Measure angle = measure_in(units, "rad");
+    return [runs, subject = subject_of(scene, how.lang)](const Results& results) -> Figure {
+        const Lang lang = subject.lang;
+        const Measure angle = measure_in(subject.units, "rad");
         std::vector<Series> series;  // hub–beam, cantilever
         for (int k = 0; k < 2; ++k)
             series.push_back(
@@ -68,7 +68,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         Runs used;
         for (const ApexRun& run : runs) {
             const std::size_t shapes = run.basis == Basis::hub_beam ? 0 : 1;
-            if (const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], end)) {
+            if (const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], subject.end_time)) {
                 series[shapes].add(run.modes, angle.factor * *apex);
                 used.emplace_back(&run.problem, results[run.study]);
             } else {
@@ -88,7 +88,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
                                   "Highest hub angle of the first rebound against the number $N$ of shape functions, "
                                   "model first-order. ",
                                   "首次回弹的最大转角随形函数个数 $N$ 的变化，一阶模型。") +
-                           missing_points(missing, lang) + facts(problem, units, lang, {.model = true, .modes = true}),
+                           missing_points(missing, lang) + facts(subject, {.model = true, .modes = true}),
                 .accuracy = accuracy(used, lang)};
     };
 }

@@ -89,7 +89,7 @@ std::string branches_caption(const output::BranchTable& table, const std::string
                   "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
                   symbol_of(table.key), special,
                   !with_sweep ? "" : phrase(lang, "Dots: impacts of a sweep. ", "点：扫描所得碰撞。"),
-                  facts(scene.problem, scene.units, lang, {.cam_speed = table.key == "cam.speed"}));
+                  facts(subject_of(scene, lang), {.cam_speed = table.key == "cam.speed"}));
 }
 
 }  // namespace

@@ -195,7 +195,8 @@ std::string grouped(double value, int decimals) {
     return out;
 }
 
-std::string beam_facts(const sim::Problem& p, const render::Units& units, Lang lang, Varied varied) {
+std::string beam_facts(const Subject& of, Varied varied) {
+    const auto& [p, units, lang, end] = of;
     const sim::Beam& b = p.beam;
     std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
                                  fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
@@ -213,12 +214,13 @@ std::string beam_facts(const sim::Problem& p, const render::Units& units, Lang l
     return phrase(lang, "Beam and hub: {}.", "梁与轮毂：{}。", fmt::join(out, phrase(lang, ", ", "，")));
 }
 
-std::string facts(const sim::Problem& p, const render::Units& units, Lang lang, Varied varied) {
-    if (!p.cam) return beam_facts(p, units, lang, varied);
+std::string facts(const Subject& of, Varied varied) {
+    const auto& [p, units, lang, end] = of;
+    if (!p.cam) return beam_facts(of, varied);
     std::vector<std::string> out = cam_facts(*p.cam, units.speed, lang, varied);
     for (std::string& fact : contact_facts(p, lang)) out.push_back(std::move(fact));
     std::string text =
-        beam_facts(p, units, lang, varied) + phrase(lang, " ", "") +
+        beam_facts(of, varied) + phrase(lang, " ", "") +
         phrase(lang, "Cam and contact: {}.", "凸轮与接触：{}。", fmt::join(out, phrase(lang, ", ", "，")));
     if (is_of_the_paper(p))
         text += phrase(lang,

@@ -1,7 +1,7 @@
 // The text of captions: the parameters of a problem, and numbers with the digits that are certain.
 //
-// Every figure describes its scene by these functions alone, so that a caption states nothing that the scene does not.
-// All texts are markup (render/draw/markup.hpp).
+// Every figure describes its subject by these functions alone, so that a caption states nothing that the scene does
+// not. All texts are markup (render/draw/markup.hpp).
 #pragma once
 
 #include <fmt/format.h>
@@ -41,6 +41,15 @@ std::string length_text(double metres);                                // "0.25 
 std::string angular_speed_text(double speed, render::SpeedUnit unit);  // "5 rad s^{−1}"
 std::string grouped(double value, int decimals);                       // "0.369 994": thin spaces between threes
 
+// What a figure is about.
+struct Subject {
+    sim::Problem problem;
+    render::Units units;  // of angles and speeds
+    Lang lang;
+    double end_time = 0;  // of the scene [s]
+};
+inline Subject subject_of(const Scene& scene, Lang lang) { return {scene.problem, scene.units, lang, scene.end_time}; }
+
 // ---- facts ----------------------------------------------------------------------------------------
 
 std::string model_name(sim::ModelKind model, Lang lang);  // "first-order", "一阶模型"
@@ -51,11 +60,11 @@ struct Varied {
     bool model = false, modes = false, cam_speed = false;
 };
 
-// Beam, hub, drive and start; with a cam also the cam and the contact. Speeds are in the scene's unit, angles in
-// degrees.
-std::string facts(const sim::Problem& problem, const render::Units& units, Lang lang, Varied varied = {});
+// Beam, hub, drive and start; with a cam also the cam and the contact. Speeds are in the subject's unit, angles
+// in degrees.
+std::string facts(const Subject& of, Varied varied = {});
 // Beam, hub, drive and start alone.
-std::string beam_facts(const sim::Problem& problem, const render::Units& units, Lang lang, Varied varied = {});
+std::string beam_facts(const Subject& of, Varied varied = {});
 
 // Speeds of the cam in the paper's figure 6 [rad/s].
 inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};

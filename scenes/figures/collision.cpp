@@ -28,8 +28,8 @@ std::string ordinal(int number) {
 }
 
 // The collision in numbers, in the digits that one mode fewer leaves.
-std::string collision_caption(const sim::Problem& problem, const sim::Collision& c, int which, const sim::Result* fewer,
-                              Lang lang) {
+std::string collision_caption(const Subject& subject, const sim::Collision& c, int which, const sim::Result* fewer) {
+    const auto& [problem, units, lang, end] = subject;
     const sim::Collision* other = fewer ? collision_of(problem, *fewer, which) : nullptr;
     const auto digits = [&](double value, std::optional<double> otherwise) {
         return supported(estimate(problem, value, otherwise));
@@ -55,7 +55,7 @@ std::string collision_caption(const sim::Problem& problem, const sim::Collision&
     text += phrase(lang, "; energy lost {} J{}. ", "；能量损失 {} J{}。",
                    digits(c.energy_lost, other ? std::optional(other->energy_lost) : std::nullopt),
                    c.t_end ? "" : phrase(lang, "; it lasts longer than the figure", "；至图末尚未结束"));
-    return text + digits_stated(problem, lang);
+    return text + digits_stated(problem, lang) + facts(subject);
 }
 
 // Force and penetration from the collision's first touch, in units that suit them.
@@ -147,25 +147,23 @@ Panel close_up_panel(CloseUp shown, int which, const sim::Result& result, Lang l
 }
 
 FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
-    const double end = scene.end_time;
-    const std::size_t study = studies.of(scene.problem, end);
-    const auto fewer = study_with_one_mode_fewer(scene.problem, end, studies);
+    const std::size_t study = studies.of(scene.problem, scene.end_time);
+    const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
     if (fewer) studies.stop_after(*fewer, {.collisions = static_cast<std::size_t>(how.collision) + 1});
-    const std::size_t table = studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
-                                            {sim::Channel{ChannelKind::gap}});
-    return [=, problem = scene.problem, units = scene.units, number = how.collision](const Results& results) -> Figure {
+    const std::size_t table = studies.curve(study, {0, scene.end_time, contact_rows(scene.end_time)}, {},
+                                            {ChannelKind::contact_force, 0}, {sim::Channel{ChannelKind::gap}});
+    return [=, subject = subject_of(scene, how.lang), number = how.collision](const Results& results) -> Figure {
+        const auto& [problem, units, lang, end] = subject;
         const sim::Result& result = *results[study];
         const sim::Collision* c = collision_of(problem, result, number);
         if (!c) throw render::PictureError(no_collision(problem, result, number, end));
         const auto which = static_cast<int>(c - result.collisions.data());
         CloseUp shown = close_up(*c, end, result.tables[table], deepest(result, which), lang);
         reach_peaks(shown, which, result);
-        return {
-            .panels = {close_up_panel(std::move(shown), which, result, lang)},
-            .aspect = 0.62,
-            .caption = collision_caption(problem, *c, number, results.find(fewer), lang) + facts(problem, units, lang),
-            .accuracy = accuracy({{&problem, &result}}, lang)};
+        return {.panels = {close_up_panel(std::move(shown), which, result, lang)},
+                .aspect = 0.62,
+                .caption = collision_caption(subject, *c, number, results.find(fewer)),
+                .accuracy = accuracy({{&problem, &result}}, lang)};
     };
 }
 

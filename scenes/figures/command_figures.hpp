@@ -5,6 +5,7 @@
 
 #include "output/data/orbit_records.hpp"
 #include "render/plot/figure.hpp"
+#include "scenes/figures/caption.hpp"
 #include "scenes/scene/scene.hpp"
 #include "sim/orbit/exponents.hpp"
 #include "sim/studies/accuracy.hpp"
@@ -26,8 +27,7 @@ render::figure::Figure branches_figure(const output::BranchTable& table, const S
                                        Lang lang);
 
 // The convergence of the Lyapunov exponents of a motion. Throws PictureError where every exponent is −∞.
-render::figure::Figure exponents_figure(const sim::Exponents& exponents, const sim::Problem& problem,
-                                        const render::Units& units, Lang lang);
+render::figure::Figure exponents_figure(const sim::Exponents& exponents, const Subject& subject);
 
 // The outcomes of a stress campaign: a panel for each grid, a cell for each pair of extremes, in it a stripe for each
 // variant, coloured by its outcome. Failures are crossed out as well, so that colour alone does not carry them.

@@ -79,7 +79,8 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
 }
 
 // Impulsive contact: a point for each impact, coloured by its impulse.
-Figure impulsive_places(const sim::Result& result, double end, Lang lang) {
+Figure impulsive_places(const Subject& subject, const sim::Result& result) {
+    const auto& [problem, units, lang, end] = subject;
     if (result.impacts.empty())
         throw render::PictureError(
             fmt::format("figure contact-places: nothing strikes the cam before {:g} s; raise time.end", end));
@@ -98,8 +99,8 @@ Figure impulsive_places(const sim::Result& result, double end, Lang lang) {
 }
 
 // The place of contact at each instant, coloured by the force.
-Figure forceful_places(const sim::Problem& problem, const sim::Result& result, const sim::Table& t, double end,
-                       Lang lang) {
+Figure forceful_places(const Subject& subject, const sim::Result& result, const sim::Table& t) {
+    const auto& [problem, units, lang, end] = subject;
     const auto &time = column(t, ChannelKind::t), &n = column(t, ChannelKind::contact_force),
                &x = column(t, ChannelKind::contact_x), &s = column(t, ChannelKind::contact_s);
     Places on_beam, on_cam;
@@ -131,17 +132,14 @@ Figure forceful_places(const sim::Problem& problem, const sim::Result& result, c
 }
 
 FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
-    const double end = scene.end_time;
-    const std::size_t study = studies.of(scene.problem, end);
+    const std::size_t study = studies.of(scene.problem, scene.end_time);
     if (scene.problem.contact.model != sim::ContactModel::compliant)
-        return figure_of_motion(scene, how, study,
-                                [=](const sim::Result& result) { return impulsive_places(result, end, lang); });
+        return figure_of_motion(scene, how, study, impulsive_places);
     const std::size_t table =
-        studies.curve(study, {0, end, contact_rows(end)}, {}, {ChannelKind::contact_force, 0},
+        studies.curve(study, {0, scene.end_time, contact_rows(scene.end_time)}, {}, {ChannelKind::contact_force, 0},
                       {sim::Channel{ChannelKind::contact_x}, sim::Channel{ChannelKind::contact_s}});
-    return figure_of_motion(scene, how, study, [=, problem = scene.problem](const sim::Result& result) {
-        return forceful_places(problem, result, result.tables[table], end, lang);
+    return figure_of_motion(scene, how, study, [table](const Subject& subject, const sim::Result& result) {
+        return forceful_places(subject, result, result.tables[table]);
     });
 }
 

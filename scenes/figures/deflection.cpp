@@ -75,8 +75,8 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
     return out;
 }
 
-std::string deflection_caption(const sim::Problem& problem, const render::Units& units, const Inclination& at,
-                               double jump, Lang lang) {
+std::string deflection_caption(const Subject& subject, const Inclination& at, double jump) {
+    const Lang lang = subject.lang;
     const std::string angle = number(at.angle * 180 / M_PI, 4);
     std::string text = phrase(
         lang,
@@ -84,7 +84,7 @@ std::string deflection_caption(const sim::Problem& problem, const render::Units&
         "horizontal distance $l_{{1}}$. ",
         "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $v$ (a) 与斜率 (b)。", angle,
         at.tangent ? phrase(lang, " (tangent to the disc as if it were centred)", "（与视为对心的圆盘相切）") : "");
-    if (is_of_the_paper(problem))
+    if (is_of_the_paper(subject.problem))
         text += phrase(
             lang,
             "Eq. (5) of the paper as printed (dashed) lacks a term in each constant of the overhanging span, so "
@@ -95,10 +95,11 @@ std::string deflection_caption(const sim::Problem& problem, const render::Units&
             "10^{{−3}}）；补全后（点线）连续。二者均沿水平方向积分；沿倾斜杆（实线）的挠度大 1/cos^{{2}} $θ$ = {} "
             "倍。",
             number(jump, 3), number(1 / std::pow(std::cos(at.angle), 2), 4));
-    return text + beam_facts(problem, units, lang);
+    return text + beam_facts(subject);
 }
 
-Figure deflection_figure(const sim::Problem& problem, const render::Units& units, Lang lang) {
+Figure deflection_figure(const Subject& subject) {
+    const auto& [problem, units, lang, end] = subject;
     const Inclination at = inclination(problem);
     const double reach = problem.beam.length * std::cos(at.angle);
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
@@ -131,14 +132,12 @@ Figure deflection_figure(const sim::Problem& problem, const render::Units& units
     return {.panels = lettered({std::move(shape), std::move(slope)}),
             .share_x = true,
             .aspect = 1.15,
-            .caption = deflection_caption(problem, units, at, largest_jump, lang),
+            .caption = deflection_caption(subject, at, largest_jump),
             .accuracy = accuracy({}, lang)};
 }
 
 FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Studies&) {
-    return [problem = scene.problem, units = scene.units, lang = how.lang](const Results&) {
-        return deflection_figure(problem, units, lang);
-    };
+    return [subject = subject_of(scene, how.lang)](const Results&) { return deflection_figure(subject); };
 }
 
 std::optional<std::string> needs_static_bending(const Scene& scene) {

@@ -226,7 +226,6 @@ std::string trial_caption(const Trial& trial, double rtol, Lang lang) {
 }
 
 FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    const Lang lang = how.lang;
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
     const std::size_t fall = studies.of(falling, scene.end_time);
@@ -236,7 +235,8 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     const std::size_t touching = studies.of(scene.problem, scene.end_time);
     const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
     if (fewer) studies.stop_after(*fewer, {.touches = 1});
-    return [=, problem = scene.problem, units = scene.units](const Results& results) -> Figure {
+    return [=, subject = subject_of(scene, how.lang)](const Results& results) -> Figure {
+        const auto& [problem, units, lang, end] = subject;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
         Panel panel = distance_panel(trial);
@@ -244,7 +244,7 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
         return {.panels = {std::move(panel)},
                 .aspect = 0.76,
                 .caption = trial_caption(trial, problem.solver.rtol, lang) +
-                           located(problem, strikes, results.find(fewer), lang) + facts(problem, units, lang),
+                           located(problem, strikes, results.find(fewer), lang) + facts(subject),
                 .accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang)};
     };
 }

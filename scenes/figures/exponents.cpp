@@ -51,8 +51,8 @@ std::string values_text(const sim::Exponents& e) {
 
 }  // namespace
 
-render::figure::Figure exponents_figure(const sim::Exponents& e, const sim::Problem& problem,
-                                        const render::Units& units, Lang lang) {
+render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& subject) {
+    const Lang lang = subject.lang;
     std::vector<Panel> panels{panel_of(e, e.lambda.size(), lang)};
     if (panels[0].series.empty())
         throw render::PictureError("exponents: all are −∞, because the contact lasts; there is nothing to draw");
@@ -69,7 +69,7 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const sim::Prob
                               "经 {} s 暂态后，{} s 内（{} 次冲击，其中 {} 次近擦边）Lyapunov 指数的收敛{}：{}。{}",
                               number(e.transient, 4), number(e.duration, 4), e.impacts, e.near_grazing,
                               both ? phrase(lang, ", (a) the largest, (b) all", "，(a) 最大者，(b) 全部") : "",
-                              values_text(e), facts(problem, units, lang)),
+                              values_text(e), facts(subject)),
             .accuracy = phrase(lang, "Errors are standard errors of block averages.", "误差为分块平均的标准误差。")};
 }
 

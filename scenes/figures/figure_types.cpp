@@ -158,11 +158,10 @@ std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Resul
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 
 FigureMaker figure_of_motion(const Scene& scene, const FigureOutput& how, std::size_t study, MotionDrawing draw) {
-    return [=, problem = scene.problem, units = scene.units, lang = how.lang,
-            draw = std::move(draw)](const Results& results) {
-        Figure figure = draw(*results[study]);
-        figure.caption += facts(problem, units, lang);
-        figure.accuracy = accuracy({{&problem, results[study]}}, lang);
+    return [study, subject = subject_of(scene, how.lang), draw = std::move(draw)](const Results& results) {
+        Figure figure = draw(subject, *results[study]);
+        figure.caption += facts(subject);
+        figure.accuracy = accuracy({{&subject.problem, results[study]}}, subject.lang);
         return figure;
     };
 }

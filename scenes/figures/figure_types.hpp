@@ -101,7 +101,7 @@ std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Resul
 int contact_rows(double end);
 
 // Draws the result of the scene's own motion; the facts of the scene are added to its caption, and its accuracy.
-using MotionDrawing = std::function<Figure(const sim::Result&)>;
+using MotionDrawing = std::function<Figure(const Subject&, const sim::Result&)>;
 FigureMaker figure_of_motion(const Scene& scene, const FigureOutput& how, std::size_t study, MotionDrawing draw);
 
 // Poses of the scene's motion, equally spaced over the interval that a figure shows, both ends included.

@@ -114,7 +114,8 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const Results&
                                                 factor * slope * kAround}};
 }
 
-std::string fall_caption(const Falls& falls, const Results& results, double end, Lang lang) {
+std::string fall_caption(const Falls& falls, const Results& results, const Subject& subject) {
+    const Lang lang = subject.lang;
     std::string text = falls.flexible
                            ? phrase(lang, "Hub angle without the cam, of the flexible and of the rigid beam. ",
                                     "无凸轮时柔性梁与刚性梁的转角。")
@@ -129,7 +130,8 @@ std::string fall_caption(const Falls& falls, const Results& results, double end,
         if (fall.look < 2 && fall.zero(results))
             times.push_back(phrase(lang, "{} s ({})", "{} s（{}）", supported(estimated(fall)), fall.label.in(lang)));
     if (times.empty()) {
-        text += phrase(lang, "$θ$ does not reach 0 before {} s. ", "{} s 之前 $θ$ 未达到 0。", number(end, 4));
+        text +=
+            phrase(lang, "$θ$ does not reach 0 before {} s. ", "{} s 之前 $θ$ 未达到 0。", number(subject.end_time, 4));
     } else {
         text += phrase(lang, "$θ$ = 0 is reached at {}. ", "到达 $θ$ = 0 的时刻：{}。",
                        fmt::join(times, phrase(lang, ", ", "，")));
@@ -146,17 +148,17 @@ std::string fall_caption(const Falls& falls, const Results& results, double end,
                        "原文给出柔性梁 0.37 s、刚性杆 0.262 s。第三条曲线为力矩与惯量之比差 2 "
                        "倍（力矩加倍或惯量减半）的刚性杆，历时 {} s，即刚性杆的 1/√2。",
                        supported(estimated(falls.shown.back())));
-    return text;
+    return text + beam_facts(subject);
 }
 
-Panel fall_panel(const Falls& falls, const Results& results, const render::Units& units, Lang lang) {
-    const Measure angle = measure_in(units, "rad");
+Panel fall_panel(const Falls& falls, const Results& results, const Subject& subject) {
+    const Measure angle = measure_in(subject.units, "rad");
     Panel panel{.x = {.label = "$t$ / s", .tight = true},
                 .y = {.label = axis_label("$θ$", angle.unit)},
                 .rules = {{.at = 0}},
                 .legend = Legend::box};
     for (const Fall& fall : falls.shown) {
-        panel.series.push_back(fall.curve(results, fall.table, fall.label.in(lang)));
+        panel.series.push_back(fall.curve(results, fall.table, fall.label.in(subject.lang)));
         panel.series.back().y = scaled(std::move(panel.series.back().y), angle.factor);
     }
     panel.series.front().solid = true;
@@ -176,15 +178,13 @@ Panel fall_panel(const Falls& falls, const Results& results, const render::Units
 }
 
 FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    return [falls = falls_of(scene, studies), units = scene.units, lang = how.lang,
-            end = scene.end_time](const Results& results) -> Figure {
+    return [falls = falls_of(scene, studies), subject = subject_of(scene, how.lang)](const Results& results) -> Figure {
         Runs runs;
         for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
-        return {
-            .panels = {fall_panel(falls, results, units, lang)},
-            .aspect = 0.74,
-            .caption = fall_caption(falls, results, end, lang) + beam_facts(falls.shown.front().problem, units, lang),
-            .accuracy = accuracy(runs, lang)};
+        return {.panels = {fall_panel(falls, results, subject)},
+                .aspect = 0.74,
+                .caption = fall_caption(falls, results, subject),
+                .accuracy = accuracy(runs, subject.lang)};
     };
 }
 

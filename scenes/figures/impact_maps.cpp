@@ -40,8 +40,9 @@ void spread_ratios(Panel& panel) {
 
 // Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase;
 // with what the caption says of each.
-std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& problem, const sim::Result& result,
-                                                      double from, double to, const render::Units& units, Lang lang) {
+std::vector<std::pair<Panel, Translated>> impact_maps(const Subject& subject, const sim::Result& result, double from,
+                                                      double to) {
+    const auto& [problem, units, lang, end] = subject;
     const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(lang) + which, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
     Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution", "恢复系数")),
@@ -74,11 +75,10 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const sim::Problem& proble
 FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    const auto draw = [=, problem = scene.problem, units = scene.units,
-                       lang = how.lang](const sim::Result& result) -> Figure {
+    const auto draw = [=, lang = how.lang](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<Panel> panels;
         std::vector<std::string> words;
-        for (auto& [panel, what] : impact_maps(problem, result, from, to, units, lang)) {
+        for (auto& [panel, what] : impact_maps(subject, result, from, to)) {
             if (panel.series.front().x.empty()) continue;
             panel.letter = panel_letter(panels.size());
             words.push_back(fmt::format("({}) {}", panel.letter, what.in(lang)));
@@ -114,9 +114,9 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
 FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    const auto draw = [=, problem = scene.problem, lang = how.lang](const sim::Result& result) -> Figure {
+    const auto draw = [=, lang = how.lang](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<double> speeds, phases;
-        for (const sim::Impact& hit : strikes(problem, result.impacts, from, to))
+        for (const sim::Impact& hit : strikes(subject.problem, result.impacts, from, to))
             speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(phase_of(hit));
         constexpr std::size_t kFewest = 5;
         if (speeds.size() < kFewest)

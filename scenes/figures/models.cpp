@@ -80,14 +80,14 @@ std::string cut_short(const std::vector<Rung>& all, const Results& results, doub
 }
 
 // States how equation and shapes, each alone, change the first rebound.
-std::string models_caption(const std::vector<Rung>& all, const Results& results, const render::Units& units, double end,
-                           Lang lang) {
+std::string models_caption(const std::vector<Rung>& all, const Results& results, const Subject& subject) {
+    const Lang lang = subject.lang;
     const auto apex = [&](ModelKind model, bool same_shapes) -> std::optional<double> {
         const Rung* rung = found(all, model, same_shapes);
-        return rung ? rebound_apex(rung->problem, *results[rung->study], end) : std::nullopt;
+        return rung ? rebound_apex(rung->problem, *results[rung->study], subject.end_time) : std::nullopt;
     };
     const auto difference = [&](double a, double b, int digits) {
-        const Measure angle = measure_in(units, "rad");
+        const Measure angle = measure_in(subject.units, "rad");
         return with_unit(number(angle.factor * std::abs(a - b), digits), angle.unit);
     };
     const Rung& reference = all.front();
@@ -120,7 +120,7 @@ std::string models_caption(const std::vector<Rung>& all, const Results& results,
                    "更换形函数使首次回弹最高点改变 {}，这并非方程之差。", difference(*reference_apex, *other_apex, 2));
     if (!results[reference.study]->impacts.empty())
         text += phrase(lang, "Impacts multiply small differences. ", "碰撞会放大微小差别。");
-    return text;
+    return text + cut_short(all, results, subject.end_time, lang) + facts(subject, {.model = true, .modes = true});
 }
 
 // The largest difference from the reference up to each instant; empty where there is none.
@@ -188,7 +188,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         rung.table =
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
-    return [=, problem = scene.problem, units = scene.units, end = scene.end_time](const Results& results) -> Figure {
+    return [all, subject = subject_of(scene, lang)](const Results& results) -> Figure {
         if (!has_result(*results[all[0].study]))
             throw render::PictureError(
                 "figure models: the model second-order, with which the others are compared, "
@@ -196,13 +196,12 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         Runs runs;
         for (const Rung& rung : all)
             if (has_result(*results[rung.study])) runs.emplace_back(&rung.problem, results[rung.study]);
-        return {.panels = model_panels(all, results, units, shown_until(all, results)),
+        return {.panels = model_panels(all, results, subject.units, shown_until(all, results)),
                 .stack = true,
                 .share_x = true,
                 .aspect = 1.5,
-                .caption = models_caption(all, results, units, end, lang) + cut_short(all, results, end, lang) +
-                           facts(problem, units, lang, {.model = true, .modes = true}),
-                .accuracy = accuracy(runs, lang)};
+                .caption = models_caption(all, results, subject),
+                .accuracy = accuracy(runs, subject.lang)};
     };
 }
 

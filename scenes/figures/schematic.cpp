@@ -220,7 +220,8 @@ class Drawing : private Sketch {
     double letter_, size_ = 1, unit_ = 1, theta_ = 0.78;
 };
 
-std::string schematic_caption(const sim::Problem& p, const render::Units& units, Lang lang) {
+std::string schematic_caption(const Subject& subject) {
+    const auto& [p, units, lang, end] = subject;
     const bool flexible = p.beam.model != sim::ModelKind::rigid;
     std::string text = phrase(lang, "The system with its symbols, to scale", "系统示意图，按比例绘制");
     if (flexible)
@@ -245,7 +246,7 @@ std::string schematic_caption(const sim::Problem& p, const render::Units& units,
                    "$D$，偏心距 "
                    "$e$ = |$CB$|。",
                    p.cam->centre.y == 0 ? "" : phrase(lang, "horizontal ", "水平"));
-    return text + facts(p, units, lang);
+    return text + facts(subject);
 }
 
 constexpr double kAspect = 0.98;
@@ -262,12 +263,11 @@ double letter_of(const FigureOutput& how) {
 }
 
 FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studies&) {
-    return [problem = scene.problem, units = scene.units, lang = how.lang,
-            letter = letter_of(how)](const Results&) -> Figure {
-        return {.panels = {{.shapes = Drawing(problem, letter).shapes()}},
+    return [subject = subject_of(scene, how.lang), letter = letter_of(how)](const Results&) -> Figure {
+        return {.panels = {{.shapes = Drawing(subject.problem, letter).shapes()}},
                 .aspect = kAspect,
-                .caption = schematic_caption(problem, units, lang),
-                .accuracy = accuracy({}, lang)};
+                .caption = schematic_caption(subject),
+                .accuracy = accuracy({}, subject.lang)};
     };
 }
 

@@ -33,8 +33,8 @@ std::string common_facts(const std::vector<SeriesMotion>& motions, const render:
                            if (other.cam) other.cam->speed = first.problem.cam->speed;
                            return Studies::key(other) == Studies::key(first.problem);
                        });
-    if (motions.size() == 1 || alike) return facts(first.problem, units, lang, {.cam_speed = motions.size() > 1});
-    return phrase(lang, "Of {}: ", "{}：", first.label) + facts(first.problem, units, lang);
+    if (motions.size() == 1 || alike) return facts({first.problem, units, lang}, {.cam_speed = motions.size() > 1});
+    return phrase(lang, "Of {}: ", "{}：", first.label) + facts({first.problem, units, lang});
 }
 
 // The first panel, "(c)", of a motion with separate panels. A panel of differences follows those of the motion with
@@ -96,7 +96,7 @@ std::string trust_text(const SeriesPlan& plan, const Figure& figure, const Resul
         runs.emplace_back(motion_name(plan, k, figure), results[plan.motions[k].study]);
     const SeriesMotion& motion = plan.motion_with_data();
     return horizon_text(runs, from, plan.end, plan.lang) + undrawn_text(plan) +
-           agreement_text(plan.measured, *results[motion.study], motion.problem, plan.units, plan.lang);
+           agreement_text(plan.measured, *results[motion.study], {motion.problem, plan.units, plan.lang});
 }
 
 }  // namespace

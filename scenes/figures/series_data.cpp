@@ -86,8 +86,8 @@ Series measured_series(const Measurement& data, std::vector<double> x, std::vect
             .weight = 0.7};
 }
 
-std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
-                           const render::Units& units, Lang lang) {
+std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const Subject& subject) {
+    const auto& [problem, units, lang, end] = subject;
     std::string text;
     for (const Measured& each : all)
         for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {

@@ -48,8 +48,7 @@ std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channe
 render::figure::Series measured_series(const Measurement& data, std::vector<double> x, std::vector<double> y, int look);
 
 // "rig: 200 instants, root mean square difference of $θ$ 1.2×10^{−3} rad. "
-std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const sim::Problem& problem,
-                           const render::Units& units, Lang lang);
+std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const Subject& subject);
 
 // ---- amplitude spectra ----------------------------------------------------------------------------------
 

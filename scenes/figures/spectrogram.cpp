@@ -145,8 +145,7 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
         studies.add_table(study, {spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
     const std::string unit = sim::unit(channel, scene.problem);
     return figure_of_motion(
-        scene, how, study,
-        [=, units = scene.units, lang = how.lang, highest = keys.highest](const auto& result) -> Figure {
+        scene, how, study, [=, highest = keys.highest](const Subject& subject, const sim::Result& result) -> Figure {
             const sim::Table& rows = result.tables[table];
             const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
             Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));
@@ -155,9 +154,9 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
                 throw render::PictureError(fmt::format("figure spectrogram: {} does not change from {:g} s to {:g} s",
                                                        name(channel), from, to));
             if (!highest) shorten(s, most * std::pow(10, -kDecades));
-            Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, units));
+            Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units));
             panel.x.from = from, panel.x.to = to;
-            return {.panels = {std::move(panel)}, .caption = spectrogram_caption(channel, s, rate, lang)};
+            return {.panels = {std::move(panel)}, .caption = spectrogram_caption(channel, s, rate, subject.lang)};
         });
 }
 

@@ -109,15 +109,17 @@ std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang
 FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
-    const auto draw = [=, problem = scene.problem, lang = how.lang](const sim::Result& result) -> Figure {
+    const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
         std::vector<sim::Pose> poses = result.poses[shown.poses];
         if (one) poses.resize(1);
         render::Bounds extent;
-        Panel panel = strobe_panel(poses, problem, extent);
+        Panel panel = strobe_panel(poses, subject.problem, extent);
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        return {.panels = {std::move(panel)}, .aspect = aspect, .caption = strobe_caption(poses.size(), shown, lang)};
+        return {.panels = {std::move(panel)},
+                .aspect = aspect,
+                .caption = strobe_caption(poses.size(), shown, subject.lang)};
     };
     return figure_of_motion(scene, how, shown.study, draw);
 }

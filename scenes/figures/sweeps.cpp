@@ -78,7 +78,7 @@ std::string sweep_caption(const SweptPoints& points) {
     const bool over_speed =
         std::ranges::find(points.data.axes, "cam.speed", &output::SweepAxis::name) != points.data.axes.end();
     return text + phrase(points.lang, "Other parameters: ", "其他参数：") +
-           facts(points.scene.problem, points.scene.units, points.lang, {.cam_speed = over_speed});
+           facts(subject_of(points.scene, points.lang), {.cam_speed = over_speed});
 }
 
 std::string tolerance_text(const SweptPoints& points) {
