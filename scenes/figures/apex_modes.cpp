@@ -47,7 +47,7 @@ std::string missing_points(const std::array<std::vector<int>, 2>& missing, Lang 
                   "{} 无数据点：该运动无回弹，或积分在此之前终止。", fmt::join(lists, phrase(lang, "; ", "；")));
 }
 
-FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_apex(const Scene& scene, const FigureOutput&, Studies& studies) {
     std::vector<ApexRun> runs = apex_runs(scene.problem);
     for (ApexRun& run : runs) {
         run.study = studies.of(run.problem, scene.end_time);
@@ -55,7 +55,7 @@ FigureMaker prepare_apex(const Scene& scene, const FigureOutput& how, Studies& s
         studies.may_fail(run.study);
         studies.stop_after(run.study, {.collisions = kSearchedCollisions});
     }
-    return [runs, subject = subject_of(scene, how.lang)](const Results& results) -> Figure {
+    return [runs](const Subject& subject, const Results& results) -> Figure {
         const Lang lang = subject.lang;
         const Measure angle = measure_in(subject.units, "rad");
         std::vector<Series> series;  // hub–beam, cantilever

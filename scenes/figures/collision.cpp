@@ -146,13 +146,13 @@ Panel close_up_panel(CloseUp shown, int which, const sim::Result& result, Lang l
     return panel;
 }
 
-FigureMaker prepare_collision(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_collision(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const std::size_t study = studies.of(scene.problem, scene.end_time);
     const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
     if (fewer) studies.stop_after(*fewer, {.collisions = static_cast<std::size_t>(how.collision) + 1});
     const std::size_t table = studies.curve(study, {0, scene.end_time, contact_rows(scene.end_time)}, {},
                                             {ChannelKind::contact_force, 0}, {sim::Channel{ChannelKind::gap}});
-    return [=, subject = subject_of(scene, how.lang), number = how.collision](const Results& results) -> Figure {
+    return [=, number = how.collision](const Subject& subject, const Results& results) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         const sim::Result& result = *results[study];
         const sim::Collision* c = collision_of(problem, result, number);

@@ -131,14 +131,13 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
                               "起的角度）的位置，颜色表示法向力。")};
 }
 
-FigureMaker prepare_places(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, Studies& studies) {
     const std::size_t study = studies.of(scene.problem, scene.end_time);
-    if (scene.problem.contact.model != sim::ContactModel::compliant)
-        return figure_of_motion(scene, how, study, impulsive_places);
+    if (scene.problem.contact.model != sim::ContactModel::compliant) return figure_of_motion(study, impulsive_places);
     const std::size_t table =
         studies.curve(study, {0, scene.end_time, contact_rows(scene.end_time)}, {}, {ChannelKind::contact_force, 0},
                       {sim::Channel{ChannelKind::contact_x}, sim::Channel{ChannelKind::contact_s}});
-    return figure_of_motion(scene, how, study, [table](const Subject& subject, const sim::Result& result) {
+    return figure_of_motion(study, [table](const Subject& subject, const sim::Result& result) {
         return forceful_places(subject, result, result.tables[table]);
     });
 }

@@ -98,7 +98,7 @@ std::string deflection_caption(const Subject& subject, const Inclination& at, do
     return text + beam_facts(subject);
 }
 
-Figure deflection_figure(const Subject& subject) {
+Figure deflection_figure(const Subject& subject, const Results&) {
     const auto& [problem, units, lang, end] = subject;
     const Inclination at = inclination(problem);
     const double reach = problem.beam.length * std::cos(at.angle);
@@ -136,9 +136,7 @@ Figure deflection_figure(const Subject& subject) {
             .accuracy = accuracy({}, lang)};
 }
 
-FigureMaker prepare_deflection(const Scene& scene, const FigureOutput& how, Studies&) {
-    return [subject = subject_of(scene, how.lang)](const Results&) { return deflection_figure(subject); };
-}
+FigureDrawing prepare_deflection(const Scene&, const FigureOutput&, Studies&) { return deflection_figure; }
 
 std::optional<std::string> needs_static_bending(const Scene& scene) {
     const sim::Problem& p = scene.problem;

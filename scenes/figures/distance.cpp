@@ -225,7 +225,7 @@ std::string trial_caption(const Trial& trial, double rtol, Lang lang) {
                   supported({when[first], std::max(around, 10 * rtol * when[first])}));
 }
 
-FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, Studies& studies) {
     const sim::Problem falling = without_cam(scene.problem);
     const Instants all{0, scene.end_time, fall_rows(scene.end_time)};
     const std::size_t fall = studies.of(falling, scene.end_time);
@@ -235,7 +235,7 @@ FigureMaker prepare_distance(const Scene& scene, const FigureOutput& how, Studie
     const std::size_t touching = studies.of(scene.problem, scene.end_time);
     const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
     if (fewer) studies.stop_after(*fewer, {.touches = 1});
-    return [=, subject = subject_of(scene, how.lang)](const Results& results) -> Figure {
+    return [=](const Subject& subject, const Results& results) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);

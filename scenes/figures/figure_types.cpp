@@ -48,9 +48,10 @@ static void shorten_times(std::vector<Panel>& panels) {
 
 FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
     studies.name_figure(name);
-    FigureMaker make = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies);
-    return [make = std::move(make), called = std::string(name), usual = title.in(how.lang)](const Results& results) {
-        render::figure::Figure figure = make(results);
+    return [draw = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies),
+            subject = subject_of(scene, how.lang), called = std::string(name),
+            usual = title.in(how.lang)](const Results& results) {
+        render::figure::Figure figure = draw(subject, results);
         figure.name = called;
         if (figure.title.empty()) figure.title = usual;
         shorten_times(figure.panels);
@@ -157,8 +158,8 @@ std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Resul
 
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 
-FigureMaker figure_of_motion(const Scene& scene, const FigureOutput& how, std::size_t study, MotionDrawing draw) {
-    return [study, subject = subject_of(scene, how.lang), draw = std::move(draw)](const Results& results) {
+FigureDrawing figure_of_motion(std::size_t study, MotionDrawing draw) {
+    return [study, draw = std::move(draw)](const Subject& subject, const Results& results) {
         Figure figure = draw(subject, *results[study]);
         figure.caption += facts(subject);
         figure.accuracy = accuracy({{&subject.problem, results[study]}}, subject.lang);

@@ -28,7 +28,8 @@ using render::figure::Panel;
 using render::figure::Series;
 using sim::ChannelKind;
 
-using FigureMaker = std::function<Figure(const Results&)>;
+using FigureDrawing = std::function<Figure(const Subject&, const Results&)>;
+using FigureMaker = std::function<Figure(const Results&)>;  // of one subject
 
 class SweptPoints;
 
@@ -38,7 +39,7 @@ struct FigureType {
     // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` checks more.
     std::optional<std::string> (*refusal)(const Scene& scene);
     // Of motions: requests them, and returns the function that draws their results. Null for a figure of a sweep.
-    FigureMaker (*maker)(const Scene& scene, const FigureOutput& how, Studies& studies) = nullptr;
+    FigureDrawing (*maker)(const Scene& scene, const FigureOutput& how, Studies& studies) = nullptr;
     // Of the scene's sweep: draws its points.
     Figure (*draw)(const SweptPoints& points, const FigureOutput& how) = nullptr;
     // Those keys of its output that only some figures have: "from", "to".
@@ -102,7 +103,7 @@ int contact_rows(double end);
 
 // Draws the result of the scene's own motion; the facts of the scene are added to its caption, and its accuracy.
 using MotionDrawing = std::function<Figure(const Subject&, const sim::Result&)>;
-FigureMaker figure_of_motion(const Scene& scene, const FigureOutput& how, std::size_t study, MotionDrawing draw);
+FigureDrawing figure_of_motion(std::size_t study, MotionDrawing draw);
 
 // Poses of the scene's motion, equally spaced over the interval that a figure shows, both ends included.
 struct ShownPoses {

@@ -177,8 +177,8 @@ Panel fall_panel(const Falls& falls, const Results& results, const Subject& subj
     return panel;
 }
 
-FigureMaker prepare_fall(const Scene& scene, const FigureOutput& how, Studies& studies) {
-    return [falls = falls_of(scene, studies), subject = subject_of(scene, how.lang)](const Results& results) -> Figure {
+FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, Studies& studies) {
+    return [falls = falls_of(scene, studies)](const Subject& subject, const Results& results) -> Figure {
         Runs runs;
         for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
         return {.panels = {fall_panel(falls, results, subject)},

@@ -72,10 +72,11 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const Subject& subject, co
          {"hub speed $\\dot{θ}$ at the touch against the phase of the cam", "接触时的角速度 $\\dot{θ}$ 与凸轮相位"}}};
 }
 
-FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    const auto draw = [=, lang = how.lang](const Subject& subject, const sim::Result& result) -> Figure {
+    const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
+        const Lang lang = subject.lang;
         std::vector<Panel> panels;
         std::vector<std::string> words;
         for (auto& [panel, what] : impact_maps(subject, result, from, to)) {
@@ -92,7 +93,7 @@ FigureMaker prepare_maps(const Scene& scene, const FigureOutput& how, Studies& s
                 .aspect = aspect,
                 .caption = phrase(lang, "{}. ", "{}。", fmt::join(words, phrase(lang, "; ", "；")))};
     };
-    return figure_of_motion(scene, how, study, draw);
+    return figure_of_motion(study, draw);
 }
 
 // Counts the values in intervals of a round width from 0 to `end`, which the last one includes.
@@ -111,10 +112,11 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
             .legend = Legend::none};
 }
 
-FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
-    const auto draw = [=, lang = how.lang](const Subject& subject, const sim::Result& result) -> Figure {
+    const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
+        const Lang lang = subject.lang;
         std::vector<double> speeds, phases;
         for (const sim::Impact& hit : strikes(subject.problem, result.impacts, from, to))
             speeds.push_back(std::abs(hit.v_n_before)), phases.push_back(phase_of(hit));
@@ -136,7 +138,7 @@ FigureMaker prepare_histograms(const Scene& scene, const FigureOutput& how, Stud
             speeds.size(), number(from, 4), number(to, 4), width(0), width(1));
         return {.panels = std::move(panels), .aspect = 1.2, .caption = std::move(caption)};
     };
-    return figure_of_motion(scene, how, study, draw);
+    return figure_of_motion(study, draw);
 }
 
 }  // namespace

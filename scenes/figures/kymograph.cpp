@@ -61,11 +61,11 @@ Panel kymograph_panel(const std::vector<double>& v, const ShownPoses& shown, dou
             .legend = Legend::none};
 }
 
-FigureMaker prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double column = (how.series.to.value_or(scene.end_time) - how.series.from) / kColumns;
     const std::size_t samples = samples_per_column(scene.problem, column);
     const ShownPoses shown = request_poses(scene, how, kColumns * static_cast<int>(samples), kStations, studies);
-    return figure_of_motion(scene, how, shown.study, [=](const Subject& subject, const sim::Result& result) -> Figure {
+    return figure_of_motion(shown.study, [=](const Subject& subject, const sim::Result& result) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         Panel panel =
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);

@@ -178,7 +178,7 @@ double shown_until(const std::vector<Rung>& all, const Results& results) {
     return shown;
 }
 
-FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_models(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const Lang lang = how.lang;
     std::vector<Rung> all = rungs(scene, lang);
     for (Rung& rung : all) {
@@ -188,7 +188,7 @@ FigureMaker prepare_models(const Scene& scene, const FigureOutput& how, Studies&
         rung.table =
             studies.table(rung.study, {0, scene.end_time, kModelsPoints}, {ChannelKind::t, ChannelKind::theta});
     }
-    return [all, subject = subject_of(scene, lang)](const Results& results) -> Figure {
+    return [all](const Subject& subject, const Results& results) -> Figure {
         if (!has_result(*results[all[0].study]))
             throw render::PictureError(
                 "figure models: the model second-order, with which the others are compared, "

@@ -58,14 +58,14 @@ std::string phase_caption(bool is_mean, bool has_impacts, Lang lang) {
     return text;
 }
 
-FigureMaker prepare_phase(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_phase(const Scene& scene, const FigureOutput&, Studies& studies) {
     const double first = first_period(scene.problem);
     const std::size_t study = studies.of(scene.problem, scene.end_time);
     const std::size_t table = studies.table(study, {0, scene.end_time, rows_until(scene.end_time, first)},
                                             {ChannelKind::t, ChannelKind::theta, ChannelKind::theta_dot});
     const std::size_t curve =
         studies.curve(study, {0, scene.end_time, 2001}, {ChannelKind::theta, 0}, {ChannelKind::theta_dot, 0});
-    return figure_of_motion(scene, how, study, [=](const Subject& subject, const sim::Result& result) -> Figure {
+    return figure_of_motion(study, [=](const Subject& subject, const sim::Result& result) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         const Measure angle = measure_in(units, "rad"), speed = measure_in(units, "rad/s");
         Panel panel{.x = {.label = axis_label("$θ$", angle.unit)},

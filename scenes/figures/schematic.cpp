@@ -262,8 +262,8 @@ double letter_of(const FigureOutput& how) {
     return page.style.letters / (0.124 * render::figure::points(std::min(page.width, page.height)));
 }
 
-FigureMaker prepare_schematic(const Scene& scene, const FigureOutput& how, Studies&) {
-    return [subject = subject_of(scene, how.lang), letter = letter_of(how)](const Results&) -> Figure {
+FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, Studies&) {
+    return [letter = letter_of(how)](const Subject& subject, const Results&) -> Figure {
         return {.panels = {{.shapes = Drawing(subject.problem, letter).shapes()}},
                 .aspect = kAspect,
                 .caption = schematic_caption(subject),

@@ -80,29 +80,29 @@ Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const R
 }
 
 // `keys` has panels.
-FigureMaker prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesPreset& preset, Lang lang,
-                           Studies& studies) {
+FigureDrawing prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesPreset& preset, Lang lang,
+                             Studies& studies) {
     SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang), scene.units};
     plan.horizon = preset.horizon;
     complete(plan, scene, studies);
-    return [plan, preset](const Results& results) { return series_figure(plan, preset, results); };
+    return [plan, preset](const Subject&, const Results& results) { return series_figure(plan, preset, results); };
 }
 
 // ---- the named ones -------------------------------------------------------------------------------
 
 const SeriesKeys kHubAngle{.panels = {{.channels = {{ChannelKind::theta, 0}}}}};
 
-FigureMaker prepare_keys(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_keys(const Scene& scene, const FigureOutput& how, Studies& studies) {
     SeriesKeys keys = how.series;
     if (keys.panels.empty()) keys.panels = kHubAngle.panels;
     return prepare_series(scene, keys, {}, how.lang, studies);
 }
 
-FigureMaker prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_angle(const Scene& scene, const FigureOutput& how, Studies& studies) {
     return prepare_series(scene, kHubAngle, {.aspect = 0.55}, how.lang, studies);
 }
 
-FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_speeds(const Scene& scene, const FigureOutput& how, Studies& studies) {
     SeriesKeys keys = kHubAngle;
     keys.apart = true;
     for (const double speed : kPaperSpeeds) {
@@ -116,7 +116,7 @@ FigureMaker prepare_speeds(const Scene& scene, const FigureOutput& how, Studies&
         how.lang, studies);
 }
 
-FigureMaker prepare_tip(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_tip(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const SeriesKeys keys{
         .panels = {{.channels = {{ChannelKind::tip_deflection, 0}}, .lines = {0}, .label = "$v$($L$, $t$)"}}};
     const Translated with{"Transverse deflection of the free end from the tangent at the root",
@@ -154,7 +154,7 @@ std::vector<SeriesSum> energies_of(const sim::Problem& p, Lang lang) {
     return sums;
 }
 
-FigureMaker prepare_energy(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_energy(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const SeriesKeys keys{
         .panels = {{.channels = {{ChannelKind::energy_kinetic, 0}},
                     .sums = energies_of(scene.problem, how.lang),

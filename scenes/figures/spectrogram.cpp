@@ -132,7 +132,7 @@ Panel spectrogram_panel(sim::Channel channel, const Spectrogram& s, double most,
             .name = name(channel)};
 }
 
-FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const SeriesKeys& keys = how.series;
     const sim::Channel channel = channel_of(scene, keys);
     const double from = keys.from, to = keys.to.value_or(scene.end_time);
@@ -145,7 +145,7 @@ FigureMaker prepare_spectrogram(const Scene& scene, const FigureOutput& how, Stu
         studies.add_table(study, {spectrum_instants(scene.problem, from, to), {sim::Channel{}, channel}});
     const std::string unit = sim::unit(channel, scene.problem);
     return figure_of_motion(
-        scene, how, study, [=, highest = keys.highest](const Subject& subject, const sim::Result& result) -> Figure {
+        study, [=, highest = keys.highest](const Subject& subject, const sim::Result& result) -> Figure {
             const sim::Table& rows = result.tables[table];
             const double rate = 1 / (rows.values[0][1] - rows.values[0][0]);
             Spectrogram s = spectrogram(rows, window, highest.value_or(0.1875 * rate));

@@ -106,7 +106,7 @@ std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang
                         number(shown.from, 4), number(shown.to, 4));
 }
 
-FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
+FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
@@ -121,7 +121,7 @@ FigureMaker prepare_strobe(const Scene& scene, const FigureOutput& how, Studies&
                 .aspect = aspect,
                 .caption = strobe_caption(poses.size(), shown, subject.lang)};
     };
-    return figure_of_motion(scene, how, shown.study, draw);
+    return figure_of_motion(shown.study, draw);
 }
 
 }  // namespace

@@ -210,8 +210,8 @@ extern const FigureType kPoincare{
 extern const FigureType kImpactMap{
     .name = "impact-map", .title = {"Map of impacts", "碰撞映射"}, .refusal = needs_impacts, .draw = draw_impact_map};
 
-FigureMaker swept_figure(const FigureType& type, const FigureOutput& how) {
-    return [&type, how](const Results& results) {
+FigureDrawing swept_figure(const FigureType& type, const FigureOutput& how) {
+    return [&type, how](const Subject&, const Results& results) {
         if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
         const SweptPoints points(*results.swept, how.lang);
         figure::Figure out = type.draw(points, how);

@@ -16,7 +16,7 @@
 namespace beamcam::scenes {
 
 // Draws the scene's sweep as this type, which must live as long, and adds title, caption and accuracy.
-FigureMaker swept_figure(const FigureType& type, const FigureOutput& how);
+FigureDrawing swept_figure(const FigureType& type, const FigureOutput& how);
 
 std::vector<std::string> diagram_names();
 // The default diagram of the scene's sweep.

@@ -345,7 +345,7 @@ TEST(Figures, OfARestingBeamAreMadeOrRejected) {
 TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
     // A type that removes the cam without asking.
     const FigureType careless{
-        "careless", {"", ""}, no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureMaker {
+        "careless", {"", ""}, no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureDrawing {
             studies.of(without_cam(s.problem), s.end_time);
             return {};
         }};
