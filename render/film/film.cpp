@@ -236,7 +236,7 @@ void Film::draw(int frame, Image& out) { out = draw(frame); }
 FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
     FrameRenderer& t = renderer_for(frame);
-    FrameGeometry out{p.context.places, {}, p.context.factor, {}, p.background_texts, {}, {}};
+    FrameGeometry out{p.context.places, {}, {}, p.background_texts, {}, {}};
     t.accumulate_to(p, frame);
     Image scratch = t.kept;
     Canvas canvas(scratch, t.fonts);

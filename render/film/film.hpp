@@ -167,7 +167,6 @@ std::vector<sim::Channel> chart_channels(const std::vector<PanelSpec>& panels);
 struct FrameGeometry {
     Layout layout;
     Camera camera;
-    double factor = 1;  // exaggeration of deflection
     DrawnBeam beam;
     std::vector<Box> texts;  // ink of every text [px]
     // In the first mechanism: legend and scale bar; labels of angle, speed and force [px].

@@ -25,10 +25,4 @@ System::EnergyBalance System::balance_without_beam(const double* y, const Contac
     return b;
 }
 
-System::EnergyBalance System::current_energy_balance(const double* y, const ContactState& c) {
-    EnergyBalance b = balance_without_beam(y, c);
-    b.energies = model_->energies();
-    return b;
-}
-
 }  // namespace beamcam::sim

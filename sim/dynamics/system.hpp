@@ -93,8 +93,6 @@ class System final : public Ode {
     // All but the energies of the beam. Of the contact, if it stores energy, only the gap counts and, with a bristle,
     // the force.
     EnergyBalance balance_without_beam(const double* y, const ContactState& c) const;
-    // After `set_state`.
-    EnergyBalance current_energy_balance(const double* y, const ContactState& c);
     // ξ̈ at (t, y) in the present phase; array of `coordinates`.
     void acceleration(double t, const double* y, double* acc);
     // The same after `set_state`, in flight or with the contact forces of `c`.
