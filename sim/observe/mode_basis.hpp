@@ -19,6 +19,11 @@ struct ModeBasis {
     template <class T>
     struct Contribution {
         T h{}, turn{}, tip{}, U{}, W{}, stiffness{}, inertia{}, weight{}, shape{}, slope{}, wave{}, omega{}, damping{};
+        // Of q̈, what stiffness and damping cause; the forcing adds the rest.
+        template <class X>
+        X restored(const X& q, const X& rate) const {
+            return -damping * rate - omega * omega * q;
+        }
     };
     using Mode = Contribution<double>;
     std::vector<Mode> modes;
