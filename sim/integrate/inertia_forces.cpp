@@ -91,9 +91,8 @@ class ModalInertia final : public InertiaForces {
                            gravity_ * (S_ * s.cos - dot(n_, weight_.data(), z) * s.sin - 0.5 * s.cos * fall);
         out[0] = J_ * s.turn_acceleration + bent;
         for (std::size_t i = 0; i < n_; ++i) {
-            const auto j = static_cast<Eigen::Index>(i);
-            out[1 + i] = mass_ * s.acceleration[i] + turn_[j] * bent - theta_dot2 * centrifugal[i] - second * gq_[i] +
-                         weight_[j] * pull;
+            out[1 + i] = mass_ * s.acceleration[i] + turn_[i] * bent - theta_dot2 * centrifugal[i] - second * gq_[i] +
+                         weight_[i] * pull;
         }
     }
 
@@ -110,43 +109,46 @@ class ModalInertia final : public InertiaForces {
 };
 
 // Shared by both projected models: Gauss nodes, weights ρAw, the matrix P of ∫₀ˣ to the nodes, and PᵀW times ones.
-struct BeamQuadrature {
-    BeamQuadrature(const Problem& problem, int nodes)
-        : rule(gauss_legendre(nodes, problem.beam.length)),
-          primitive(SpectralIntegral(rule, problem.beam.length).matrix(rule)),
-          weights(problem.beam.line_density() * rule.w),
-          beyond(primitive.transpose() * weights),
-          double_integral(Eigen::MatrixXd(primitive.transpose() * weights.asDiagonal() * primitive)),
-          count(static_cast<std::size_t>(nodes)) {}
-    Quadrature rule;
-    Eigen::MatrixXd primitive;
-    Eigen::VectorXd weights, beyond;  // ρAw, and the mass beyond a node
-    LaneMatrix double_integral;       // C = PᵀWP
-    std::size_t count;
+class ProjectedInertia : public InertiaForces {
+  protected:
+    ProjectedInertia(const Problem& problem, int nodes)
+        : n_(static_cast<std::size_t>(problem.beam.modes)),
+          count_(static_cast<std::size_t>(nodes)),
+          radius_(problem.hub.radius),
+          hub_inertia_(problem.hub.inertia),
+          gravity_(problem.gravity),
+          rule_(gauss_legendre(nodes, problem.beam.length)),
+          primitive_(SpectralIntegral(rule_, problem.beam.length).matrix(rule_)),
+          weights_(problem.beam.line_density() * rule_.w),
+          mass_beyond_(primitive_.transpose() * weights_),
+          mass_(weights_.sum()),
+          double_integral_(Eigen::MatrixXd(primitive_.transpose() * weights_.asDiagonal() * primitive_)) {}
+    std::size_t n_, count_;  // shapes, nodes
+    double radius_, hub_inertia_, gravity_;
+    Quadrature rule_;
+    Eigen::MatrixXd primitive_;
+    Eigen::VectorXd weights_, mass_beyond_;  // ρAw, and the mass beyond a node
+    double mass_;
+    LaneMatrix double_integral_;  // C = PᵀWP
 };
 
 // (S17) with the integrals worked out: with s = v′, u = −½∫s² − ½aα², and B = r̈ + g in the frame, the force on q_i
 // is ∫φ_i B_y − ∫φ_i′ s F − aαh_i F(0), F(x) the integral of B_x from x to the tip.
-class SecondOrderInertia final : public InertiaForces {
+class SecondOrderInertia final : public ProjectedInertia {
   public:
-    explicit SecondOrderInertia(const Problem& problem)
-        : at_(problem, second_order_nodes(problem)), n_(static_cast<std::size_t>(problem.beam.modes)) {
+    explicit SecondOrderInertia(const Problem& problem) : ProjectedInertia(problem, second_order_nodes(problem)) {
         const Shapes shapes = Shapes::of(problem);
-        const Eigen::Index nodes = at_.rule.x.size(), n = problem.beam.modes;
+        const Eigen::Index nodes = rule_.x.size(), n = problem.beam.modes;
         Eigen::MatrixXd phi(nodes, n), slope(nodes, n);
         Eigen::VectorXd y(n), y1(n);
         for (Eigen::Index k = 0; k < nodes; ++k) {
-            shapes.evaluate(at_.rule.x[k], y.data(), y1.data(), nullptr);
+            shapes.evaluate(rule_.x[k], y.data(), y1.data(), nullptr);
             phi.row(k) = y.transpose();
             slope.row(k) = y1.transpose();
         }
-        radius_ = problem.hub.radius;
-        gravity_ = problem.gravity;
-        hub_inertia_ = problem.hub.inertia;
-        const Eigen::VectorXd arm = at_.rule.x.array() + radius_, weighted_arm = at_.weights.cwiseProduct(arm);
-        const Eigen::MatrixXd weighted = at_.weights.asDiagonal() * phi, beyond = at_.primitive.transpose() * weighted;
-        arm_beyond_ = at_.primitive.transpose() * weighted_arm;
-        mass_ = at_.weights.sum();
+        const Eigen::VectorXd arm = rule_.x.array() + radius_, weighted_arm = weights_.cwiseProduct(arm);
+        const Eigen::MatrixXd weighted = weights_.asDiagonal() * phi, beyond = primitive_.transpose() * weighted;
+        arm_beyond_ = primitive_.transpose() * weighted_arm;
         lever_ = weighted_arm.sum();
         inertia_ = weighted_arm.dot(arm);
         weight_ = weighted.colwise().sum();
@@ -158,7 +160,7 @@ class SecondOrderInertia final : public InertiaForces {
         beyond_ = LaneMatrix(beyond);
         beyond_transposed_ = LaneMatrix(beyond.transpose());
         products_ = LaneMatrix(phi.transpose() * weighted);
-        for (auto* v : {&s_, &rate_, &square_, &mixed_, &bent_, &force_, &stretch_}) v->resize(at_.count);
+        for (auto* v : {&s_, &rate_, &square_, &mixed_, &bent_, &force_, &stretch_}) v->resize(count_);
         for (auto* v : {&by_square_, &by_mixed_, &by_bent_, &combined_, &mq_, &lateral_}) v->resize(n_);
     }
 
@@ -178,13 +180,12 @@ class SecondOrderInertia final : public InertiaForces {
         for (std::size_t i = 0; i < n_; ++i) combined_[i] = -2.0 * theta_dot * dq[i] - theta_ddot * q[i];
         beyond_.times(combined_.data(), force_.data());
         const Sums sums = integrate_shortening();
-        for (std::size_t k = 0; k < at_.count; ++k) force_[k] += theta_dot2 * stretch_[k];
-        const Lanes whole = theta_dot2 * sums.mass_square - dot(at_.count, at_.beyond.data(), bent_.data()) +
+        for (std::size_t k = 0; k < count_; ++k) force_[k] += theta_dot2 * stretch_[k];
+        const Lanes whole = theta_dot2 * sums.mass_square - dot(count_, mass_beyond_.data(), bent_.data()) +
                             dot(n_, weight_.data(), combined_.data()) + mass_ * along - lever_ * theta_dot2;
-        at_.double_integral.times(bent_.data(), stretch_.data());
-        for (std::size_t k = 0; k < at_.count; ++k) {
-            force_[k] += at_.beyond[static_cast<Eigen::Index>(k)] * along -
-                         arm_beyond_[static_cast<Eigen::Index>(k)] * theta_dot2 - stretch_[k];
+        double_integral_.times(bent_.data(), stretch_.data());
+        for (std::size_t k = 0; k < count_; ++k) {
+            force_[k] += mass_beyond_[k] * along - arm_beyond_[k] * theta_dot2 - stretch_[k];
             force_[k] *= s_[k];
         }
         slopes_transposed_.times(force_.data(), lateral_.data());
@@ -193,9 +194,8 @@ class SecondOrderInertia final : public InertiaForces {
         products_.times(combined_.data(), mq_.data());
         const Lanes hub = hub_inertia_ * (theta_ddot + ddalpha);
         for (std::size_t i = 0; i < n_; ++i) {
-            const auto j = static_cast<Eigen::Index>(i);
-            out[1 + i] = mq_[i] + coupling_[j] * theta_ddot + weight_[j] * across - 2.0 * theta_dot * by_mixed_[i] -
-                         theta_ddot * by_square_[i] - lateral_[i] + hub_row_[j] * (hub - radius_ * alpha * whole);
+            out[1 + i] = mq_[i] + coupling_[i] * theta_ddot + weight_[i] * across - 2.0 * theta_dot * by_mixed_[i] -
+                         theta_ddot * by_square_[i] - lateral_[i] + hub_row_[i] * (hub - radius_ * alpha * whole);
         }
         // ∫(a + x + u)B_y − ∫vB_x
         const Lanes lateral_all = dot(n_, weight_.data(), combined_.data()) - 2.0 * theta_dot * sums.mass_mixed -
@@ -207,9 +207,8 @@ class SecondOrderInertia final : public InertiaForces {
                   theta_ddot * sums.stretched + theta_ddot * sums.arm_square + across * sums.mass_square;
         products_.times(q, mq_.data());
         for (std::size_t i = 0; i < n_; ++i) {
-            const auto j = static_cast<Eigen::Index>(i);
             moment -=
-                q[i] * (theta_dot2 * by_square_[i] - by_bent_[i] + weight_[j] * along - coupling_[j] * theta_dot2) -
+                q[i] * (theta_dot2 * by_square_[i] - by_bent_[i] + weight_[i] * along - coupling_[i] * theta_dot2) -
                 mq_[i] * (2.0 * theta_dot * dq[i] + theta_ddot * q[i]);
         }
         out[0] = moment + hub;
@@ -221,7 +220,7 @@ class SecondOrderInertia final : public InertiaForces {
         slopes_.times(q, s_.data());
         slopes_.times(dq, rate_.data());
         slopes_.times(ddq, bent_.data());
-        for (std::size_t k = 0; k < at_.count; ++k) {
+        for (std::size_t k = 0; k < count_; ++k) {
             square_[k] = s_[k] * s_[k];
             mixed_[k] = s_[k] * rate_[k];
             bent_[k] = rate_[k] * rate_[k] + s_[k] * bent_[k];
@@ -234,21 +233,19 @@ class SecondOrderInertia final : public InertiaForces {
     };
     // Halves the squares; stretch_ ← ½C s².
     Sums integrate_shortening() {
-        for (std::size_t k = 0; k < at_.count; ++k) square_[k] *= 0.5;
-        at_.double_integral.times(square_.data(), stretch_.data());
+        for (std::size_t k = 0; k < count_; ++k) square_[k] *= 0.5;
+        double_integral_.times(square_.data(), stretch_.data());
         beyond_transposed_.times(square_.data(), by_square_.data());
         beyond_transposed_.times(mixed_.data(), by_mixed_.data());
         beyond_transposed_.times(bent_.data(), by_bent_.data());
         const auto over = [&](const auto& weights, const std::vector<Lanes>& values) {
-            return dot(at_.count, weights.data(), values.data());
+            return dot(count_, weights.data(), values.data());
         };
-        return {over(at_.beyond, square_), over(at_.beyond, mixed_), over(arm_beyond_, square_),
-                over(arm_beyond_, mixed_), over(stretch_, square_),  over(stretch_, mixed_)};
+        return {over(mass_beyond_, square_), over(mass_beyond_, mixed_), over(arm_beyond_, square_),
+                over(arm_beyond_, mixed_),   over(stretch_, square_),    over(stretch_, mixed_)};
     }
 
-    BeamQuadrature at_;
-    std::size_t n_;
-    double radius_, gravity_, hub_inertia_, mass_, lever_, inertia_;
+    double lever_, inertia_;
     Eigen::VectorXd arm_beyond_, weight_, coupling_, hub_row_;
     LaneMatrix slopes_, slopes_transposed_, beyond_, beyond_transposed_, products_;
     std::vector<Lanes> s_, rate_, square_, mixed_, bent_, force_, stretch_;
@@ -257,44 +254,39 @@ class SecondOrderInertia final : public InertiaForces {
 
 // (S18), (S19) in the frame of the hub: the section's angle against it is δ = Σ q_j η_j, and the force on q_j is
 // ∫η_j (cos δ F_y − sin δ F_x), F the integral of ρA(r̈ + g) from x to the tip.
-class ExactInertia final : public InertiaForces {
+class ExactInertia final : public ProjectedInertia {
   public:
-    explicit ExactInertia(const Problem& problem)
-        : at_(problem, exact_nodes(problem)), n_(static_cast<std::size_t>(problem.beam.modes)) {
-        const Eigen::Index nodes = at_.rule.x.size(), n = problem.beam.modes;
+    explicit ExactInertia(const Problem& problem) : ProjectedInertia(problem, exact_nodes(problem)) {
+        const Eigen::Index nodes = rule_.x.size(), n = problem.beam.modes;
         Eigen::MatrixXd eta(nodes, n);
         Eigen::VectorXd row(n);
         for (Eigen::Index k = 0; k < nodes; ++k) {
-            section_angle_shapes(at_.rule.x[k], problem.beam.length, problem.beam.modes, 0, row.data());
+            section_angle_shapes(rule_.x[k], problem.beam.length, problem.beam.modes, 0, row.data());
             eta.row(k) = row.transpose();
         }
         shapes_ = LaneMatrix(eta);
         shapes_transposed_ = LaneMatrix(eta.transpose());
-        radius_ = problem.hub.radius;
-        gravity_ = problem.gravity;
-        hub_inertia_ = problem.hub.inertia;
-        mass_ = at_.weights.sum();
-        for (auto* v : {&sin_, &cos_, &rate_, &bend_, &x_, &y_}) v->resize(at_.count);
+        for (auto* v : {&sin_, &cos_, &rate_, &bend_, &x_, &y_}) v->resize(count_);
     }
 
     void evaluate(const NodalMotion& m, Lanes* out) override {
         const Lanes &theta_dot = m.turn_rate, &theta_ddot = m.turn_acceleration;
         shapes_.times(m.position, bend_.data());
-        for (std::size_t k = 0; k < at_.count; ++k) sine_and_cosine(bend_[k], sin_[k], cos_[k]);
+        for (std::size_t k = 0; k < count_; ++k) sine_and_cosine(bend_[k], sin_[k], cos_[k]);
         shapes_.times(m.rate, rate_.data());
         shapes_.times(m.acceleration, bend_.data());
-        for (std::size_t k = 0; k < at_.count; ++k) {
+        for (std::size_t k = 0; k < count_; ++k) {
             const Lanes rate = rate_[k] + theta_dot, square = rate * rate, bend = bend_[k] + theta_ddot;
             rate_[k] = -bend * sin_[k] - square * cos_[k];
             bend_[k] = bend * cos_[k] - square * sin_[k];
         }
-        at_.double_integral.times(rate_.data(), x_.data());
-        at_.double_integral.times(bend_.data(), y_.data());
+        double_integral_.times(rate_.data(), x_.data());
+        double_integral_.times(bend_.data(), y_.data());
         const Lanes along = gravity_ * m.sin - radius_ * theta_dot * theta_dot,
                     across = gravity_ * m.cos + radius_ * theta_ddot;
         Lanes moment{}, whole = mass_ * across;
-        for (std::size_t k = 0; k < at_.count; ++k) {
-            const double beyond = at_.beyond[static_cast<Eigen::Index>(k)];
+        for (std::size_t k = 0; k < count_; ++k) {
+            const double beyond = mass_beyond_[k];
             whole += beyond * bend_[k];
             x_[k] = cos_[k] * (y_[k] + beyond * across) - sin_[k] * (x_[k] + beyond * along);
             moment += x_[k];
@@ -304,9 +296,6 @@ class ExactInertia final : public InertiaForces {
     }
 
   private:
-    BeamQuadrature at_;
-    std::size_t n_;
-    double radius_, gravity_, hub_inertia_, mass_;
     LaneMatrix shapes_, shapes_transposed_;
     std::vector<Lanes> sin_, cos_, rate_, bend_, x_, y_;
 };
