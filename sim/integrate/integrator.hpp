@@ -114,6 +114,8 @@ class StoredSegment : public Segment {
 std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const System& system);
 std::unique_ptr<StoredSegment> make_stored_rk8(int size);
 std::unique_ptr<StoredSegment> make_stored_taylor(int size);
+// Of CVODE. `numbers`: the instant of expansion, and the coefficients from the constant on, `size` numbers each.
+void evaluate_taylor(std::span<const double> numbers, std::size_t size, double t, double* y);
 std::unique_ptr<StoredSegment> make_stored_exponential(const System& system);
 
 // Why no step was accepted; `finite`: its error could be estimated.

@@ -17,18 +17,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <memory>
-#include <span>
 #include <string>
 #include <vector>
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/integrator.hpp"
-
-#if SUNDIALS_VERSION_MAJOR >= 7
-#define BEAMCAM_NO_COMM SUN_COMM_NULL
-#else
-#define BEAMCAM_NO_COMM nullptr
-#endif
 
 namespace beamcam::sim {
 namespace {
@@ -123,35 +116,17 @@ struct Callbacks {
     }
 };
 
-// A polynomial of time: its instant of expansion, and the coefficients from the constant on, n numbers each.
-void evaluate_polynomial(std::span<const double> numbers, std::size_t n, double t, double* y) {
-    const double s = t - numbers.front();
-    const std::span<const double> rows = numbers.subspan(1);
-    for (std::size_t i = 0; i < n; ++i) {
-        double v = rows[rows.size() - n + i];
-        for (std::size_t k = rows.size() / n - 1; k-- > 0;) v = v * s + rows[k * n + i];
-        y[i] = v;
-    }
-}
-
-// Adds the growth of a solver's count, which restarts at zero with the solver.
-void grow(long& total, long now, long& last) {
-    total += now >= last ? now - last : now;
-    last = now;
-}
-
 SUNContext make_context() {
     SUNContext context = nullptr;
-    if (SUNContext_Create(BEAMCAM_NO_COMM, &context) != 0) throw StepFailure("the integrator could not be set up");
 #if SUNDIALS_VERSION_MAJOR >= 7
-    SUNContext_ClearErrHandlers(context);  // failures are returned as flags and reported by the caller
+    const bool created = SUNContext_Create(SUN_COMM_NULL, &context) == 0;
+    if (created) SUNContext_ClearErrHandlers(context);  // failures are returned as flags and reported by the caller
+#else
+    const bool created = SUNContext_Create(nullptr, &context) == 0;
 #endif
+    if (!created) throw StepFailure("the integrator could not be set up");
     return context;
 }
-
-#if SUNDIALS_VERSION_MAJOR < 7
-void ignore(int, const char*, const char*, char*, void*) {}  // the same
-#endif
 
 // What both solvers share; the derived class creates the solver's memory and evaluates within a step.
 class SundialsIntegrator : public Integrator, protected Segment {
@@ -217,7 +192,6 @@ class SundialsIntegrator : public Integrator, protected Segment {
     void check(int flag, const char* call) const {
         if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, text_of(flag)));
     }
-    // The k-th derivative.
     const double* derivative(double t, int k) const {
         check(solver_.derivative(memory_, t, k, work_), "dense output");
         return N_VGetArrayPointer(work_);
@@ -246,10 +220,11 @@ class SundialsIntegrator : public Integrator, protected Segment {
         IntegratorCounters now = evaluations();
         solver_.count_steps(memory_, &now.steps);
         solver_.count_rejected(memory_, &now.rejected);
-        grow(counters.steps, now.steps, last_.steps);
-        grow(counters.rhs, now.rhs, last_.rhs);
-        grow(counters.rejected, now.rejected, last_.rejected);
-        grow(counters.jacobians, now.jacobians, last_.jacobians);
+        // A solver's counts restart at zero with the solver.
+        for (const auto each : {&IntegratorCounters::steps, &IntegratorCounters::rhs, &IntegratorCounters::rejected,
+                                &IntegratorCounters::jacobians})
+            counters.*each += now.*each >= last_.*each ? now.*each - last_.*each : now.*each;
+        last_ = now;
     }
 
     IntegratorCounters last_;
@@ -266,7 +241,7 @@ class Cvode final : public SundialsIntegrator {
         if (nonlinear_) SUNNonlinSolFree(nonlinear_);
     }
 
-    void value(double t, double* y) const override { evaluate_polynomial(polynomial_, n_, t, y); }
+    void value(double t, double* y) const override { evaluate_taylor(polynomial_, n_, t, y); }
 
     SegmentKind numbers(std::vector<double>& out) const override {
         out.insert(out.end(), polynomial_.begin(), polynomial_.end());
@@ -279,7 +254,7 @@ class Cvode final : public SundialsIntegrator {
         if (!memory) return nullptr;
         check(CVodeInit(memory, &Callbacks::rhs, t, y_), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
-        check(CVodeSetErrHandlerFn(memory, ignore, nullptr), "the start");
+        check(CVodeSetErrFile(memory, nullptr), "the start");  // the same
 #endif
         if (bdf_) {
             matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
@@ -323,23 +298,6 @@ class Cvode final : public SundialsIntegrator {
     std::vector<double> polynomial_;
 };
 
-class StoredTaylor final : public StoredSegment {
-  public:
-    explicit StoredTaylor(int size) : n_(static_cast<std::size_t>(size)) {}
-    void load(double begin, double end, std::span<const double> numbers) override {
-        if (numbers.size() < 1 + n_ || (numbers.size() - 1) % n_ != 0)
-            throw std::invalid_argument("a segment of the trajectory has the wrong length");
-        t0 = begin;
-        t1 = end;
-        polynomial_ = numbers;
-    }
-    void value(double t, double* y) const override { evaluate_polynomial(polynomial_, n_, t, y); }
-
-  private:
-    std::size_t n_;
-    std::span<const double> polynomial_;
-};
-
 class Arkode final : public SundialsIntegrator {
   public:
     Arkode(Ode& ode, double rtol, double atol) : SundialsIntegrator(kArkode, ode, rtol, atol) {}
@@ -353,7 +311,7 @@ class Arkode final : public SundialsIntegrator {
         check(ARKStepSetTableNum(memory, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
         check(ARKStepSetInterpolantDegree(memory, 5), "dense output");
 #if SUNDIALS_VERSION_MAJOR < 7
-        check(ARKStepSetErrHandlerFn(memory, ignore, nullptr), "the start");
+        check(ARKStepSetErrFile(memory, nullptr), "the start");  // the same
 #endif
         return memory;
     }
@@ -367,8 +325,6 @@ class Arkode final : public SundialsIntegrator {
 };
 
 }  // namespace
-
-std::unique_ptr<StoredSegment> make_stored_taylor(int size) { return std::make_unique<StoredTaylor>(size); }
 
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol) {
     if (method == Method::arkode_erk) return std::make_unique<Arkode>(ode, rtol, atol);
