@@ -58,31 +58,11 @@ int levels_down(double error, int order, int most) {
                                 : most;
 }
 
-// The step tables of the ladder of step lengths, each built when it is first used, and one of any other length.
-class StepTables {
-  public:
-    explicit StepTables(const ModalForm& form) : form_(form), ladder_(kHighestLevel - kLowestLevel + 1) {}
-    const StepTable& level(int k) {
-        StepTable& entry = ladder_[static_cast<std::size_t>(k - kLowestLevel)];
-        if (entry.h == 0) entry.build(form_.oscillators, form_.groups, step_length(k));
-        return entry;
-    }
-    const StepTable& length(double h) {
-        other_.build(form_.oscillators, form_.groups, h);
-        return other_;
-    }
-    bool on_ladder(const StepTable& table) const { return &table != &other_; }
-
-  private:
-    const ModalForm& form_;
-    std::vector<StepTable> ladder_;
-    StepTable other_;
-};
-
 // The parts of the method.
 struct ModalMethod {
     ModalMethod(System& system, double rtol, double atol, long& evaluations)
-        : step(system, ModalForm::of(system), rtol, atol, evaluations), tables(*step.form) {
+        : step(system, ModalForm::of(system), rtol, atol, evaluations),
+          tables(step.form->oscillators, step.form->groups) {
         if (!system.has_cam()) return;
         contact.emplace(step);
         contact_end.emplace(step, *contact);
@@ -107,8 +87,8 @@ class Exponential final : public Integrator {
         const Phase& phase = system_.phase();
         if (method_.contact_end && !(touching_ && t == t_)) method_.contact_end->reset_side();
         touching_ = phase.touching;
-        // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback. At tolerances
-        // near rounding, as in the search of orbits, this method would take shorter ones.
+        // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback. At
+        // tolerances near rounding, as in the search of orbits, this method would take shorter ones.
         falling_back_ = phase.held && method_.step.n == 0;
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;

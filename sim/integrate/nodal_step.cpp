@@ -7,8 +7,6 @@
 #include "sim/integrate/constants.hpp"
 
 namespace beamcam::sim {
-double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
-
 NodalStep::NodalStep(System& of, std::shared_ptr<const ModalForm> modal_form, double relative, double absolute,
                      long& count)
     : system(of),

@@ -24,8 +24,6 @@ struct ContactLoad {
     Lanes torque() const { return force * contact.hub + friction * contact.hub_t; }
 };
 
-double step_length(int level);  // [s] on the ladder of step lengths
-
 inline constexpr double kNoSolution = std::numeric_limits<double>::infinity();  // an error beyond any tolerance
 
 struct NodalStep {

@@ -263,4 +263,20 @@ void StepTable::project_row(const Oscillator& o, const Powers& inverse, Row& row
     }
 }
 
+double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
+
+StepTables::StepTables(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups)
+    : oscillators_(oscillators), groups_(groups), ladder_(kHighestLevel - kLowestLevel + 1) {}
+
+StepTable& StepTables::level(int k) {
+    StepTable& entry = ladder_[static_cast<std::size_t>(k - kLowestLevel)];
+    if (entry.h == 0) entry.build(oscillators_, groups_, step_length(k));
+    return entry;
+}
+
+StepTable& StepTables::length(double h) {
+    other_.build(oscillators_, groups_, h);
+    return other_;
+}
+
 }  // namespace beamcam::sim

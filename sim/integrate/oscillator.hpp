@@ -70,4 +70,22 @@ struct StepTable {
     std::vector<Lanes> responses_;  // kept for its memory
 };
 
+double step_length(int level);  // [s] on the ladder of step lengths, two levels an octave
+
+// The step tables of the ladder, each built when it is first used, and one of any other length.
+class StepTables {
+  public:
+    // Both must outlive this: the oscillators, and the same packed in lanes.
+    StepTables(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups);
+    StepTable& level(int k);
+    StepTable& length(double h);
+    bool on_ladder(const StepTable& table) const { return &table != &other_; }
+
+  private:
+    const std::vector<Oscillator>& oscillators_;
+    const std::vector<OscillatorLanes>& groups_;
+    std::vector<StepTable> ladder_;
+    StepTable other_;
+};
+
 }  // namespace beamcam::sim

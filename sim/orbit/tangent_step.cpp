@@ -36,7 +36,6 @@ TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& 
       rtol_(std::max(rtol, kTangentRounding)),
       n_(probe.coordinates()),
       forced_(n_ + (probe.has_bristle() ? 1 : 0)),
-      ladder_(kHighestLevel - kLowestLevel + 1),
       flight_level_(kFirstFlightLevel),
       touch_level_(kFirstTouchLevel),
       y_(probe.size) {
@@ -58,11 +57,8 @@ void TangentStep::begin(const Phase& phase) {
 const StepTable& TangentStep::table(int level, double rest) {
     const double h = step_length(level);
     const bool odd = rest <= kRestLevel * h && std::fabs(rest - h) > kSameLength * h;
-    StepTable& entry = odd ? other_ : ladder_[static_cast<std::size_t>(level - kLowestLevel)];
-    if (odd || entry.h == 0) {
-        entry.build(oscillators_, groups_, odd ? rest : h);
-        entry.rows.insert(entry.rows.begin(), hub_row(entry.h));
-    }
+    StepTable& entry = odd ? tables_.length(rest) : tables_.level(level);
+    if (entry.rows.size() == oscillators_.size()) entry.rows.insert(entry.rows.begin(), hub_row(entry.h));
     return entry;
 }
 
@@ -200,7 +196,7 @@ void TangentStep::advance(const Segment& motion, double t0, double t1, Eigen::Ma
             level = std::max(kLowestLevel, level - std::clamp(down, 1, 4));
             continue;
         }
-        if (&step != &other_ && e < kLongerFlight)
+        if (tables_.on_ladder(step) && e < kLongerFlight)
             level = std::min(level + (e < kMuchLongerFlight ? 2 : 1), kHighestLevel);
         t = last ? t1 : t + step.h;
         at = after;

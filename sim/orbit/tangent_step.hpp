@@ -41,8 +41,7 @@ class TangentStep {
     int n_, forced_;                       // coordinates; components with a forcing, the bristle among them
     std::vector<Oscillator> oscillators_;  // of the modes
     std::vector<OscillatorLanes> groups_;
-    std::vector<StepTable> ladder_;
-    StepTable other_;
+    StepTables tables_{oscillators_, groups_};
     int flight_level_, touch_level_;
 
     std::vector<Jet> acceleration_;
