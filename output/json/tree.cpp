@@ -37,7 +37,7 @@ Node of_kind(Node::Kind kind) {
     return node;
 }
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
 
 // JSON of a value that is neither an array nor an object.
 std::string scalar_text(const Node& node) {
