@@ -37,6 +37,5 @@ Eigen::VectorXcd eigenvector_nearest(const Eigen::MatrixXd& matrix, std::complex
 }
 
 Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) { return a.fullPivLu().solve(b); }
-double determinant(const Eigen::MatrixXd& matrix) { return matrix.determinant(); }
 
 }  // namespace beamcam::sim

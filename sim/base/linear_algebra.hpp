@@ -24,6 +24,5 @@ Eigen::VectorXcd eigenvector_nearest(const Eigen::MatrixXd& matrix, std::complex
 
 // x of A x = b by LU decomposition with complete pivoting; for a singular A some x, or not finite.
 Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
-double determinant(const Eigen::MatrixXd& matrix);
 
 }  // namespace beamcam::sim

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -20,8 +21,8 @@ Eigen::MatrixXd plus_identity(const ArcPoint& p, double sign) {
 }
 // Test functions; a zero is a bifurcation.                                                                       (S77)
 double fold_test(const ArcPoint& p) { return p.tangent[p.tangent.size() - 1]; }
-double doubling_test(const ArcPoint& p) { return determinant(plus_identity(p, 1)); }
-double branching_test(const ArcPoint& p) { return determinant(plus_identity(p, -1)) * (fold_test(p) > 0 ? 1 : -1); }
+double doubling_test(const ArcPoint& p) { return plus_identity(p, 1).determinant(); }
+double branching_test(const ArcPoint& p) { return plus_identity(p, -1).determinant() * (fold_test(p) > 0 ? 1 : -1); }
 
 // The product of μ_iμ_j − 1 over all pairs, which is real and smooth, and the smallest of these factors.
 struct CircleTest {

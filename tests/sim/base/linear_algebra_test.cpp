@@ -34,7 +34,6 @@ TEST(LinearAlgebra, EigenvaluesOfACompanionMatrix) {
     const Eigen::VectorXcd v = eigenvector_nearest(companion, -2.5);
     EXPECT_LT((companion * v + 3.0 * v).norm(), 1e-14);
     EXPECT_NEAR(v.norm(), 1, 1e-15);
-    EXPECT_NEAR(determinant(companion), -6, 1e-14);
 }
 
 // What is no number has no eigenvalues, and says so.
