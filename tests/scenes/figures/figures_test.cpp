@@ -66,7 +66,9 @@ TEST(Figures, HaveTheUnitsOfTheScene) {
             EXPECT_THAT(figure.panels[k].y.label, ::testing::EndsWith(" / °")) << name;
             const auto &degrees = figure.panels[k].series.front().y, &radians = same.panels[k].series.front().y;
             for (std::size_t i = 0; i < radians.size(); i += 50)
-                if (!std::isnan(radians[i])) EXPECT_NEAR(degrees[i], radians[i] * 180 / M_PI, 1e-12) << name;
+                if (!std::isnan(radians[i])) {
+                    EXPECT_NEAR(degrees[i], radians[i] * 180 / M_PI, 1e-12) << name;
+                }
         }
     }
     EXPECT_NEAR(figure_of(shown, "free-fall").panels[0].insets[0].source->y_to,
