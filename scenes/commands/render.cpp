@@ -164,8 +164,8 @@ Selection part_of_film(const RenderArguments& args, const Scene& scene) {
     if (args.shard) return shard_argument(*args.shard);
     const Plan planned = plan(scene);
     const Pictures& whole = planned.pictures.at(0);
-    if (!whole.times_known)
-        throw UsageError("--frames: the number of frames of a film in slow motion depends on the impacts; use --shard");
+    if (whole.draw.empty())
+        throw UsageError("--frames: the number of frames of this film depends on the impacts; use --shard");
     selection.frames =
         frames_argument(*args.frames, whole.first_frame, whole.first_frame + static_cast<long>(whole.draw.size()));
     return selection;

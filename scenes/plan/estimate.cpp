@@ -37,7 +37,7 @@ void estimate(Plan& plan, const History& history, int threads) {
         plan.simulation->cost = cost(history, *plan.simulation);
     for (Simulation& s : plan.others) s.cost = cost(history, s);
     for (Pictures& p : plan.pictures)
-        if (p.times_known) p.cost = history.find(picture_work(p, threads), static_cast<double>(p.draw.size()));
+        if (!p.draw.empty()) p.cost = history.find(picture_work(p, threads), static_cast<double>(p.draw.size()));
     for (FigureFile& f : plan.figures) f.cost = history.find(figure_work(f));
     for (DataFile& d : plan.data)
         if (d.numbers > 0) d.cost = history.find(data_work(d), static_cast<double>(d.numbers));

@@ -138,10 +138,9 @@ FilmTimes times_of(const Pictures& p, const sim::Result& motion) {
     return with_moves(p, times(), motion);
 }
 
-void choose_frames(Pictures& p, const FilmTimes& times) {
-    p.first_frame = times.first;
-    const auto count = static_cast<long>(times.frames.size());
-    const long begin = p.first_frame, end = begin + count;
+void choose_frames(Pictures& p, long first, long count) {
+    p.first_frame = first;
+    const long begin = first, end = begin + count;
     long from = begin, to = end;
     if (p.kind != Pictures::Kind::still && p.selection.frames) {
         from = std::max(begin, p.selection.frames->first);
@@ -160,7 +159,7 @@ void choose_frames(Pictures& p, const FilmTimes& times) {
 }
 
 void put_times(Pictures& p, FilmTimes times) {
-    choose_frames(p, times);
+    choose_frames(p, times.first, std::ssize(times.frames));
     p.speeds = std::move(times.speeds);
     p.callouts = std::move(times.callouts);
     p.moves = std::move(times.moves);

@@ -9,8 +9,8 @@ namespace beamcam::scenes {
 
 // `motion` contains the events; it is empty for pictures whose times are known.
 FilmTimes times_of(const Pictures& p, const sim::Result& motion);
-// Chooses the frames to draw: the selected ones that are not up to date.
-void choose_frames(Pictures& p, const FilmTimes& times);
+// Chooses the frames to draw among `count` with the numbers from `first`: the selected ones that are not up to date.
+void choose_frames(Pictures& p, long first, long count);
 // Adds the times to the requests for the motions.
 void put_times(Pictures& p, FilmTimes times);
 // Poses per second of a page between two times [s]: `fps`, or more for a short motion.

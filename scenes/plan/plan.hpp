@@ -72,7 +72,7 @@ struct Pictures : PictureOutput {
     long first_frame = 0;        // number of the first frame
     Selection selection;         // the requested frames
     std::set<long> existing;     // numbers of the up-to-date frames
-    std::vector<int> draw;       // frames to draw, ascending; camera and scales depend on all frames
+    std::vector<int> draw;       // frames to draw, ascending, empty while unknown; camera and scales depend on all
     std::string part;            // of a film: "30:60 of 0:90"; empty: all of it
     std::optional<int> poster;   // of a video: the frame that is also written to poster_file, as in `draw`
     std::string poster_file;     // empty: none

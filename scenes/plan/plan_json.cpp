@@ -33,8 +33,8 @@ Node stage_of(const Simulation& simulation) {
 
 Node stage_of(const Pictures& p, const std::vector<double>& times) {
     Node stage = file_stage(kind_name(p.kind), p.file, p.output);
+    if (!p.draw.empty()) add(stage, "frames", p.draw.size());
     if (p.times_known) {
-        add(stage, "frames", p.draw.size());
         add(stage, "from", times[static_cast<std::size_t>(p.draw.front())]);
         add(stage, "last", times[static_cast<std::size_t>(p.draw.back())]);
     }

@@ -7,7 +7,6 @@
 
 #include "scenes/format/keys.hpp"
 #include "scenes/plan/plan.hpp"
-#include "scenes/scene/film_times.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
@@ -82,20 +81,13 @@ std::string span_text(const Pictures& p, const std::vector<double>& times) {
     if (!p.times_known) {
         if (still && p.at.kind == Instant::Kind::time) return fmt::format("one picture at {:g} s", p.at.t);
         if (still) return "one picture at " + name_of(p.at);
-        if (p.span.real_time() && !p.span.from_event &&
-            !p.span.to_event) {  // only its charts or its poster depend on events
-            FrameSpan alone = p.span;
-            alone.poster.reset();
-            return fmt::format("{} from {:g} s to {:g} s at {:g} per second",
-                               counted(film_times(alone, p.end_time, {}).frames.size(), "frame"), p.span.from,
-                               p.end_time, p.span.fps.value());
-        }
         const auto bound = [](const std::optional<Instant>& event, double t) {
             return name_of(event.value_or(Instant{.t = t}));
         };
-        return fmt::format("frames from {} to {} at {:g} per second; their number depends on the events",
+        return fmt::format("{} from {} to {} at {:g} per second{}",
+                           p.draw.empty() ? "frames" : counted(p.draw.size(), "frame"),
                            bound(p.span.from_event, p.span.from), bound(p.span.to_event, p.end_time),
-                           p.span.fps.value());
+                           p.span.fps.value(), p.draw.empty() ? "; their number depends on the events" : "");
     }
     if (still) return fmt::format("one picture at {:g} s", times.front());
     return fmt::format("{} from {:g} s to {:g} s at {:g} per second", counted(p.draw.size(), "frame"),
@@ -140,7 +132,7 @@ std::string to_text(const Plan& plan) {
         line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const DataFile& d : plan.data)
         line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
-    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return !p.times_known; });
+    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return p.draw.empty(); });
     if (const auto cost = plan.cost())
         line("total", fmt::format("{}{}, estimated from earlier runs",
                                   some ? "without pictures that depend on events, " : "", file_cost(cost).substr(2)));

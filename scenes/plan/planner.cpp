@@ -65,6 +65,14 @@ bool is_shared(const Output& output) {
     return picture_of(output, video) || picture_of(output, frames) || std::holds_alternative<SweepOutput>(output);
 }
 
+// The number of the first frame, and how many there are; nullopt if that depends on events.
+std::optional<std::pair<long, long>> known_numbers(const Pictures& p, const FilmTimes& times) {
+    if (p.times_known) return std::pair(times.first, static_cast<long>(std::ssize(times.frames)));
+    if (p.kind != Pictures::Kind::video && p.kind != Pictures::Kind::frames) return std::nullopt;
+    const auto numbers = frame_numbers(p.span, p.end_time);
+    return numbers ? std::optional(std::pair(numbers->first, numbers->second - numbers->first)) : std::nullopt;
+}
+
 }  // namespace
 
 Planner::Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing)
@@ -138,10 +146,11 @@ void Planner::add(Pictures p, double end) {
     p.omitted_panels = omitted_panels(p);
     if (!p.omitted_panels.empty()) skip("panels " + p.omitted_panels + " of " + p.file, why_panels_are_omitted(p.size));
     FilmTimes times;
-    if (p.times_known) {
-        times = times_of(p, {});
-        choose_frames(p, times);
-        add_skipped_frames(p, times.frames.size());
+    if (p.times_known) times = times_of(p, {});
+    if (const auto numbers = known_numbers(p, times)) {
+        const auto [first, count] = *numbers;
+        choose_frames(p, first, count);
+        add_skipped_frames(p, static_cast<std::size_t>(count));
         if (p.draw.empty()) return;
     }
     if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .of_scene = true});

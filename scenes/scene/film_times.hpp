@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "render/film/film.hpp"
@@ -25,6 +26,10 @@ struct FilmTimes {
     // Equally spaced over the shown time, independent of the frames, for the choice of scales [s].
     std::vector<double> survey;
 };
+
+// The numbers of the frames, the end not included; nullopt if they depend on events. Throws render::PictureError if a
+// film with a duration has no frame or too many.
+std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time);
 
 // `motion` contains the events until the end of the span if the span needs them; else it may be empty. Throws
 // render::PictureError for an event that does not occur and for too many frames. `collisions`: charts get more rows

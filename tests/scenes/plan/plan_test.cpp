@@ -136,6 +136,20 @@ TEST(Plan, TheHorizonThatAPictureShowsDoesNotChangeTheSummary) {
     EXPECT_TRUE(p.simulation->horizon);
 }
 
+// Events decide when the frames are, not how many.
+TEST(Plan, AFilmWithADurationHasAKnownNumberOfFrames) {
+    const Scene scene =
+        scene_of(R"({"outputs": [{"type": "video", "file": "a.mp4", "fps": 20, "duration": 3, "from": "impact:1"}]})");
+    const Plan whole = plan(scene);
+    EXPECT_THAT(to_text(whole), HasSubstr("a.mp4: 60 frames from impact 1 to 1.5 s at 20 per second, 1920 × 1080"));
+    EXPECT_THAT(to_json(whole), HasSubstr("\"frames\": 60,"));
+    const Plan part = plan(scene, {.frames = std::pair(10L, 15L)});
+    EXPECT_THAT(to_text(part), HasSubstr("a.mp4: 5 frames from impact 1"));
+    EXPECT_THAT(to_text(part), HasSubstr("55 of 60 frames of a.mp4: outside the selected frames"));
+    const auto slow = R"([{"type": "video", "speed": "impacts"}])";
+    EXPECT_THAT(to_text(plan_of(slow)), HasSubstr("their number depends on the events"));
+}
+
 // ---- golden texts ------------------------------------------------------------------------------
 
 TEST(PlanText, AFilm) {
