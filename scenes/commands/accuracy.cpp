@@ -17,9 +17,8 @@ struct AccuracyArguments {
     Common common;
     std::string scene;
     ResultFiles files;
-    std::optional<std::string> until, target;
+    std::optional<std::string> until, target, longest;
     int repeats = 5;
-    double longest = 2;
 };
 
 std::string seconds_text(double seconds) {
@@ -78,7 +77,7 @@ sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scen
     request.end_time = args.until ? positive_argument("--until", *args.until, dimension::kTime) : scene.end_time;
     if (args.target) request.target = positive_argument("--target", *args.target, dimension::kAngle);
     request.repeats = args.repeats;
-    request.longest_run = args.longest;
+    if (args.longest) request.longest_run = positive_argument("--longest", *args.longest, dimension::kTime);
     return request;
 }
 
@@ -107,12 +106,12 @@ void add_accuracy(Grammar& grammar) {
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the diagram as .png, .svg or .pdf (repeatable)");
     app.option("--until", &args.until, "T", "Assess the motion up to this time (default: the end of the scene)");
-    app.option("--target", &args.target, "RAD",
-               "Error for which settings are recommended, in rad: of theta; of a driven hub, of the tip deflection "
-               "over the length (default: 1e-4)");
+    app.option(
+        "--target", &args.target, "ANGLE",
+        "Error for which settings are recommended: of theta; of a driven hub, of the tip deflection over the length "
+        "(default: 1e-4 rad)");
     app.option("--repeats", &args.repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
-    app.option("--longest", &args.longest, "S", "Leave out runs that take longer than this, in s (default: 2)")
-        .positive();
+    app.option("--longest", &args.longest, "T", "Leave out runs that take longer than this (default: 2 s)");
 }
 
 }  // namespace beamcam::scenes

@@ -107,7 +107,6 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
                           .description(""));
         option->description(fmt::format("{} ({:g} to {:.10g})", parameter.meaning, low, high));
     }
-    if (parameter.is_positive) option->check(CLI::PositiveNumber);
     if (parameter.separator != 0) option->delimiter(parameter.separator);
     if (parameter.is_option() && !parameter.takes_several) option->allow_extra_args(false);
 }

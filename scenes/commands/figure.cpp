@@ -172,9 +172,12 @@ void add_series_options(Command& app, FigureArguments& args) {
         .separated_by(',');
     const std::string one_panel = "Of \"series\" with one panel: ";
     args.panel.add_list(app, "--lines", "panels.0.lines", "V,...")
-        .says(one_panel + "horizontal lines at these values of the left axis, in SI units");
-    args.panel.add(app, "--low", "panels.0.low", "V").says(one_panel + "lower end of the left axis, in SI units");
-    args.panel.add(app, "--high", "panels.0.high", "V").says(one_panel + "upper end of the left axis, in SI units");
+        .says(one_panel +
+              "horizontal lines at these values of the left axis, such as 45deg; plain numbers are in SI units");
+    args.panel.add(app, "--low", "panels.0.low", "V")
+        .says(one_panel + "lower end of the left axis, such as 45deg; a plain number is in SI units");
+    args.panel.add(app, "--high", "panels.0.high", "V")
+        .says(one_panel + "upper end of the left axis; a plain number is in SI units");
     app.option("--title", &args.title, "TEXT", "Of \"series\" with one panel: its title; $θ$ is mathematics");
     app.option("--note", &args.notes, "AT=TEXT",
                "Of \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");

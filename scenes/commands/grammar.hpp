@@ -31,10 +31,9 @@ struct Parameter {
     std::vector<std::string> choices;  // the allowed values; empty: any
     std::optional<std::pair<double, double>> limits;
     char separator = 0;  // between several values in one word
-    bool is_required = false, is_positive = false, takes_several = false;
+    bool is_required = false, takes_several = false;
 
     Parameter& required() { return is_required = true, *this; }
-    Parameter& positive() { return is_positive = true, *this; }
     // One occurrence of the option takes all words that follow it.
     Parameter& several() { return takes_several = true, *this; }
     Parameter& separated_by(char c) { return separator = c, *this; }

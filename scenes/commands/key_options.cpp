@@ -95,6 +95,8 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
     std::vector<Message> of_reader;
     read_only_output(output, scene_file, kPrefix, scene, of_reader);
     messages.insert(messages.end(), of_reader.begin(), of_reader.end());
+    // "x_low" before "x", which begins it.
+    std::ranges::stable_sort(given, std::ranges::greater(), [](const auto* option) { return option->key.size(); });
     for (Message& message : messages) {
         for (const KeyOptions::Option* option : given) {
             const std::string first = option->key.substr(0, option->key.find('.')),

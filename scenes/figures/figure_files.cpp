@@ -2,8 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <map>
 
 #include "output/files/numbers.hpp"
@@ -82,6 +84,26 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
 
 render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
     return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
+}
+
+std::vector<std::string> hidden_curves(const figure::Figure& f) {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::vector<std::string> hidden;
+    const auto check = [&](const render::Axis& axis, const std::vector<figure::Series>& curves, auto values_of) {
+        render::Extent data;
+        for (const figure::Series& curve : curves) data.add(values_of(curve), axis.scale);
+        const auto [low, high] = std::minmax({axis.from.value_or(-kInfinity), axis.to.value_or(kInfinity)});
+        if (data.any && (data.high < low || data.low > high))
+            hidden.push_back(fmt::format("{} is between {:.4g} and {:.4g}, beyond the ends of its axis",
+                                         render::to_plain(axis.label), data.low, data.high));
+    };
+    for (const figure::Panel& panel : f.panels) {
+        check(panel.y, panel.series,
+              [](const figure::Series& curve) { return curve.right ? std::vector<double>() : curve.y; });
+        if (&panel == &f.panels.front())
+            check(panel.x, panel.series, [](const figure::Series& curve) { return curve.x; });
+    }
+    return hidden;
 }
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {

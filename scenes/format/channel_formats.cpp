@@ -15,6 +15,18 @@ std::vector<std::string> channel_names(const std::vector<sim::Channel>& channels
     return names;
 }
 
+sim::Dimension dimension_of(const sim::Channel& channel, const sim::Problem& problem) {
+    const QuantityText one = parse_quantity(fmt::format("1 {}", unit(channel, problem)));
+    return one.quantity.value().dimension;
+}
+
+DimensionOf dimension_of_first(const std::vector<sim::Channel>& channels) {
+    return [&channels](const ObjectReader& r) {
+        return channels.empty() ? std::nullopt
+                                : std::optional(dimension_of(channels.front(), r.context().scene.problem));
+    };
+}
+
 void read_channels(ObjectReader& r, const Node& node, const std::string& key, const std::vector<sim::Channel>& allowed,
                    std::vector<sim::Channel>& out) {
     if (node.kind != Node::Kind::array || node.items.empty())

@@ -27,46 +27,27 @@ static void visit(SceneVisitor& v, sim::CamSpan& span) {
     v.exclusive("cam_turns", "time");
 }
 
-// The dimension of a key of the scene; none for a key that is rejected anyway.
-static sim::Dimension dimension_of(const std::string& key, const ObjectReader& r) {
-    const auto known = sim::number_key(r.context().scene.problem, key);
-    return known ? known->dimension : dim::kNone;
-}
-
-// A value with the unit of another key.
-template <class Number>  // double, or optional<double>
-static ValueFormat value_format(Number& value, const std::string& of) {
-    const auto read = [&value, &of](ObjectReader& r, const Node& node, const std::string& key) {
-        if (const auto given = r.number_value(node, key, dimension_of(of, r))) value = *given;
+static DimensionOf dimension_of(const std::string& key) {
+    return [&key](const ObjectReader& r) -> std::optional<sim::Dimension> {
+        const auto known = sim::number_key(r.context().scene.problem, key);
+        return known ? std::optional(known->dimension) : std::nullopt;
     };
-    return {"number, or text with the unit of the key", R"({"anyOf": [{"type": "number"}, {"type": "string"}]})", read,
-            [&value] { return Node(value); }};
-}
-
-static ValueFormat values_format(std::vector<double>& values, const std::string& of) {
-    const auto read = [&values, &of](ObjectReader& r, const Node& node, const std::string& key) {
-        if (node.kind != Node::Kind::array || node.items.empty()) return r.expect(node, key, "a list of numbers");
-        if (const auto given = r.numbers_value(node, key, dimension_of(of, r))) values = *given;
-    };
-    return {"list of numbers, or texts with the unit of the key",
-            R"({"type": "array", "minItems": 1, "items": {"anyOf": [{"type": "number"}, {"type": "string"}]}})", read,
-            [&values] { return values.empty() ? Node() : Node(values); }};
 }
 
 static void visit(SceneVisitor& v, RandomKey& key) {
     v.text(sim::required("key", "\"initial.angle\""), key.key, "A key of the scene that is a number.");
-    v.value("from", value_format(key.from, key.key), "Lowest value.");
-    v.value("to", value_format(key.to, key.key), "Highest value.");
+    v.value("from", quantity_format(key.from, dimension_of(key.key)), "Lowest value.");
+    v.value("to", quantity_format(key.to, dimension_of(key.key)), "Highest value.");
 }
 
 static void visit(SceneVisitor& v, SweptKey& over) {
     v.text(sim::required("key", "\"cam.speed\""), over.key, "A key of the scene that is a number.");
-    v.value("from", value_format(over.from, over.key), "First value.");
-    v.value("to", value_format(over.to, over.key), "Last value.");
+    v.value("from", quantity_format(over.from, dimension_of(over.key)), "First value.");
+    v.value("to", quantity_format(over.to, dimension_of(over.key)), "Last value.");
     v.integer("count", over.count, 1, 100'000'000, "Number of values, both ends included.");
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}},
              "Spacing of the values between the ends.");
-    v.value("values", values_format(over.values, over.key), "A list of values.");
+    v.value("values", quantities_format(over.values, dimension_of(over.key), 1), "A list of values.");
     v.text(sim::written_if(!over.file.empty(), "file"), over.file, "A .csv or .npz file with the values.");
     v.text(sim::written_if(!over.column.empty(), "column"), over.column, "The column of the file.");
     v.exclusive("from", "values");
@@ -111,7 +92,14 @@ void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
     std::string channel = sampling.kind == SampleKind::crossings ? name(sampling.channel) : "cam_angle";
     v.text(sim::required("section", "\"cam_angle\""), channel,
            "The channel; cam_angle gives one sample in each turn of the cam.");
-    v.number("at", sampling.level, sim::kPlainNumber, sim::kAny, "The value that the channel passes, in its SI unit.");
+    v.value("at",
+            quantity_format(sampling.level,
+                            [&channel](const ObjectReader& r) {
+                                const auto known = sim::channel_named(channel);
+                                return known ? std::optional(dimension_of(*known, r.context().scene.problem))
+                                             : std::nullopt;
+                            }),
+            "The value that the channel passes; a plain number is in its SI unit.");
     v.choice("direction", sampling.rising, {{true, "rising"}, {false, "falling"}},
              "Direction in which the channel passes the value; not used for cam_angle.");
     v.check([&sampling, channel](ObjectReader& r) {

@@ -71,6 +71,40 @@ std::optional<FrameRate> read_frame_rate(ObjectReader& r, const Node& node, cons
 
 }  // namespace
 
+// ---- quantities --------------------------------------------------------------------------------
+
+static constexpr const char* kQuantitySchema = R"({"anyOf": [{"type": "number"}, {"type": "string"}]})";
+
+template <class Number>  // double, or optional<double>
+static ValueFormat format_of_quantity(Number& value, DimensionOf dimension) {
+    const auto read = [&value, dimension = std::move(dimension)](ObjectReader& r, const Node& node,
+                                                                 const std::string& key) {
+        const auto expected = dimension(r);
+        if (const auto given = expected ? r.number_value(node, key, *expected) : std::nullopt) value = *given;
+    };
+    return {"number, or text with a unit", kQuantitySchema, read, [&value] { return Node(value); }};
+}
+ValueFormat quantity_format(double& value, DimensionOf dimension) {
+    return format_of_quantity(value, std::move(dimension));
+}
+ValueFormat quantity_format(std::optional<double>& value, DimensionOf dimension) {
+    return format_of_quantity(value, std::move(dimension));
+}
+
+ValueFormat quantities_format(std::vector<double>& values, DimensionOf dimension, int fewest) {
+    const auto read = [&values, dimension = std::move(dimension), fewest](ObjectReader& r, const Node& node,
+                                                                          const std::string& key) {
+        if (node.kind != Node::Kind::array || std::ssize(node.items) < fewest)
+            return r.expect(node, key, "a list of numbers");
+        const auto expected = dimension(r);
+        if (const auto given = expected ? r.numbers_value(node, key, *expected) : std::nullopt) values = *given;
+    };
+    return {"list of numbers, or texts with a unit",
+            fmt::format(R"({{"type": "array", {}"items": {}}})",
+                        fewest > 0 ? fmt::format("\"minItems\": {}, ", fewest) : "", kQuantitySchema),
+            read, [&values] { return values.empty() ? Node() : Node(values); }};
+}
+
 ValueFormat size_format(Size& size) {
     const auto write = [](const Size& one) { return array_node({one.width, one.height}); };
     return format_of(

@@ -1,6 +1,7 @@
 // Values with a notation of their own. Each ValueFormat reads, writes and describes one.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <string>
@@ -38,6 +39,14 @@ void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const 
 void visit_rows(SceneVisitor& v, double& rate, std::vector<double>& times);
 // The factor of the deflection; absent: "auto".
 void visit_exaggeration(SceneVisitor& v, std::optional<double>& factor, const char* meaning);
+// A number, or a text with a unit. Its dimension depends on other keys: nullopt if they have an error.
+using DimensionOf = std::function<std::optional<sim::Dimension>(const ObjectReader& r)>;
+ValueFormat quantity_format(double& value, DimensionOf dimension);
+ValueFormat quantity_format(std::optional<double>& value, DimensionOf dimension);
+ValueFormat quantities_format(std::vector<double>& values, DimensionOf dimension, int fewest = 0);
+// Of the values of a channel.
+sim::Dimension dimension_of(const sim::Channel& channel, const sim::Problem& problem);
+DimensionOf dimension_of_first(const std::vector<sim::Channel>& channels);
 ValueFormat size_format(Size& size);
 ValueFormat frame_rate_format(FrameRate& rate);
 ValueFormat instant_format(Instant& at);

@@ -29,10 +29,11 @@ static void visit(SceneVisitor& v, SeriesPanel& panel) {
     sums.example = "[{\"label\": \"stored\", \"plus\": [\"energy_elastic\", \"energy_contact\"]}]";
     v.list("sums", sums, "Curves that are sums of channels, instead of \"channels\", whose unit they have.");
     v.choice("scale", panel.logarithmic, {{false, "linear"}, {true, "log"}}, "Scale of the left axis.");
-    v.number("low", panel.low, sim::kPlainNumber, sim::kAny, "Lower end of the left axis, in SI units.");
-    v.number("high", panel.high, sim::kPlainNumber, sim::kAny, "Upper end of the left axis, in SI units.");
-    v.numbers("lines", panel.lines, sim::kPlainNumber, sim::kAny, {},
-              "Horizontal lines at these values of the left axis.");
+    const DimensionOf of_axis = dimension_of_first(panel.channels);
+    v.value("low", quantity_format(panel.low, of_axis), "Lower end of the left axis; a plain number is in SI units.");
+    v.value("high", quantity_format(panel.high, of_axis), "Upper end of the left axis; a plain number is in SI units.");
+    v.value("lines", quantities_format(panel.lines, of_axis),
+            "Horizontal lines at these values of the left axis; plain numbers are in SI units.");
     v.text("label", panel.label,
            "Label of the left axis, without the unit; by default the symbols of the channels; $v_{1}$ is a formula.");
     v.text("title", panel.title, "Title above the panel; $θ$ is a formula.");
@@ -74,6 +75,11 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
             windows ? channels_format(series.panels.front().channels) : grouped_channels_format(series.panels),
             "Of \"series\": the channels, with one panel for each unit, in place of \"panels\". Of \"spectrogram\": "
             "one channel.");
+    const DimensionOf of_abscissa = [&series](const ObjectReader& r) -> std::optional<sim::Dimension> {
+        if (series.against == "frequency") return dim::kFrequency;
+        const auto channel = sim::channel_named(series.against);
+        return channel ? dimension_of(*channel, r.context().scene.problem) : dim::kNone;  // of turns
+    };
     List panels = SceneVisitor::items_of(series.panels);
     panels.max_size = 8, panels.of = "panels";
     panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
@@ -82,10 +88,10 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
     v.value(key("x"), abscissa_format(series.against),
             "Of \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), "
             "\"frequency\" (amplitude spectra with a Hann window), or a channel.");
-    v.number(key("x_low"), series.x_low, sim::kPlainNumber, sim::kAny,
-             "Of \"series\": lower end of the abscissa, in SI units.");
-    v.number(key("x_high"), series.x_high, sim::kPlainNumber, sim::kAny,
-             "Of \"series\": upper end of the abscissa, in SI units.");
+    v.value(key("x_low"), quantity_format(series.x_low, of_abscissa),
+            "Of \"series\": lower end of the abscissa; a plain number is in SI units, or in turns.");
+    v.value(key("x_high"), quantity_format(series.x_high, of_abscissa),
+            "Of \"series\": upper end of the abscissa; a plain number is in SI units, or in turns.");
     v.value(bound("from"), bound_format(series.from, series.from_event),
             fmt::format("Of {}: first instant. Events are those of the first motion of the figure.",
                         list_of_figures_with("from"))

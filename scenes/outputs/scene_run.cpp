@@ -166,8 +166,10 @@ void SceneRun::write_figure(std::size_t figure) {
     Results results = results_.of_figure(figure);
     Scene carried = scene_;
     if (sweep_) results.swept = sweep_->swept(), carried.sweep = sweep_->grid().sweep();
-    const auto made = figure_files(f.make(results), how, scene_of_figure(std::move(carried), how));
-    for (const auto& [file, bytes] : made) {
+    const render::figure::Figure made = f.make(results);
+    for (const std::string& why : hidden_curves(made))
+        context_.print("warning: {} shows no curve: {}\n", how.file, why);
+    for (const auto& [file, bytes] : figure_files(made, how, scene_of_figure(std::move(carried), how))) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
         files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");
     }

@@ -97,7 +97,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
     }
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json").err, HasSubstr("no key varies"));
     EXPECT_THAT(shell(folder, "$BEAMCAM figure s.json --channels theta --low abc -o a.pdf -n").err,
-                HasSubstr("beamcam: --low must be a number"));
+                HasSubstr("beamcam: --low = \"abc\": it does not begin with a number"));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }

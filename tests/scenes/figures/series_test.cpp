@@ -108,6 +108,33 @@ TEST(Series, TakesLimitsInTheUnitsOfTheScene) {
     EXPECT_NEAR(*figure.panels[0].y.to, 10, 1e-12);
 }
 
+TEST(Series, LimitsAndLinesMayHaveUnits) {
+    const Figure figure = figure_of(
+        R"("x": "theta_dot", "x_high": "3 rpm", "panels": [{"channels": ["theta"], "low": "20 deg", "lines": ["30 deg", 0.5]}])");
+    EXPECT_NEAR(figure.panels[0].y.from.value(), M_PI / 9, 1e-12);
+    EXPECT_NEAR(figure.panels[0].x.to.value(), 0.1 * M_PI, 1e-12);
+    ASSERT_EQ(figure.panels[0].rules.size(), 2u);
+    EXPECT_NEAR(figure.panels[0].rules[0].at, M_PI / 6, 1e-12);
+    EXPECT_EQ(figure.panels[0].rules[1].at, 0.5);
+    EXPECT_NEAR(figure_of(R"("channels": ["theta"], "x": "frequency", "x_high": "1 kHz")").panels[0].x.to.value(), 1000,
+                1e-9);
+}
+
+TEST(Series, LimitsThatHideAllCurvesAreReported) {
+    const Folder folder;
+    folder.write("s.json", R"({"initial": {"angle": "60 deg"}, "time": {"end": 0.1}})");
+    const auto figure = [&](const std::string& options) {
+        return shell(folder, "$BEAMCAM figure s.json --channels theta -o f.svg " + options);
+    };
+    EXPECT_THAT(figure("--low 70deg").err,
+                HasSubstr("warning: f.svg shows no curve: θ / ° is between 57.87 and 60, beyond the ends of its axis"));
+    EXPECT_THAT(figure("--x-low 1s --x-high 2s").err, HasSubstr("f.svg shows no curve: t / s is between 0 and 0.1"));
+    EXPECT_THAT(figure("--low 59deg").err, Not(HasSubstr("warning")));
+    const Finished wrong = figure("--x theta_dot --x-low 1mm");
+    EXPECT_EQ(wrong.code, 2);
+    EXPECT_THAT(wrong.err, HasSubstr("--x-low = \"1mm\" has the wrong dimension (m); it is measured in rad/s"));
+}
+
 // What a logarithmic panel leaves out stays on the axis that all panels share.
 TEST(Series, PanelsShareOneAxis) {
     const Figure figure =
