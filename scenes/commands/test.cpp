@@ -132,7 +132,7 @@ int act(const TestArguments& args) {
     report_to_github(args, result, options.rule);
     bool fine = !result.changed || (options.update.empty() && !args.add_digest);  // a change must be checked
     for (const EntryResult& entry : result.entries)
-        if (entry.exit_code != 0 && entry.exit_code != kDiffers) return entry.exit_code;
+        if (entry.could_not_run()) return entry.exit_code;
     for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry);
     return fine ? kDone : kDiffers;
 }
@@ -148,8 +148,8 @@ void add_test(Grammar& grammar) {
                "Test only these entries; patterns such as 'fall-*' are allowed")
         .several();
     app.option("--update", &args.update, "NAME...",
-               "Replace the references of these entries by the present pictures and motions (exit code 7); patterns, "
-               "all and failed are allowed")
+               "Replace the references of these entries by the present pictures and motions (exit code 7 if that "
+               "changes any); patterns, all and failed are allowed")
         .several();
     app.flag("--add-digest", args.add_digest,
              "Accept the pictures of this machine in addition to the others, where they are equivalent, or where no "

@@ -142,17 +142,20 @@ void ReferenceUpdate::drop(const std::string& entry) {
     entries_.erase(entry);
 }
 
-void ReferenceUpdate::commit(const std::string& expected, const std::string& text,
+bool ReferenceUpdate::commit(const std::string& expected, const std::string& text,
                              const std::map<std::string, std::map<std::string, std::string>>& pixels) {
     const std::lock_guard lock(mutex_);
     UpdateTasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
     for (const auto& [entry, keeps_others] : entries_) add_tasks(entry, keeps_others, pixels.at(entry), tasks.files);
     if (output::read_file(baselines_) != expected) fail(baselines_, "was changed during the update");
-    if (!journal_) return output::write_file(baselines_, text);  // no reference changes
+    std::erase_if(tasks.files, [](const UpdateTask& task) { return task.before == task.after; });
+    if (text == expected && tasks.files.empty()) return false;
+    if (!journal_) return output::write_file(baselines_, text), true;  // no reference changes
     output::write_file(staging_ / kNewBaselines, text);
     output::write_file(staging_ / kUpdateTasks, text_of(tasks));
     TaskRunner(references_, staging_, *journal_).carry_out();
     remove_staging(staging_);
+    return true;
 }
 
 void ReferenceUpdate::add_tasks(const std::string& entry, bool keeps_others,

@@ -49,8 +49,8 @@ class ReferenceUpdate {
     // Leaves the entry unchanged.
     void drop(const std::string& entry);
     // Carries out the update and replaces the text of the baselines file, which must still be `expected`. `pixels`:
-    // digests of the new pictures of each entry by file name.
-    void commit(const std::string& expected, const std::string& text,
+    // digests of the new pictures of each entry by file name. False: the text and all files are as before.
+    bool commit(const std::string& expected, const std::string& text,
                 const std::map<std::string, std::map<std::string, std::string>>& pixels);
 
   private:

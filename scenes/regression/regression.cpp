@@ -173,8 +173,10 @@ class Regression {
             pictures[result.name] = test->new_pictures();
         }
         if (edits.empty()) return;
-        update_.commit(baselines_.source.text, edited(baselines_, edits, result_.renderers), pictures);
-        result_.changed = true;
+        result_.changed =
+            update_.commit(baselines_.source.text, edited(baselines_, edits, result_.renderers), pictures);
+        if (result_.changed) return;
+        for (EntryResult& entry : result_.entries) entry.updated = false;
     }
 
     std::string path_;

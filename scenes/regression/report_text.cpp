@@ -33,8 +33,8 @@ std::string junit_case(const std::string& suite, const EntryResult& entry, const
     if (rule.passes(*verdict)) return out + "/>\n";
     const std::string message =
         escaped_for_xml(fmt::format("{}{}{}", name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; ")));
-    return out + fmt::format(">\n    <failure type=\"{0}\" message=\"{1}\">{1}</failure>\n  </testcase>\n",
-                             name(*verdict), message);
+    return out + fmt::format(">\n    <{2} type=\"{0}\" message=\"{1}\">{1}</{2}>\n  </testcase>\n", name(*verdict),
+                             message, entry.could_not_run() ? "error" : "failure");
 }
 
 // For workflow commands of GitHub Actions, which are one line. `ends`: characters that end a property.
@@ -110,11 +110,11 @@ std::string to_text(const RegressionResult& result, const PassRule& rule, bool f
 
 std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule) {
     std::string cases;
-    std::size_t tests = 0, failures = 0;
+    std::size_t tests = 0, failures = 0, errors = 0;
     for (const EntryResult& entry : result.entries) {
         for (const auto& verdict : {entry.picture, entry.motion}) {
             tests += verdict ? 1 : 0;
-            failures += verdict && !rule.passes(*verdict) ? 1 : 0;
+            if (verdict && !rule.passes(*verdict)) ++(entry.could_not_run() ? errors : failures);
         }
         cases += junit_case(suite, entry, "picture", entry.picture, entry.picture_lines, entry.seconds, rule);
         cases += junit_case(suite, entry, "motion", entry.motion, entry.motion_lines, entry.picture ? 0 : entry.seconds,
@@ -122,9 +122,9 @@ std::string to_junit(const RegressionResult& result, const std::string& suite, c
     }
     return fmt::format(
         "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-        "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"0\" skipped=\"0\" "
+        "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\" "
         "time=\"{:.3f}\">\n{}</testsuite>\n",
-        escaped_for_xml(suite), tests, failures, result.seconds, cases);
+        escaped_for_xml(suite), tests, failures, errors, result.seconds, cases);
 }
 
 std::string to_annotations(const RegressionResult& result, const PassRule& rule) {

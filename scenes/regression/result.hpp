@@ -12,6 +12,7 @@
 
 #include "scenes/regression/baselines.hpp"
 #include "scenes/regression/comparison.hpp"
+#include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {
 
@@ -44,6 +45,7 @@ struct EntryResult {
     Verdict verdict() const {
         return std::max(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
     }
+    bool could_not_run() const { return exit_code != 0 && exit_code != kDiffers; }  // such as without its scene
     bool differs() const { return verdict() >= Verdict::different; }  // or is missing: references must be replaced
     std::vector<std::string> digests() const {                        // of all frames
         std::vector<std::string> all;

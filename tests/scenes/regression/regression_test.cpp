@@ -151,6 +151,20 @@ TEST(Regression, ReadsOnlyAsFarAsTheEntryShows) {
     EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("\"reproducible_until\": 0.05"));
 }
 
+TEST(Regression, AnUpdateThatChangesNothingSaysSo) {
+    const Guarded folder;
+    folder.update();
+    const auto written = [&](const char* file) { return std::filesystem::last_write_time(folder / file); };
+    const auto text = written("b.json"), picture = written("b/fall/0000.png");
+    const Finished again = folder.update();
+    EXPECT_EQ(again.code, 0) << again.err;
+    EXPECT_THAT(again.out, Not(HasSubstr("updated")));
+    EXPECT_THAT(again.err, Not(HasSubstr("was changed")));
+    EXPECT_EQ(written("b.json"), text);
+    EXPECT_EQ(written("b/fall/0000.png"), picture);
+    EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
+}
+
 TEST(Regression, EntriesAreMeantByPatterns) {
     const Guarded folder;
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update 'f*'").code, 7);

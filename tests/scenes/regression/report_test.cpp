@@ -46,6 +46,17 @@ TEST(Report, JUnitHasACaseForEachPictureAndMotion) {
     EXPECT_EQ(slurp(folder / "mine.xml"), "mine");
 }
 
+TEST(Report, JUnitCallsAnEntryThatCannotRunAnError) {
+    const Guarded folder;
+    folder.update();
+    folder.swap("b.json", R"("hit": {"scene": "s.json")", R"("hit": {"scene": "none.json")");
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --junit j.xml").code, 3);
+    const std::string xml = slurp(folder / "j.xml");
+    EXPECT_THAT(xml, HasSubstr("failures=\"0\" errors=\"1\""));
+    EXPECT_THAT(xml, HasSubstr("<error type=\"missing\" message=\"missing: b.json:"));
+    EXPECT_THAT(xml, Not(HasSubstr("<failure")));
+}
+
 TEST(Report, AnnotatesOnGitHub) {
     const Guarded folder;
     folder.update();
