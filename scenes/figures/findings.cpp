@@ -230,7 +230,8 @@ std::string numbers_of_repeated_impacts(const FindingStudies& all, const Results
         const Transient apart = transient(run(0).tables[all.angles[k][0]], run(1).tables[all.angles[k][1]]);
         const std::vector<double> heights = heights_of_rebounds(run(0));
         numbers += fmt::format(
-            "{}ω = {}: θ at the relative tolerances {} and {} differs by more than {} rad from {:.1f} s to {:.1f} s "
+            "{}ω = {}: θ by `auto` at the relative tolerances {} and {} differs by more than {} rad from {:.1f} s to "
+            "{:.1f} s "
             "(by up to {:.2f} rad); {} of {} rebounds in {} s exceed the one before",
             k ? "; " : "", kPaperSpeeds[k], plain(rtol, 1), plain(rtol / kTighter, 1), plain(kTolerated, 1), apart.from,
             apart.to, apart.largest, higher_than_before(heights), heights.empty() ? 0 : heights.size() - 1, kRepeated);
