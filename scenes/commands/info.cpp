@@ -94,12 +94,24 @@ void read_manifest(const std::string& file, Provenance& p) {
 }
 
 void read_table(const std::string& file, Provenance& p) {
-    p.kind = "table";
-    const output::ColumnTable table = output::read_table(file);
-    p.facts["rows"] = std::to_string(table.rows());
-    p.facts["columns"] = std::to_string(table.columns.size());
     read_manifest(file, p);
+    p.kind = "table";
+    try {
+        const output::ColumnTable table = output::read_table(file);
+        p.facts["rows"] = std::to_string(table.rows());
+        p.facts["columns"] = std::to_string(table.columns.size());
+    } catch (const output::IoError&) {
+        if (!p.made_by_beamcam()) throw;
+        p.kind = "table with texts";  // such as the data of a figure
+    }
 }
+
+// Files whose provenance is only in the manifest beside them.
+constexpr std::pair<const char*, const char*> kListedKinds[] = {
+    {".eps", "EPS figure"}, {".tif", "TIFF figure"}, {".tiff", "TIFF figure"}, {".json", "record"},
+    {".webp", "film"},  // FFmpeg does not read animated ones
+    {".html", "page"},      {".glb", "model"},       {".nc", "NetCDF table"},  {".tex", "caption"},
+    {".txt", "caption"},    {".md", "caption"},      {".srt", "subtitles"},    {".vtt", "subtitles"}};
 
 std::string lower_ending(const std::string& file) {
     std::string ending = fs::path(file).extension().string();
@@ -115,6 +127,7 @@ Provenance provenance_of(const std::string& file) {
     Provenance p;
     p.file = file;
     const std::string ending = lower_ending(file);
+    const auto listed = std::ranges::find(kListedKinds, ending, [](const auto& each) { return each.first; });
     if (output::png_kind(file) != output::PngKind::none && ending != ".apng") {
         read_png_info(file, p);
     } else if (ending == ".svg") {
@@ -123,16 +136,10 @@ Provenance provenance_of(const std::string& file) {
     } else if (ending == ".pdf") {
         p.kind = "PDF figure";
         read_document(output::read_pdf_metadata(file), p);
-    } else if (ending == ".eps" || ending == ".tif" || ending == ".tiff") {
-        p.kind = ending == ".eps" ? "EPS figure" : "TIFF figure";
-        read_manifest(file, p);
-    } else if (ending == ".webp") {  // FFmpeg does not read animated ones
-        p.kind = "film";
-        read_manifest(file, p);
     } else if (ending == ".csv" || ending == ".npz") {
         read_table(file, p);
-    } else if (ending == ".json") {
-        p.kind = "record";
+    } else if (listed != std::end(kListedKinds)) {
+        p.kind = listed->second;
         read_manifest(file, p);
     } else {
         read_film(file, p);

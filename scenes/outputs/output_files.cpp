@@ -13,10 +13,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Formats without metadata for the scene.
+// Formats whose scene `info` takes from the manifest.
 bool lacks_metadata(const fs::path& file) {
     static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp",
-                                                    ".vtt", ".srt", ".html", ".eps", ".tif",  ".tiff"};
+                                                    ".vtt", ".srt", ".html", ".eps", ".tif",  ".tiff",
+                                                    ".glb", ".nc",  ".tex",  ".txt", ".md"};
     return std::ranges::find(kEndings, file.extension().string()) != std::end(kEndings);
 }
 

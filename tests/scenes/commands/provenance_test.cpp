@@ -75,6 +75,25 @@ TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
               0);
 }
 
+TEST(Info, PagesModelsAndTheFilesBesideFiguresAreKnownByTheManifest) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.3}})");
+    ASSERT_EQ(shell(folder,
+                    "for e in html glb; do $BEAMCAM render -q s.json -o a.$e || exit; done; "
+                    "$BEAMCAM figure -q s.json --channels theta -o f.svg --data f.csv --caption f.tex")
+                  .code,
+              0);
+    for (const auto& [file, kind] : {std::pair{"a.html", "page"}, std::pair{"a.glb", "model"},
+                                     std::pair{"f.csv", "table with texts"}, std::pair{"f.tex", "caption"}}) {
+        const Finished info = shell(folder, std::string("$BEAMCAM info ") + file);
+        EXPECT_THAT(info.out, HasSubstr(fmt::format("{}: {}\n", file, kind))) << info.err;
+        EXPECT_THAT(info.out, HasSubstr("made by        beamcam 0.")) << file;
+        EXPECT_EQ(
+            shell(folder, fmt::format("$BEAMCAM info {} --scene > x.json && $BEAMCAM check -q x.json", file)).code, 0)
+            << file;
+    }
+}
+
 TEST(Info, ForeignAndDamagedFilesAreDistinguished) {
     const Folder folder;
     folder.write("s.json", kEveryOutput);
