@@ -1,6 +1,7 @@
 // The plotted numbers of a figure as a table.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 
@@ -27,6 +28,21 @@ std::string cell_text(const std::string& markup) {
 
 std::string quantity_of(const Axis& axis) { return axis.label.substr(0, axis.label.rfind(" / ")); }
 
+// The end of a step is sampled again as the beginning of the next one; where the motion jumps, both values stay.
+Series without_repeats(const Series& curve) {
+    constexpr double kRounding = 1e-12;  // of the value
+    Series out = curve;
+    out.x.clear(), out.y.clear(), out.value.clear();
+    for (std::size_t i = 0; i < std::min(curve.x.size(), curve.y.size()); ++i) {
+        const double y = curve.y[i];
+        if (!out.x.empty() && out.x.back() == curve.x[i] && std::abs(out.y.back() - y) <= kRounding * std::abs(y))
+            continue;
+        out.add(curve.x[i], y);
+        if (i < curve.value.size()) out.value.push_back(curve.value[i]);
+    }
+    return out;
+}
+
 // Adds the rows of a panel.
 class PanelRows {
   public:
@@ -34,8 +50,9 @@ class PanelRows {
         : out_(out), panel_(panel), name_(std::move(name)) {}
 
     void add() {
-        for (const Series& s : panel_.series) {
-            const Axis& axis = vertical(s.right);
+        for (const Series& drawn : panel_.series) {
+            const Axis& axis = vertical(drawn.right);
+            const Series s = drawn.line ? without_repeats(drawn) : drawn;
             rows(cell_text(!s.name.empty()    ? s.name
                            : !s.label.empty() ? s.label
                                               : quantity_of(axis)),

@@ -423,5 +423,15 @@ TEST(Figure, DataIsATidyTableOfWhatIsPlotted) {
     EXPECT_THAT(data_csv(figure), HasSubstr("\n1,mean,t / s,0,"));
 }
 
+TEST(FigureData, ACurveHasEachInstantOnceUnlessItJumpsThere) {
+    Figure figure;
+    figure.panels.emplace_back();
+    figure.panels[0].series = {{.x = {0, 1, 1, 2, 2}, .y = {5, 6, 6 * (1 + 1e-15), 7, 8}},
+                               {.x = {1, 1}, .y = {3, 3}, .name = "points", .line = false}};
+    const std::string csv = data_csv(figure);
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4 + 2) << csv;
+    EXPECT_THAT(csv, ::testing::AllOf(HasSubstr(",2,,7,\n"), HasSubstr(",2,,8,\n")));
+}
+
 }  // namespace
 }  // namespace beamcam::render::figure
