@@ -1,5 +1,7 @@
 #include "output/data/file_records.hpp"
 
+#include <fmt/format.h>
+
 #include "output/files/numbers.hpp"
 #include "output/json/tree.hpp"
 
@@ -54,6 +56,14 @@ std::optional<FileRecords> parse_manifest(const std::string& text) {
         files[entry.key] = *made;
     }
     return files;
+}
+
+std::string damage_of_manifest(const std::string& text) {
+    if (parse_manifest(text)) return {};
+    const Parsed read = parse(text, 0, text.size());
+    if (read.is_json) return "it is not a list of files";
+    const Message& error = read.messages.front();
+    return fmt::format("line {}: {}", locate(text, error.place.offset).line, error.text);
 }
 
 std::string journal_line(const std::string& temporary) {

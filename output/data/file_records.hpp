@@ -29,6 +29,8 @@ using FileRecords = std::map<std::string, FileRecord>;  // by file name, without
 std::string manifest_json(const FileRecords& files);
 // Nothing if the text is not a manifest.
 std::optional<FileRecords> parse_manifest(const std::string& text);
+// Why it is not: "line 3: a value is missing"; empty: it is.
+std::string damage_of_manifest(const std::string& text);
 
 // Lines of a journal: a temporary file that will be created, and a file that will be moved to its place.
 std::string journal_line(const std::string& temporary);

@@ -1,5 +1,6 @@
 #include "output/data/manifest.hpp"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 
 #include <cerrno>
@@ -47,10 +48,14 @@ bool is_file(const fs::path& file) {
     return fs::is_regular_file(file, unreadable);
 }
 
-FileRecords read_manifest(const fs::path& directory) {
+// Empty if there is no manifest.
+std::string manifest_text(const fs::path& directory) {
     const fs::path manifest = directory / Manifest::kFileName;
-    if (!path_exists(manifest) || !is_file(manifest)) return {};
-    return parse_manifest(read_file(manifest)).value_or(FileRecords{});
+    return path_exists(manifest) && is_file(manifest) ? read_file(manifest) : std::string();
+}
+
+FileRecords read_manifest(const fs::path& directory) {
+    return parse_manifest(manifest_text(directory)).value_or(FileRecords{});
 }
 
 }  // namespace
@@ -102,6 +107,9 @@ void Manifest::require_own(const fs::path& file) {
     Directory& directory = directories_[directory_of(file)];
     directory.known = load(directory_of(file));  // another run may have just made it
     if (known(file)) return;
+    if (const std::string why = damage(file); !why.empty())
+        throw WouldOverwrite(
+            fmt::format("{} exists, and {}; restore it, or replace the file with --force", file.string(), why));
     throw WouldOverwrite(file.string() +
                          (directory.known->contains(file.filename().string()) ? " was changed after beamcam made it"
                                                                               : " exists and was not made by beamcam") +
@@ -113,6 +121,13 @@ bool Manifest::is_up_to_date(const fs::path& file, const std::string& inputs) {
     const std::lock_guard lock(mutex_);
     const FileRecord* made = known(file);
     return made != nullptr && made->origin.inputs == inputs;
+}
+
+std::string Manifest::damage(const fs::path& file) {
+    const std::string text = manifest_text(directory_of(file)), why = text.empty() ? "" : damage_of_manifest(text);
+    if (why.empty()) return {};
+    return fmt::format("{}, the list of the files that beamcam made, is damaged ({})",
+                       (file.parent_path() / kFileName).string(), why);
 }
 
 std::optional<Manifest::Entry> Manifest::find(const fs::path& file) {

@@ -55,6 +55,8 @@ class Manifest {
         bool unchanged = true;
     };
     static std::optional<Entry> find(const std::filesystem::path& file);
+    // Why the manifest beside the file cannot be read, for messages; empty: it can, or there is none.
+    static std::string damage(const std::filesystem::path& file);
 
   private:
     // The possible versions of each file, the latest last: a killed run may or may not have replaced it.

@@ -87,6 +87,7 @@ void read_film(const std::string& file, Provenance& p) {
 // Tables contain only numbers; the manifest beside them describes them.
 void read_manifest(const std::string& file, Provenance& p) {
     const auto record = output::Manifest::find(file);
+    if (const std::string damage = output::Manifest::damage(file); !damage.empty()) p.facts["unknown"] = damage;
     if (!record) return;
     p.version = record->origin.version;
     p.scene = record->origin.scene;

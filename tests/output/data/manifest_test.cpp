@@ -77,6 +77,18 @@ TEST(Manifest, ADamagedOneCountsAsEmptyAndIsMended) {
     }
 }
 
+TEST(Manifest, TheRefusalNamesADamagedOne) {
+    Scratch scratch;
+    make(scratch / "a.csv", "first");
+    write_file(scratch / Manifest::kFileName, "{\n  \"format\": \"beamcam manifest 1\",\n  \"files\": {\"a.c");
+    const std::string why = refusal(scratch / "a.csv");
+    for (const char* part :
+         {".beamcam.json, the list of the files that beamcam made, is damaged (line 3: ", "restore it", "--force"})
+        EXPECT_NE(why.find(part), std::string::npos) << why;
+    write_file(scratch / Manifest::kFileName, manifest_json({}));
+    EXPECT_NE(refusal(scratch / "a.csv").find("was not made by beamcam"), std::string::npos);
+}
+
 TEST(Manifest, ForgetsFilesThatAreGone) {
     Scratch scratch;
     make(scratch / "a.csv", "first");
