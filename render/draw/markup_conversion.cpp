@@ -65,7 +65,7 @@ std::string latex_text(std::string_view text) {
         if (const std::string_view* known = find(kLatexText, c))
             out += *known;
         else if (const std::string_view* sign = find(kLatexMath, c))
-            out += fmt::format("${}$", *sign);
+            out += fmt::format("${}$", sign->substr(0, sign->find_last_not_of(' ') + 1));
         else
             out += c;
     });
@@ -81,6 +81,15 @@ std::string latex_part(const std::vector<Run>& runs) {
     return out;
 }
 
+bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) || c == '.'; }
+
+bool is_number(std::string_view text) {
+    bool all = true;
+    each_character(
+        text, [&](std::string_view c, std::string_view) { all = all && (c == "−" || c == "+" || is_digit(c[0])); });
+    return all;
+}
+
 std::string latex_run(const Run& run) {
     if (!run.under.empty()) return fmt::format("$\\frac{{{}}}{{{}}}$", latex_part(run.over), latex_part(run.under));
     if (!run.over.empty()) return fmt::format("$\\sqrt{{{}}}$", latex_part(run.over));
@@ -90,7 +99,8 @@ std::string latex_run(const Run& run) {
         if (run.dots) body = fmt::format("\\{}{{{}}}", run.dots == 1 ? "dot" : "ddot", body);
         return fmt::format("${}$", body);
     }
-    if (!run.symbol) body = fmt::format("\\mathrm{{{}}}", latex_math(run.text));
+    if (!run.symbol)
+        body = is_number(run.text) ? latex_math(run.text) : fmt::format("\\mathrm{{{}}}", latex_math(run.text));
     return fmt::format("${}{{{}}}$", run.script < 0 ? "_" : "^", body);
 }
 
@@ -101,6 +111,13 @@ std::string latex_of(const std::vector<Run>& runs) {
         // Joins formulas: "$x$$_{c}$" would start a displayed equation.
         if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
             out.pop_back();
+            out += piece.substr(1);
+        } else if (piece.starts_with("$^") && !out.empty() && is_digit(out.back())) {  // a power of a number
+            const auto number = std::find_if_not(out.rbegin(), out.rend(), is_digit).base();
+            if (number != out.begin() && number[-1] == '$')  // after "$\\times$"
+                out.erase(number - 1);
+            else
+                out.insert(number, '$');
             out += piece.substr(1);
         } else {
             out += piece;
