@@ -81,7 +81,10 @@ void act(const KeysArguments& args) {
     if (args.json) return print_data(to_text(array_node(rows, json_of)));
     if (rows.empty()) {
         std::vector<std::string> names;
-        for (const KeyRow& row : key_rows()) names.push_back(row.path);
+        for (const KeyRow& row : key_rows()) {
+            names.push_back(row.path);
+            names.push_back(row.path.substr(row.path.rfind('.') + 1));  // npos + 1 is 0
+        }
         throw UsageError(fmt::format("no key matches {}{}", args.pattern, suggestion(args.pattern, names)));
     }
     print_data(text_of(rows));

@@ -77,8 +77,11 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
     const double step = counted ? 0 : signed_argument(option, third, dimension);
     const double count = counted ? output::number_in<int>(third).value_or(0)
                                  : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
+    constexpr double kMost = 1e8;
+    if (count > kMost && std::isfinite(count))
+        throw UsageError(fmt::format("{}: {:.4g} values are too many; a key has at most {:g}", option, count, kMost));
     const double fewest = counted || over.from == over.to ? 1 : 2;  // a step within the range leads to a second value
-    if (!(count >= fewest && count <= 1e8))
+    if (!(count >= fewest && count <= kMost))
         throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, parts[2],
                                      counted ? "number of values" : "step", parts[0], parts[1]));
     if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away

@@ -223,6 +223,7 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--over cam.speed=40:44:0", 2, "0 is not a step"},
           {"--over cam.speed=44:40:1", 2, "1 is not a step"},
           {"--over cam.speed=40:44:1e9", 2, "1e9 is not a step"},
+          {"--over cam.speed=1:1e9:1e-3", 2, "1e+12 values are too many; a key has at most 1e+08"},
           {"--over cam.speed=40:44:0n", 2, "0 is not a number of values"},
           {"--over cam.speed=40:44:-3n", 2, "is not a number of values"},
           {"--over cam.speed=0:44:3:log", 2, "log"},
