@@ -2,6 +2,7 @@
 #include "sim/beam/modes.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 #include <numbers>
@@ -24,6 +25,13 @@ void act(const ModesArguments& args) {
     std::optional<double> speed;
     if (args.speed) speed = signed_argument("--speed", *args.speed, dimension::kAngularSpeed);
     const std::vector<sim::Mode> modes = sim::natural_modes(scene.problem, speed);
+    std::vector<std::size_t> inaccurate = sim::unconverged_modes(modes, scene.problem, speed);
+    for (std::size_t& number : inaccurate) ++number;
+    if (!inaccurate.empty())
+        inform(args.common,
+               fmt::format("warning: not converged: mode{} {} would change by more than 1 % with more shapes; increase "
+                           "beam.modes",
+                           inaccurate.size() == 1 ? "" : "s", fmt::join(inaccurate, ", ")));
     if (args.common.json) {
         print_json(output::modes_json(modes));
         return;

@@ -1,6 +1,7 @@
 #include "sim/beam/modes.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -67,6 +68,18 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
         for (const double q : natural.shapes.col(j)) mode.q.push_back(sign * q + 0.0);  // no −0
     }
     return modes;
+}
+
+std::vector<std::size_t> unconverged_modes(const std::vector<Mode>& modes, const Problem& problem,
+                                           std::optional<double> speed) {
+    constexpr double kConverged = 0.01;
+    Problem finer = problem;
+    finer.beam.modes = std::min(2 * problem.beam.modes + 4, kMaxModes);
+    const std::vector<Mode> reference = natural_modes(finer, speed);
+    std::vector<std::size_t> all;
+    for (std::size_t i = 0; i < modes.size(); ++i)
+        if (std::abs(modes[i].omega - reference[i].omega) > kConverged * reference[i].omega) all.push_back(i);
+    return all;
 }
 
 }  // namespace beamcam::sim

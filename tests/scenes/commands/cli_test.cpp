@@ -48,6 +48,7 @@ TEST(CommandLine, EveryKeyIsExplained) {
     for (const auto& key : nlohmann::json::parse(shell(folder, "$BEAMCAM keys --json").out))
         EXPECT_GT(key["meaning"].get<std::string>().size(), 3u) << key;
     EXPECT_EQ(shell(folder, "$BEAMCAM keys nonsense").code, 2);
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys sped").err, HasSubstr("did you mean \"speed\"?"));
 }
 
 TEST(CommandLine, WrongUsageIsTwo) {
@@ -119,6 +120,14 @@ TEST(CommandLine, ModesOfTheRestingAndTheTurningBeam) {
     EXPECT_GT(turning, 3.89772252 - 1e-8);
     EXPECT_NEAR(turning, 3.89772252, 2e-6);
     EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json").out, HasSubstr("816.896"));
+}
+
+TEST(CommandLine, ModesThatAreNotConvergedAreNamed) {
+    const Folder folder;
+    folder.write("s.json", R"({"beam": {"model": "exact", "modes": 4}})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json").err,
+                HasSubstr("warning: not converged: modes 2, 3, 4 would change by more than 1 %"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM modes s.json --set beam.model=first-order").err, "");
 }
 
 TEST(CommandLine, ABadSceneIsThreeAndNothingIsWritten) {
