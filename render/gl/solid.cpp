@@ -57,19 +57,18 @@ void add_wall(Mesh& mesh, const DirtyTiles& tiles, const Perspective& view, doub
     });
 }
 
-// The tiles that the scene covers; all if a body is too near.
-DirtyTiles seen_tiles(const SolidScene& scene, const Box& picture) {
+// The tiles that bodies cover; all if a body is too near.
+DirtyTiles covered_tiles(const Mesh& bodies, const Perspective& view, const Box& picture) {
     constexpr double kAround = 2;  // margin for rounding [px]
     DirtyTiles tiles(static_cast<int>(picture.w), static_cast<int>(picture.h));
     std::vector<Vec2> places;
-    for (const MeshVertex& vertex : scene.mesh.vertices) {
-        if (!scene.view.is_before(place_of(vertex))) tiles.add_all();
-        places.push_back(scene.view.to_pixels(place_of(vertex)));
+    for (const MeshVertex& vertex : bodies.vertices) {
+        if (!view.is_before(place_of(vertex))) tiles.add_all();
+        places.push_back(view.to_pixels(place_of(vertex)));
     }
-    const std::vector<std::uint32_t>& corners = scene.mesh.corners;
-    for (std::size_t i = 0; i < corners.size(); i += 3) {
+    for (std::size_t i = 0; i < bodies.corners.size(); i += 3) {
         Bounds triangle;
-        for (std::size_t k = i; k < i + 3; ++k) triangle.add(places[corners[k]], kAround);
+        for (std::size_t k = i; k < i + 3; ++k) triangle.add(places[bodies.corners[k]], kAround);
         tiles.add(triangle.box());
     }
     return tiles;
@@ -152,10 +151,12 @@ SolidScene solid_scene(const MechanismShape& shape, const Palette& palette, cons
                {hinge.x + 0.8 * shape.hub, hinge.y, -0.75 * wide}, mix(metal, rgb(0), 0.12));
     const Box picture{0, 0, box.w, box.h};
     const double wall = kWallDepth * wide;
-    add_wall(scene.mesh, shadowed_tiles(bodies, view, wall, scene.reach, picture), view, wall);
+    const DirtyTiles shadows = shadowed_tiles(bodies, view, wall, scene.reach, picture);
+    add_wall(scene.mesh, shadows, view, wall);
     scene.wall = scene.mesh.corners.size();
     append(scene.mesh, bodies);
-    scene.seen = seen_tiles(scene, picture);
+    scene.seen = scene.bodies = covered_tiles(bodies, view, picture);
+    scene.seen.add(shadows);
     return scene;
 }
 

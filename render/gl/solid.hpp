@@ -44,7 +44,8 @@ struct SolidScene {
     double reach = 1;      // everything is within this distance of the origin [px]
     double shadow = 0.3;   // opacity
     double fade = 60;      // width in which shadows fade out at the edges of the picture [px]
-    DirtyTiles seen;       // the rest of the picture is transparent
+    DirtyTiles bodies;     // the tiles that bodies cover
+    DirtyTiles seen;       // these and the wall's; the rest of the picture is transparent
 };
 
 // `wide`: width of the beam across the plane of motion [px]. `rim`: colours around the disc, counter-clockwise from its

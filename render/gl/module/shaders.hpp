@@ -152,13 +152,25 @@ void main() {
     color = vec4(sqrt(clamp(c, 0.0, 1.0)).bgr, 1.0);
 })";
 
-// The wall shows only shadows.
+// The wall, whose normal is z, shows only shadows.
 inline constexpr const char* kWallFragment = R"(
 uniform float opacity, fade; uniform vec2 size;
 void main() {
-    float seen = light_that_arrives(dot(normalize(normal), light_near), 2.0, more_taps);
+    float seen = light_that_arrives(light_near.z, 2.0, more_taps);
     vec2 rim = smoothstep(0.0, fade, min(gl_FragCoord.xy, size - gl_FragCoord.xy));
     color = vec4(0.0, 0.0, 0.0, 0.62 * opacity * (1.0 - seen) * rim.x * rim.y);
+})";
+
+// Draws parts of the picture [px]: the means of the samples of the bodies.
+inline constexpr const char* kTileVertex = R"(#version 330 core
+layout(location = 0) in vec2 corner; uniform vec2 size;
+void main() { gl_Position = vec4(corner / size * 2.0 - 1.0, 0.0, 1.0); })";
+inline constexpr const char* kMeanFragment = R"(#version 330 core
+uniform sampler2DMS samples; out vec4 color;
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    color = 0.25 * (texelFetch(samples, at, 0) + texelFetch(samples, at, 1) + texelFetch(samples, at, 2) +
+                    texelFetch(samples, at, 3));
 })";
 
 inline constexpr const char* kDepthVertex = R"(#version 330 core

@@ -13,7 +13,9 @@
 namespace beamcam::render {
 namespace {
 
-SolidScene example() {
+constexpr Box kBox{0, 0, 960, 720};
+
+SolidScene example(const Perspective& view = Perspective::looking(kBox.centre(), 3000, 1, 0.3, 0.2)) {
     MechanismShape shape;
     for (int i = 0; i <= 40; ++i) {
         shape.face.push_back({100.0 + 12 * i, 500.0 - 8 * i});
@@ -23,9 +25,7 @@ SolidScene example() {
     shape.hinge = {100, 500};
     shape.hub = 20, shape.pin = 6;
     shape.disc = DiscShape{{240, 520}, {235, 515}, 50, 10, 0.3, {270, 510}, 5};
-    const Box box{0, 0, 960, 720};
-    return solid_scene(shape, palette(Theme::light), box, Perspective::looking(box.centre(), 3000, 1, 0.3, 0.2), 40, 1,
-                       {});
+    return solid_scene(shape, palette(Theme::light), kBox, view, 40, 1, {});
 }
 
 // Along the light to the wall.
@@ -85,12 +85,15 @@ TEST(SolidScene, ThePartsOfTheWallMeetAtThePixelsEdges) {
 
 TEST(SolidScene, TheSceneLiesWithinTheTilesThatAreSeen) {
     const SolidScene scene = example();
-    for (const MeshVertex& vertex : scene.mesh.vertices) {
-        const Vec2 at = pixel(scene, vertex.place);
+    for (std::size_t i = 0; i < scene.mesh.corners.size(); ++i) {
+        const Vec2 at = pixel(scene, place(scene, i));
+        const double around = i < scene.wall ? -1e-2 : 0;  // the wall ends at edges of tiles
         bool seen = false;
-        scene.seen.for_each_run([&](double left, double top, double right, double bottom) {
-            seen = seen || (at.x > left && at.x < right && at.y > top && at.y < bottom);
-        });
+        (i < scene.wall ? scene.seen : scene.bodies)
+            .for_each_run([&](double left, double top, double right, double bottom) {
+                seen = seen ||
+                       (at.x > left + around && at.x < right - around && at.y > top + around && at.y < bottom - around);
+            });
         ASSERT_TRUE(seen) << at.x << " " << at.y;
     }
 }
@@ -123,6 +126,38 @@ TEST(GlSolid, ASmallSceneAfterALargeOneLeavesNothingOfIt) {
     renderer->draw(small, after);
     fresh->draw(small, alone);
     EXPECT_TRUE(after == alone);
+    Image again, first;
+    fresh->draw(large, again);  // its buffers grow
+    make_lit_renderer(960, 720)->draw(large, first);
+    EXPECT_TRUE(again == first);
+}
+
+TEST(GlSolid, BodiesAreDrawnInTheirRegionAsInTheWholePicture) {
+    SKIP_WITHOUT_GL();
+    const auto renderer = make_lit_renderer(960, 720);
+    for (const double yaw : {-0.4, 0.0, 0.6})
+        for (const double zoom : {0.4, 1.0, 5.0})  // the largest: bodies partly outside the picture
+            for (const Vec2 centre : {Vec2{480, 360}, Vec2{203.3, 211.7}}) {
+                SolidScene scene = example(Perspective::looking(centre, 3000, zoom, yaw, 0.2));
+                Image part, whole;
+                make_lit_renderer(960, 720)->draw(scene, part);
+                scene.bodies.add_all();
+                renderer->draw(scene, whole);
+                EXPECT_TRUE(part == whole) << yaw << " " << zoom << " " << centre.x;
+            }
+}
+
+// Only the wall is seen, or nothing; then bodies again.
+TEST(GlSolid, BodiesMayBeOutsideThePicture) {
+    SKIP_WITHOUT_GL();
+    const auto renderer = make_lit_renderer(960, 720);
+    const SolidScene scene = example();
+    Image before, out, after;
+    renderer->draw(scene, before);
+    renderer->draw(example(Perspective::looking({5000, 360}, 3000, 1, 0.3, 0.2)), out);
+    EXPECT_TRUE(std::ranges::all_of(out.pixels, [](std::uint32_t pixel) { return pixel == 0; }));
+    renderer->draw(scene, after);
+    EXPECT_TRUE(before == after);
 }
 
 // The silhouette of a disc towards the light: normals that point away must not darken single pixels.
