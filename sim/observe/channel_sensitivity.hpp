@@ -34,6 +34,7 @@ class ChannelSensitivity {
 
     double cam_radius() const { return cam_radius_; }
     double gravity() const { return gravity_; }
+    double friction() const { return friction_; }  // largest coefficient
 
   private:
     using Group = ModeBasis::Group;

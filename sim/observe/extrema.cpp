@@ -75,7 +75,8 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
     for (const double sign : {1.0, -1.0}) {
         if (is_beaten(range, kind, sign, e)) continue;
         Candidates& candidates = candidates_[c][sign > 0 ? 0 : 1];
-        const double high = bound(range, sign);
+        const double high = bound(range, sign) - step_.modes().rounding(kind);
+        if (high <= best_so_far(kind, sign, e).to_beat()) continue;
         const bool promising = high > kHigherPromise * candidates.promise;
         if (promising) candidates.promise = high;
         if (promising && traits(kind).separation) {

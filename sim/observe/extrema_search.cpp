@@ -59,6 +59,7 @@ template <class F>
 bool ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples,
                                BestValue& best) {
     const Variation variation = step_.variation(s, channel, samples);
+    best.left_out = std::max(best.left_out, step_.modes().rounding(channel.kind));
     for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
     const auto [low, high] = std::ranges::minmax(samples);
     const double farthest = variation.strays(kWidestNodeGap * (s.to - s.from));

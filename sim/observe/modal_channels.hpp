@@ -53,6 +53,8 @@ class ModalChannels {
     // longest arm; of the kinetic energy, that without the change of inertia by bending.
     double estimate_error(Channel channel) const;
     double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
+    // What rounding of the beam's place and of terms that cancel changes it by.
+    double rounding(ChannelKind kind) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 

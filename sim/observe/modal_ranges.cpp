@@ -162,6 +162,25 @@ double ModalChannels::estimate_error(Channel channel) const {
     return error;
 }
 
+double ModalChannels::rounding(ChannelKind kind) const {
+    const double place = std::numeric_limits<double>::epsilon() * basis_.length;
+    switch (kind) {
+        case ChannelKind::gap:
+            return place;
+        case ChannelKind::contact_force:
+            return bounds_.force_per_depth * place;
+        case ChannelKind::friction_force:
+            return sensitivity_.friction() * bounds_.force_per_depth * place;
+        case ChannelKind::energy_contact:
+            return bounds_.force * place;
+        case ChannelKind::separation:
+        case ChannelKind::separation_paper:
+            return kValueRounding * 1.5 * sensitivity_.gravity();
+        default:
+            return 0;
+    }
+}
+
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
     if (traits(channel.kind).separation && (bounds_.part.modes->resolved || !system_.drive().prescribed())) {
         if (!separation_) separation_ = separation_range();

@@ -265,6 +265,22 @@ TEST(Extrema, OfRoundingAreNotSearched) {
     EXPECT_LE(searches_times_256(p, 1.2, {{ChannelKind::gap}}), 20);
 }
 
+// In free fall from rest the two terms of the separation cancel but for the vibration of the beam.
+TEST(Extrema, OfTermsThatCancelAreSearchedToTheirRounding) {
+    Problem p = turning_cam(ModelKind::second_order, 12, 0);
+    p.beam.length = 0.4218972468561271;
+    p.hub.radius = 0.0637391231415792;
+    p.hub.inertia = 0.6571014186244172;
+    p.cam->centre = {0.12535745030722154, -0.0743356430720854};
+    p.cam->radius = 0.050865309490653814;
+    p.cam->eccentricity = 0.007699867944892149;
+    p.cam->phase = 1.5902823026188275;
+    p.initial.angle = 0.7016651464462649;
+    p.beam.damping_ratio = {0.049104706207544487};
+    p.solver.rtol = 1e-10;
+    EXPECT_LE(searches_times_256(p, 0.6, {{ChannelKind::separation}, {ChannelKind::separation_paper}}), 40);
+}
+
 // Undamped vibration comes near its extrema again and again; the steps between impacts are many and short.
 TEST(Extrema, OfManyUndampedModesNeedFewSearches) {
     SKIP_UNDER_SANITIZERS();
