@@ -110,10 +110,14 @@ void Manifest::require_own(const fs::path& file) {
     if (const std::string why = damage(file); !why.empty())
         throw WouldOverwrite(
             fmt::format("{} exists, and {}; restore it, or replace the file with --force", file.string(), why));
-    throw WouldOverwrite(file.string() +
-                         (directory.known->contains(file.filename().string()) ? " was changed after beamcam made it"
-                                                                              : " exists and was not made by beamcam") +
-                         "; move it, choose another name, or replace it with --force");
+    throw WouldOverwrite(
+        file.string() +
+        (directory.known->contains(file.filename().string()) ? " was changed after beamcam made it"
+                                                             : " exists and was not made by beamcam") +
+        (path_exists(directory_of(file) / kDamagedName)
+             ? std::string(" (as far as known: a damaged list of files is kept as ") + kDamagedName + ")"
+             : "") +
+        "; move it, choose another name, or replace it with --force");
 }
 
 bool Manifest::is_up_to_date(const fs::path& file, const std::string& inputs) {
@@ -193,6 +197,8 @@ void Manifest::merge_journals(const fs::path& directory, std::unique_ptr<Journal
         files[name] = made ? *made : versions.back();
     }
     if (files != read_manifest(directory)) {
+        if (const std::string text = manifest_text(directory); !text.empty() && !damage_of_manifest(text).empty())
+            fs::rename(directory / kFileName, directory / kDamagedName);
         Target manifest(directory / kFileName);
         manifest.before_creation = [&](const fs::path& temporary) {
             own->add(journal_line(temporary.filename().string()));

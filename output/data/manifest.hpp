@@ -6,7 +6,7 @@
 // user's even if a run is killed at any instant.
 //
 // The manifest is replaced atomically and under a lock on its directory, so that several processes may use one
-// directory. A damaged manifest counts as empty and is replaced at the next `save`.
+// directory. A damaged manifest counts as empty; the next `save` replaces it and keeps it as kDamagedName.
 #pragma once
 
 #include <filesystem>
@@ -26,7 +26,7 @@ namespace beamcam::output {
 
 class Manifest {
   public:
-    static constexpr const char* kFileName = ".beamcam.json";
+    static constexpr const char *kFileName = ".beamcam.json", *kDamagedName = ".beamcam.json.damaged";
 
     explicit Manifest(bool force) : force_(force) {}
     // Saves unsaved records and ignores errors; call `save` to get them.

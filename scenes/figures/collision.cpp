@@ -32,7 +32,7 @@ std::string collision_caption(const Subject& subject, const sim::Collision& c, i
     const auto& [problem, units, lang, end] = subject;
     const sim::Collision* other = fewer ? collision_of(problem, *fewer, which) : nullptr;
     const auto digits = [&](double value, std::optional<double> otherwise) {
-        return supported(estimate(problem, value, otherwise));
+        return supported(estimate(subject.problem, value, otherwise));
     };
     std::string text = phrase(
         lang,

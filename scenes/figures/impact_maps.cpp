@@ -43,7 +43,7 @@ void spread_ratios(Panel& panel) {
 std::vector<std::pair<Panel, Translated>> impact_maps(const Subject& subject, const sim::Result& result, double from,
                                                       double to) {
     const auto& [problem, units, lang, end] = subject;
-    const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(lang) + which, "m/s"); };
+    const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(subject.lang) + which, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
     Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution", "恢复系数")),
           next = map_panel(speed(" $k$"), speed(" $k$\u00A0+\u00A01")), phase = map_panel(phase_label(lang), speed("")),

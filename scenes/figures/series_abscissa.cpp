@@ -72,8 +72,12 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
     // Seconds, as usual in print, unless the interval is short.
     if (!channel_ && range.high - range.low >= kShort) largest = 1;
     if (is_phase()) range.low = 0, range.high = 1;
+    const double extent = range.high - range.low;
     if (low_) range.low = *low_ + air;
     if (high_) range.high = *high_ - air;
+    // One limit beyond all curves still is the end of the axis.
+    if (low_ && !high_ && range.low >= range.high) range.high = range.low + extent;
+    if (high_ && !low_ && range.low >= range.high) range.low = range.high - extent;
     const Channel channel = channel_.value_or(Channel{});
     Measure measure = measure_of(unit(channel, problem), largest, units);
     std::string symbol = render::print_symbol(channel);

@@ -187,10 +187,16 @@ std::string parse_sample(std::string_view text, const sim::Problem& problem, sim
         sampling.rising = direction == "rising";
         value = value.substr(0, colon);
     }
-    const QuantityText level = parse_quantity(value);
+    std::string wrong = set_section(text.substr(kSection.size(), equals - kSection.size()), sampling, problem);
+    if (!wrong.empty()) return wrong;
+    const Dimension expected = dimension_of(sampling.channel, problem);
+    const QuantityText level = parse_quantity(value, &expected);
     if (!level.quantity) return level.problem;
+    if (!same(level.quantity->dimension, expected) && !same(level.quantity->dimension, dimension::kNone))
+        return fmt::format("{} is no value of {}, whose unit is {}", in_quotes(value), name(sampling.channel),
+                           si_unit(expected));
     sampling.level = level.quantity->value;
-    return set_section(text.substr(kSection.size(), equals - kSection.size()), sampling, problem);
+    return "";
 }
 
 std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {

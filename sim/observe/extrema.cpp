@@ -202,17 +202,17 @@ bool ExtremaFinder::search_candidate(std::size_t c, double sign, const Candidate
     std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
     if (!stored) stored = make_stored_segment(step.kind, step_.system());
     const SegmentInterval s{stored.get(), step.from, step.to, false};
-    if (loaded_ != &step) {
-        loaded_ = &step;
-        stored->load(step.t0, step.t1, step.numbers);
-        set_phase(step.phase);
-        step_.begin(s);
-    }
-    // The residual of a collocation step is searched for both signs at once.
-    if (step.kind == SegmentKind::exponential && channels_[c].kind == ChannelKind::energy_residual && step_.balance())
-        return true;
     try {
-        search_parts(s, channels_[c], sign, e);
+        if (loaded_ != &step) {
+            loaded_ = &step;
+            stored->load(step.t0, step.t1, step.numbers);
+            set_phase(step.phase);
+            step_.begin(s);
+        }
+        // The residual of a collocation step is searched for both signs at once.
+        const bool nodes_only =
+            channels_[c].kind == ChannelKind::energy_residual && step.kind == SegmentKind::exponential;
+        if (!nodes_only || !step_.balance()) search_parts(s, channels_[c], sign, e);
     } catch (const StepFailure&) {  // a run that failed, in the step before
         ++incomplete_;
     }

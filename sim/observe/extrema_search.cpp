@@ -129,7 +129,7 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) 
         search_parts(s, {kind}, sign, e);
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
-    if (!step_.errors_only(ChannelKind::gap)) raise(ChannelKind::gap, -1, of_gap);
+    if (!step_.system().phase().held) raise(ChannelKind::gap, -1, of_gap);
     peaks = {of_force.max, -of_gap.min};
 }
 

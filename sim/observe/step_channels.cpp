@@ -134,8 +134,12 @@ void StepChannels::sample_touch(const SegmentInterval& s) {
 
 bool StepChannels::errors_only(ChannelKind kind) {
     const System& of = system();
-    if (of.phase().held && traits(kind).zero_where_held) return true;
-    return at_rest_ && (traits(kind).zero_at_rest || !of.has_cam() || of.problem().cam->speed == 0);
+    const bool held = of.phase().held;
+    if (held && traits(kind).zero_where_held) return true;
+    if (!at_rest_) return false;
+    const bool driven =
+        of.drive().has_torque() || of.drive().prescribed() || (of.has_cam() && of.problem().cam->speed != 0);
+    return !driven || (traits(kind).zero_at_rest && (held || !traits(kind).separation));
 }
 
 // The state of a prescribed hub is that of its drive, not the solution.

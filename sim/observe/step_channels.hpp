@@ -31,8 +31,8 @@ class StepChannels {
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
     // In sustained impulsive contact the gap and the energy stored in it are zero but for errors: of rounding at the
-    // ends of steps, of the dense output within. Rates and accelerations of a beam at rest are zero but for errors, and
-    // if the cam does not turn either, all channels are constant.
+    // ends of steps, of the dense output within. Rates of a beam at rest, in such contact accelerations, too, are zero
+    // but for errors; if neither hub nor cam is driven, all channels are constant within a step.
     bool errors_only(ChannelKind kind);
     bool depends_on_bristle(ChannelKind kind) const {
         return bristled_ && (kind == ChannelKind::energy_contact || kind == ChannelKind::loss_contact ||

@@ -21,6 +21,7 @@ std::string si_unit(const Dimension& d) {
         {dim::kFrequency, "Hz"}, {dim::kSpringStiffness, "N/m"}, {dim::kSpringDamping, "N s/m"}};
     for (const auto& [known, name] : kNames)
         if (same(d, known)) return std::string(name);
+    if (d.mass == 1 && d.time == -2 && d.angle == 0 && d.length == 1) return "N";
     if (d.mass == 1 && d.time == -2 && d.angle == 0) return fmt::format("N/m^{:g}", 1 - d.length);
     std::string over, under;
     auto part = [](std::string& side, std::string_view symbol, double exponent) {

@@ -85,8 +85,14 @@ TEST(Manifest, TheRefusalNamesADamagedOne) {
     for (const char* part :
          {".beamcam.json, the list of the files that beamcam made, is damaged (line 3: ", "restore it", "--force"})
         EXPECT_NE(why.find(part), std::string::npos) << why;
+    // What replaces it keeps it.
+    const std::string list = read_file(scratch / Manifest::kFileName);
+    make(scratch / "b.csv", "second");
+    EXPECT_EQ(read_file(scratch / Manifest::kDamagedName), list);
+    EXPECT_NE(refusal(scratch / "a.csv").find("kept as .beamcam.json.damaged"), std::string::npos);
+    fs::remove(scratch / Manifest::kDamagedName);
     write_file(scratch / Manifest::kFileName, manifest_json({}));
-    EXPECT_NE(refusal(scratch / "a.csv").find("was not made by beamcam"), std::string::npos);
+    EXPECT_NE(refusal(scratch / "a.csv").find("was not made by beamcam; move it"), std::string::npos);
 }
 
 TEST(Manifest, ForgetsFilesThatAreGone) {

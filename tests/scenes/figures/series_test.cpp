@@ -128,7 +128,8 @@ TEST(Series, LimitsThatHideAllCurvesAreReported) {
     };
     EXPECT_THAT(figure("--low 70deg").err,
                 HasSubstr("warning: f.svg shows no curve: θ / ° is between 57.87 and 60, beyond the ends of its axis"));
-    EXPECT_THAT(figure("--x-low 1s --x-high 2s").err, HasSubstr("f.svg shows no curve: t / s is between 0 and 0.1"));
+    for (const char* limits : {"--x-low 1s --x-high 2s", "--x-low 1s", "--x-high=-1s"})
+        EXPECT_THAT(figure(limits).err, HasSubstr("f.svg shows no curve: t / s is between 0 and 0.1")) << limits;
     EXPECT_THAT(figure("--low 59deg").err, Not(HasSubstr("warning")));
     const Finished wrong = figure("--x theta_dot --x-low 1mm");
     EXPECT_EQ(wrong.code, 2);

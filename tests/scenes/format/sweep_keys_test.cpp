@@ -97,6 +97,10 @@ TEST(SweepKeys, HaveWordsOnTheCommandLine) {
         EXPECT_EQ(text_of_sample(sampling), text);
     }
     EXPECT_THAT(parse_sample("section:thet=0", {}, sampling), HasSubstr("\"theta\""));
+    EXPECT_EQ(parse_sample("section:theta=90deg", {}, sampling), "");
+    EXPECT_NEAR(sampling.level, std::numbers::pi / 2, 1e-15);
+    EXPECT_THAT(parse_sample("section:theta=3 m", {}, sampling), HasSubstr("whose unit is rad"));
+    EXPECT_THAT(parse_sample("section:contact_force=10 m", {}, sampling), HasSubstr("whose unit is N"));
     EXPECT_NE(parse_sample("every-day", {}, sampling), "");
     SweepSeeds seeds;
     EXPECT_EQ(parse_seeds("carry-up,carry-down", seeds), "");

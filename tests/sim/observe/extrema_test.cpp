@@ -324,6 +324,31 @@ TEST(Extrema, OfABeamAtRestNeedNoSearch) {
     EXPECT_LE(searches_times_256(p, 0.05, searched_channels(p)), 20);
 }
 
+// So stiff and damped that its rates are below the tolerance while the force follows the torque.
+TEST(Extrema, OfABeamAtRestUnderATorqueExceedEverySample) {
+    Problem p = turning_cam(ModelKind::first_order, 1, 0);
+    p.beam.youngs_modulus = 7e14;
+    p.beam.damping_ratio = {1};
+    p.contact.stiffness = 1e10;
+    p.initial.shape = InitialShape::resting;
+    p.hub.drive = HarmonicTorque{0.1, 3, 0};
+    p.solver.rtol = 1e-4;
+    p.solver.atol = 1e-6;
+    Request request;
+    request.end_time = 2;
+    request.extrema = {{ChannelKind::contact_force}, {ChannelKind::gap}};
+    const Result found = simulate(p, request);
+    const Table dense = sampled(p, request.extrema, instants(0, 2, 20'000));
+    for (std::size_t c = 0; c < request.extrema.size(); ++c) {
+        const auto [low, high] = std::ranges::minmax(dense.values[c]);
+        const double share = 1e-3 * (high - low);
+        EXPECT_GE(low, found.extrema[c].min - share) << name(request.extrema[c]);
+        EXPECT_LE(high, found.extrema[c].max + share) << name(request.extrema[c]);
+    }
+    ASSERT_FALSE(found.impacts.empty());
+    EXPECT_NEAR(-found.extrema[1].min, found.impacts.front().penetration_peak, 1e-12);
+}
+
 TEST(Extrema, OfOtherMethodsExceedEverySample) {
     SKIP_UNDER_SANITIZERS();
     for (const Method method : {Method::rk8, Method::cvode_adams, Method::cvode_bdf}) {
