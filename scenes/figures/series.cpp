@@ -79,10 +79,20 @@ Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const R
     return figure;
 }
 
+// Points are taken where the limits of a time axis show them.
+void keep_within_limits(SeriesPlan& plan) {
+    const SeriesKeys& keys = plan.keys;
+    if (keys.against != "t") return;
+    const double from = std::max(keys.from, keys.x_low.value_or(keys.from)),
+                 end = std::min(plan.end, keys.x_high.value_or(plan.end));
+    if (from < end) plan.keys.from = from, plan.end = end;
+}
+
 // `keys` has panels.
 FigureDrawing prepare_series(const Scene& scene, const SeriesKeys& keys, const SeriesPreset& preset, Lang lang,
                              Studies& studies) {
     SeriesPlan plan{keys, lang, keys.to.value_or(scene.end_time), SeriesAbscissa(keys, lang), scene.units};
+    keep_within_limits(plan);
     plan.horizon = preset.horizon;
     complete(plan, scene, studies);
     return [plan, preset](const Subject&, const Results& results) { return series_figure(plan, preset, results); };

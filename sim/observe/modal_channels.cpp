@@ -48,8 +48,7 @@ bool ModalChannels::accelerated_by_modes() const {
     return !bounds_.part.modes->resolved && !system_.drive().prescribed();
 }
 
-// θ̈ without what stiffness and damping cause: a polynomial.
-const ModalChannels::Forced& ModalChannels::forced() const {
+const ForcedAcceleration& ModalChannels::forced() const {
     if (forced_) return *forced_;
     const Collocation& gauss = Collocation::get();
     const ModalBounds& modes = *bounds_.part.modes;

@@ -15,6 +15,13 @@
 
 namespace beamcam::sim {
 
+// θ̈ in a step of the collocation without what stiffness and damping cause: a polynomial.
+struct ForcedAcceleration {
+    Lanes nodes{};                        // values [rad/s²]
+    std::array<double, kNodes> powers{};  // coefficients of (2s − 1)ʲ
+    double error = 0;                     // estimate, by its last terms
+};
+
 class ModalChannels {
   public:
     ModalChannels(System& system, const ModeBasis& basis);  // which must outlive it
@@ -59,12 +66,7 @@ class ModalChannels {
     void add_unresolved(Channel channel, Variation& out) const;
 
   private:
-    struct Forced {
-        Lanes nodes{};                        // values [rad/s²]
-        std::array<double, kNodes> powers{};  // coefficients of (2s − 1)ʲ
-        double error = 0;                     // estimate, by its last terms
-    };
-    const Forced& forced() const;
+    const ForcedAcceleration& forced() const;
     double drift(ChannelKind kind) const;
     double line_strays(Channel channel, double length) const;
     double pull() const { return 1.5 * sensitivity_.gravity() / basis_.length; }  // of gravity, per arm (S41)
@@ -81,7 +83,7 @@ class ModalChannels {
     PartBounds bounds_;
     ChannelSensitivity sensitivity_;
     mutable std::optional<Range> separation_;  // both channels have the same
-    mutable std::optional<Forced> forced_;
+    mutable std::optional<ForcedAcceleration> forced_;
     double cam_speed_ = 0, disc_speed_ = 0;
 };
 

@@ -136,6 +136,16 @@ TEST(Series, LimitsThatHideAllCurvesAreReported) {
     EXPECT_THAT(wrong.err, HasSubstr("--x-low = \"1mm\" has the wrong dimension (m); it is measured in rad/s"));
 }
 
+TEST(Series, LimitsOfATimeAxisSelectWhatIsDrawn) {
+    const auto drawn = [](const std::string& limits) {
+        return figure_of(R"("channels": ["theta"], "x": "t", )" + limits).panels[0];
+    };
+    const auto by_limits = drawn(R"("x_low": 0.05, "x_high": "60 ms")"),
+               by_times = drawn(R"("from": 0.05, "to": 0.06)");
+    EXPECT_EQ(by_limits.series[0].x, by_times.series[0].x);
+    EXPECT_EQ(by_limits.series[0].y, by_times.series[0].y);
+}
+
 // What a logarithmic panel leaves out stays on the axis that all panels share.
 TEST(Series, PanelsShareOneAxis) {
     const Figure figure =
