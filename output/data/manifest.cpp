@@ -197,8 +197,7 @@ void Manifest::merge_journals(const fs::path& directory, std::unique_ptr<Journal
         files[name] = made ? *made : versions.back();
     }
     if (files != read_manifest(directory)) {
-        if (const std::string text = manifest_text(directory); !text.empty() && !damage_of_manifest(text).empty())
-            fs::rename(directory / kFileName, directory / kDamagedName);
+        if (!damage(directory / kFileName).empty()) fs::rename(directory / kFileName, directory / kDamagedName);
         Target manifest(directory / kFileName);
         manifest.before_creation = [&](const fs::path& temporary) {
             own->add(journal_line(temporary.filename().string()));

@@ -167,7 +167,6 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
         mode.amplitude = amplitude[lane];
         mode.rate = speed[lane];
         mode.acceleration = acceleration[lane];
-        mode.force = force[lane];
         mode.set_frequencies(third[lane], fourth[lane]);
         const Oscillator& oscillator = form_->oscillators[i];
         if (!(oscillator.omega > 0))

@@ -16,8 +16,8 @@ class GapProbe {
     explicit GapProbe(System& system, bool apart = false);
 
     // Gap, its rate, slip, x and the normal of the contact as System::contact has them, to rounding; nothing else is
-    // filled in. `search`: the foot is not near that of the last evaluation. In contact the
-    // foot is followed, in flight a strongly bent beam is searched along its length.
+    // filled in. `search`: the foot is not near that of the last evaluation. In contact the foot is
+    // followed, in flight a strongly bent beam is searched along its length.
     ContactState evaluate(double t, const double* y, bool search);
     // Later results do not depend, not even by rounding, on earlier evaluations.
     void forget();

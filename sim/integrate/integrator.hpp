@@ -48,7 +48,6 @@ struct ModalBounds {
     struct Mode {
         double low = 0, high = 0;                          // of q [m]
         double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
-        double force = 0;                                  // of |q̈ + 2γq̇ + ω²q|
         // |q̈| ≤ q_frequency² amplitude, so for q̇ and q̈ [rad/s]
         double q_frequency = 0, rate_frequency = 0, acceleration_frequency = 0;
         // A free vibration or decay since the start of the step, which no polynomial through the nodes follows: bounds

@@ -78,7 +78,6 @@ ModalBounds::Mode PolynomialBounds::bound(std::size_t i, double h, Lanes& rate, 
     const double third = kNodeOvershoot * largest(jerk), fourth = kNodeOvershoot * largest(derivative(jerk, h));
     ModalBounds::Mode mode;
     mode.acceleration = kNodeOvershoot * largest(acceleration);
-    mode.force = kNodeOvershoot * largest(force);
     mode.amplitude = bound_between(largest_of(q_[i], first_[i + 1], last_[i + 1]), mode.acceleration, h);
     mode.rate = bound_between(largest_of(rate, first_rate_[i + 1], last_rate_[i + 1]), third, h);
     mode.set_frequencies(third, fourth);

@@ -196,7 +196,7 @@ double StepChannels::estimate(const SegmentInterval& s, Channel channel, double 
     y_ = shared.y;
     evaluator_.set(t, y_.data());
     if (probing_ && evaluator_.system().phase().touching) share_contact(t, shared);
-    return modal_channels_.longest_arm() * hub_acceleration(shared);
+    return modal_channels_.longest_arm() * share_hub_acceleration(shared);
 }
 
 StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel channel) {
@@ -223,7 +223,7 @@ double StepChannels::value_at(double t, Channel channel, Instant& shared) {
         if (shared.energies) evaluator_.set_energies(*shared.energies);
         shared.energies = evaluator_.energies();
     } else if (traits(channel.kind).separation) {
-        hub_acceleration(shared);
+        share_hub_acceleration(shared);
     }
     return evaluator_.value(channel);
 }
@@ -236,7 +236,7 @@ void StepChannels::share_contact(double t, Instant& shared) {
     shared.contact = evaluator_.contact();
 }
 
-double StepChannels::hub_acceleration(Instant& shared) {
+double StepChannels::share_hub_acceleration(Instant& shared) {
     if (shared.hub_acceleration) evaluator_.set_hub_acceleration(*shared.hub_acceleration);
     const bool touching = evaluator_.system().phase().touching;
     shared.hub_acceleration = evaluator_.hub_acceleration(touching ? evaluator_.contact() : ContactState{});

@@ -78,7 +78,7 @@ class StepChannels {
     const double* beam(const SegmentInterval& s, double t);
     double value_at(double t, Channel channel, Instant& shared);
     void share_contact(double t, Instant& shared);
-    double hub_acceleration(Instant& shared);
+    double share_hub_acceleration(Instant& shared);
     void forget();
     void search_again();
     void bound(const SegmentInterval& s);
