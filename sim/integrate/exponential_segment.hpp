@@ -5,12 +5,14 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "sim/integrate/fast_vibrations.hpp"
 #include "sim/integrate/integrator.hpp"
 #include "sim/integrate/modal_form.hpp"
+#include "sim/integrate/vibration_work.hpp"
 
 namespace beamcam::sim {
 
@@ -38,7 +40,7 @@ class ExponentialSegment final : public StoredSegment {
     void changed() {
         expanded_ = -1;
         transposed_ = hub_known_ = false;
-        bounds_known_ = modal_bounds_known_ = false;
+        bounds_known_ = modal_bounds_known_ = vibration_works_known_ = false;
     }
 
     SegmentKind numbers(std::vector<double>& out) const override;
@@ -95,12 +97,10 @@ class ExponentialSegment final : public StoredSegment {
     void evolve(std::size_t group, double t, double s, Lanes& x, Lanes& rate) const;
     void evolve_all(double t, double s, double* y) const;
     double structural_loss(std::size_t mode, double s, const double* y) const;
-    struct Polynomial;
-    struct ProductIntegral;
-    Polynomial steady_motion(std::size_t mode) const;
-    double work_on(std::size_t mode, const Polynomial& g, double s, const double* y) const;
-    double work_on_vibration(std::size_t mode, const Polynomial& g, double s, const double* y) const;
-    double work_on_decay(std::size_t mode, bool fast, const Polynomial& g, double s, const double* y) const;
+    struct VibrationWorks {  // by mode; none of those that the nodes resolve
+        std::vector<std::optional<VibrationWork>> forcing, torque;
+    };
+    const VibrationWorks& vibration_works() const;
     struct Largest {  // within the step, of a mode
         double force, amplitude, rate;
     };
@@ -132,6 +132,8 @@ class ExponentialSegment final : public StoredSegment {
     mutable std::vector<Largest> largest_;  // valid with `bounds_`
     mutable bool modal_bounds_known_ = false;
     mutable ModalBounds modal_bounds_;
+    mutable bool vibration_works_known_ = false;
+    mutable VibrationWorks vibration_works_;
     mutable bool hub_known_ = false;
     mutable Hub hub_;  // valid with `hub_known_`
     mutable int expanded_ = -1;
