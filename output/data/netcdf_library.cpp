@@ -1,5 +1,6 @@
 #include "output/data/netcdf_library.hpp"
 
+#include "render/base/error.hpp"
 #include "render/base/modules.hpp"
 
 namespace beamcam::output {
@@ -9,8 +10,8 @@ const NetcdfLibrary& netcdf_library() {
         static const auto* const library = static_cast<const NetcdfLibrary*>(render::load_module("beamcam_netcdf.so"));
         return *library;
     } catch (const render::ModuleError& error) {
-        throw UnsupportedOption(std::string("NetCDF files need its library (Debian: libnetcdf19 or newer): ") +
-                                error.what());
+        throw render::MissingPart(std::string("NetCDF files need its library (Debian: libnetcdf19 or newer): ") +
+                                  error.what());
     }
 }
 

@@ -145,7 +145,7 @@ ColumnTable orbit_columns(const BranchTable& branches, std::vector<std::pair<std
                      {"stable", "1", "1: the orbit is stable, 0: it is not"},
                      {"largest_multiplier", "1", "Largest magnitude of a multiplier"},
                      {"impact", "1", "Number of the impact"},
-                     {"cam_angle", "rad", "Angle of the cam at the impact, counted from the section"},
+                     {"cam_angle", "rad", "Angle of the cam at the impact"},
                      {"approach", "m/s", "Approach speed of the impact"},
                      {"x", "m", "Place of the impact along the beam"},
                      {"cam_phase", "1", "Of the section: turns of the cam after the scene's start"},

@@ -13,6 +13,7 @@ namespace beamcam::output {
 namespace {
 
 constexpr std::string_view kMagic = "beamcam points 1\n";
+constexpr std::uint64_t kLongestHead = 1024;  // with the identity, a digest
 
 // The header of a point in the file.
 struct Head {
@@ -36,27 +37,30 @@ std::uint64_t rest_of(const Head& head) { return (head.samples + head.state) * s
 
 }  // namespace
 
-PointStore::PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity)
+PointStore::PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity, bool replace)
     : path_(std::move(file)), file_(path_, O_RDWR | O_CREAT), places_(points, 0), numbers_(points, 0) {
     if (!file_) fail("cannot be made");
     if (!file_.try_lock() && errno == EWOULDBLOCK)
         throw IoError(path_.string() + ": another beamcam is making these points");
-    open_again(std::string(kMagic) + identity + "\n");
+    open_again(std::string(kMagic) + identity + "\n", replace);
 }
 
 void PointStore::fail(const char* what) const {
     throw IoError(fmt::format("{}: {} ({})", path_.string(), what, std::strerror(errno)));
 }
 
-void PointStore::open_again(const std::string& head) {
+void PointStore::open_again(const std::string& head, bool replace) {
     const std::uint64_t size = file_.size();
     const bool same = size >= head.size() && text_at(0, head.size()) == head;
     end_ = head.size();
     if (!same) {
-        const std::string magic = text_at(0, std::min<std::uint64_t>(size, kMagic.size()));
-        if (!kMagic.starts_with(magic))
+        const std::string other = text_at(0, std::min<std::uint64_t>(size, kLongestHead));
+        if (!kMagic.starts_with(other.substr(0, kMagic.size())))
             throw IoError(path_.string() + ": points would be kept here, but this file is not beamcam's; move it away");
-        dropped_others_ = size > head.size();
+        const std::size_t end = other.find('\n', kMagic.size());
+        if (end != other.npos && size > end + 1 && !replace)
+            throw IoError(path_.string() +
+                          ": has points of another sweep, or of another version of beamcam; --force discards them");
         if (ftruncate(file_.number(), 0) != 0 || !file_.write_at(0, head)) fail("cannot be written");
         return;
     }

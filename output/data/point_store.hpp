@@ -41,27 +41,25 @@ inline constexpr PointNumber kPointNumbers[] = {
 
 class PointStore {
   public:
-    // `identity` names the sweep: the points of a file with another one are dropped. Throws IoError, also when another
-    // program has the file open or the file is no store of points.
-    PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity);
+    // `identity` names the sweep. Throws IoError, also when another program has the file open, the file is no store of
+    // points, or it has points of another sweep and these are not to be replaced.
+    PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity, bool replace = false);
 
     bool has(std::uint64_t point) const { return places_[point] != 0; }
     std::uint64_t count() const { return count_; }
-    bool dropped_others() const { return dropped_others_; }                       // points with another identity
     std::uint64_t numbers(std::uint64_t point) const { return numbers_[point]; }  // of its samples
     StoredPoint read(std::uint64_t point) const;                                  // throws IoError
     void add(const StoredPoint& point);  // any thread, each a point of its own; throws IoError
     void remove();                       // its name, when the points are elsewhere; those that are open can be read
 
   private:
-    void open_again(const std::string& head);
+    void open_again(const std::string& head, bool replace);
     void place(std::uint64_t point, std::uint64_t samples, std::uint64_t size);
     [[noreturn]] void fail(const char* what) const;
     std::string text_at(std::uint64_t at, std::size_t size) const;
 
     std::filesystem::path path_;
     Descriptor file_;
-    bool dropped_others_ = false;
     std::mutex mutex_;  // of adding
     std::uint64_t end_ = 0, count_ = 0;
     std::vector<std::uint64_t> places_;   // by point; 0: not there

@@ -4,8 +4,9 @@
 namespace beamcam::output {
 
 struct Work {
-    long integrations = 0;  // of equations of motion; a horizon takes two
+    long integrations = 0;  // of equations of motion, except for sweeps; a horizon takes two
     long steps = 0, rhs_evaluations = 0, gap_evaluations = 0;
+    long sweep_points = 0;  // computed
     long trajectories_from_cache = 0, trajectories_kept = 0;
     long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
     long frames_drawn = 0, figures_drawn = 0;
@@ -24,6 +25,7 @@ void for_each_count(const Work& w, Visit visit) {
     visit("steps", w.steps);
     visit("rhs_evaluations", w.rhs_evaluations);
     visit("gap_evaluations", w.gap_evaluations);
+    visit("sweep_points", w.sweep_points);
     visit("trajectories_from_cache", w.trajectories_from_cache);
     visit("trajectories_kept", w.trajectories_kept);
     visit("font_sets", w.font_sets);

@@ -181,7 +181,7 @@ int report(const std::exception& e) {
     if (is_one_of<UsageError, NameClash>(e)) return fail(kUsage, text);
     if (is_one_of<UnreadableFile>(e)) return fail(kInputOutput, text);
     if (is_one_of<std::bad_alloc>(e)) return fail(kInputOutput, render::out_of_memory_message());
-    if (is_one_of<sim::Interrupted>(e)) return fail(kInterrupted, "interrupted; nothing half-written is left");
+    if (is_one_of<sim::Interrupted>(e)) return fail(kInterrupted, "interrupted; no output is half-written");
     if (is_one_of<output::UnsupportedOption, Incomplete, render::PictureError>(e))
         return fail_or_blame_memory(kBadScene, text);
     if (const auto* solver = dynamic_cast<const sim::SolverError*>(&e))

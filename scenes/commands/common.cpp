@@ -53,7 +53,7 @@ void add_lang(Command& app, Lang& lang) { app.choice("--lang", lang, kLanguages,
 
 void add_work(Command& app, Common& common) {
     app.flag("-v,--verbose", common.verbose, "Print where the time was spent, and counts of the work");
-    add_jobs(app, common, "Largest number of threads that draw");
+    add_jobs(app, common, "Largest number of threads");
     add_progress(app, common);
     app.flag("--force", common.force,
              "Replace existing files, even those that beamcam did not make, and make files again that are up to date");

@@ -21,16 +21,25 @@ struct LyapunovArguments {
     int count = 0, blocks = 20;
 };
 
-const char* verdict(sim::Chaos chaos) {
-    switch (chaos) {
+// The first reason why no chaos is shown.
+const char* reason(const sim::Exponents& e) {
+    if (e.impacts == 0) return "there were no impacts";
+    if (!e.settled) return "the motion had not settled; a longer --transient may help";
+    if (!(e.lambda.front() > 0)) return "the largest exponent is not positive";
+    if (!(e.lambda.front() > 3 * e.error.front()))
+        return "the largest exponent does not exceed three times its error; a longer --duration may help";
+    return "differences grow by less than e³ in the second half";
+}
+
+std::string verdict(const sim::Exponents& e) {
+    switch (e.chaos()) {
         case sim::Chaos::shown:
             return "the motion is chaotic: the largest exponent exceeds its error\n";
         case sim::Chaos::doubtful:
             return "it is doubtful whether the motion is chaotic: without the contribution of near-grazing impacts the "
                    "largest exponent does not exceed its error\n";
         case sim::Chaos::not_shown:
-            return "no chaos is shown: the largest exponent does not exceed its error, differences grow by less than "
-                   "e³ in the second half, the motion had not settled, or there were no impacts\n";
+            return fmt::format("no chaos is shown: {}\n", reason(e));
     }
     return "";
 }
@@ -46,7 +55,7 @@ std::string exponents_text(const sim::Exponents& e) {
                     : fmt::format("  {:3}  {:>16}\n", i + 1, "-inf");
     }
     text += fmt::format("  sum  {:16.12g}\n", sum);
-    return text + verdict(e.chaos());
+    return text + verdict(e);
 }
 
 void act(const LyapunovArguments& args) {

@@ -227,6 +227,10 @@ int act(const OrbitsArguments& args) {
     reject_unused_options(args);
     output::Manifest manifest(args.common.force);
     require_writable_files(args, manifest);
+    if (args.sweep_file)
+        if (const std::string keys = differences_from_sweep(scene.problem, *args.sweep_file); !keys.empty())
+            inform(args.common,
+                   fmt::format("warning: --sweep {}: of another scene, with other {}", *args.sweep_file, keys));
     SweptImpacts swept;
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "scenes/figures/figure_files.hpp"
@@ -41,6 +42,7 @@ void require_writable(const char* option, const std::vector<std::string>& files,
     for (const std::string& file : files) {
         require_ending_or_stdout(option, file, endings);
         if (file == "-") continue;
+        if (file.ends_with(".nc")) output::netcdf_library();  // fails here where it is missing
         manifest.require_replaceable(file);
         output::AtomicFile(manifest.target(file));  // created and removed: fails here where it cannot be written
     }

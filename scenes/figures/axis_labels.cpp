@@ -33,11 +33,14 @@ std::string symbol_of(const std::string& name) {
     return render::escaped(name);
 }
 
-// "rad/s" becomes "rad s^{−1}".
+// "rad/s" becomes "rad s^{−1}", "kg m^2" "kg m^{2}".
 static std::string print_unit(const std::string& unit) {
     const std::size_t slash = unit.find('/');
-    if (slash == std::string::npos) return unit;
-    const std::string over = unit.substr(0, slash), under = unit.substr(slash + 1);
+    std::string over = unit.substr(0, slash);
+    if (const std::size_t power = over.find('^'); power != std::string::npos)
+        over = fmt::format("{}^{{{}}}", over.substr(0, power), over.substr(power + 1));
+    if (slash == std::string::npos) return over;
+    const std::string under = unit.substr(slash + 1);
     const std::size_t power = under.find('^');
     return fmt::format("{}{}^{{−{}}}", over == "1" ? "" : over + " ", under.substr(0, power),
                        power == std::string::npos ? "1" : under.substr(power + 1));

@@ -46,7 +46,7 @@ figure::Panel class_strip(const SweptPoints& points) {
     const std::vector<std::optional<std::size_t>> cell = strip_cells(points);
     const std::uint64_t lanes = lanes_of(points);
     figure::Cells cells;
-    cells.x = edges_around(values);
+    cells.x = edges_around(values, points.scale(0));
     for (std::uint64_t lane = 0; lane <= lanes; ++lane) cells.y.push_back(static_cast<double>(lane));
     cells.colors.assign(values.size() * lanes, Color{0, 0, 0, 0});
     std::map<AttractorClass, bool> shown;
@@ -130,7 +130,7 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
     }
     std::vector<std::string> names;
     for (const figure::Swatch& each : classes) names.push_back(each.label);
-    panel.title = phrase(points.lang, "No settled point to draw; motions: {}", "没有可绘制的点；运动：{}",
+    panel.title = phrase(points.lang, "No samples to draw; motions: {}", "没有可绘制的点；运动：{}",
                          fmt::join(names, phrase(points.lang, ", ", "、")));
     panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};  // numbers would be invented
     panel.legend = figure::Legend::none;

@@ -79,6 +79,17 @@ BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lan
     return out;
 }
 
+// At the ends of the branches.
+std::vector<sim::Problem> problems_along(const output::BranchTable& table, const sim::Problem& problem) {
+    std::vector<sim::Problem> out;
+    for (const sim::Branch& branch : table.branches) {
+        if (branch.points.empty()) continue;
+        for (const sim::BranchPoint* end : {&branch.points.front(), &branch.points.back()})
+            set_number(out.emplace_back(problem), table.key, end->parameter);
+    }
+    return out;
+}
+
 std::string branches_caption(const output::BranchTable& table, const std::string& special, bool with_sweep,
                              const Scene& scene, Lang lang) {
     return phrase(lang,
@@ -89,7 +100,7 @@ std::string branches_caption(const output::BranchTable& table, const std::string
                   "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
                   symbol_of(table.key), special,
                   !with_sweep ? "" : phrase(lang, "Dots: impacts of a sweep. ", "点：扫描所得碰撞。"),
-                  facts(subject_of(scene, lang), {.cam_speed = table.key == "cam.speed"}));
+                  facts(subject_of(scene, lang), {.others = problems_along(table, scene.problem)}));
 }
 
 }  // namespace
@@ -98,7 +109,7 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     const auto key = sim::number_key(scene.problem, table.key);
     const Measure shown = measure_in(scene.units, key ? sim::si_unit(key->dimension) : "");
     BranchCurves curves = curves_of(table, shown.factor, lang);
-    Panel panel{.x = {.label = axis_label(symbol_of(table.key), shown.unit), .tight = true},
+    Panel panel{.x = {.label = axis_label(symbol_of(table.key), shown.unit)},
                 .y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")},
                 .legend = render::figure::Legend::box,
                 .name = "branches"};

@@ -37,7 +37,7 @@ std::string shapes_fact(const sim::Problem& p, Lang lang) {
                   count == 1 ? "" : "s");
 }
 
-std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, Varied varied) {
+std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, const Varied& varied) {
     if (p.beam.model == sim::ModelKind::rigid && !varied.model) return {phrase(lang, "rigid beam", "刚性梁")};
     std::vector<std::string> out;
     if (!varied.model) out.push_back(phrase(lang, "model {}", "{}", model_name(p.beam.model, lang)));
@@ -108,12 +108,11 @@ std::vector<std::string> start_facts(const sim::Problem& p, render::SpeedUnit un
     return out;
 }
 
-std::vector<std::string> cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang, Varied varied) {
+std::vector<std::string> cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang) {
     std::vector<std::string> out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
                                  fmt::format("$R$ = {} m", number(c.radius, 4)),
                                  fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
                                  fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
-    if (varied.cam_speed) return out;
     if (c.speed == 0)
         out.push_back(phrase(lang, "cam at rest", "凸轮静止"));
     else
@@ -142,14 +141,51 @@ std::vector<std::string> contact_facts(const sim::Problem& p, Lang lang) {
                           ? phrase(lang, "no dissipation in the contact", "接触无耗散")
                           : fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), restitution));
     } else {
-        out.push_back(phrase(lang, "impulsive contact ({}), $c_{{\\r{{r}}}}$ = {}",
-                             "冲量接触（{}），$c_{{\\r{{r}}}}$ = {}", name(p.contact.law), restitution));
+        out.push_back(phrase(lang, "impulsive contact ({})", "冲量接触（{}）", name(p.contact.law)));
+        out.push_back(fmt::format("$c_{{\\r{{r}}}}$ = {}", restitution));
     }
     out.push_back(friction_fact(p.contact.friction, lang));
     const double d = contact_offset(p);
     out.push_back(d == 0 ? phrase(lang, "contact on the centre line", "接触发生在中心线上")
                          : phrase(lang, "contact face {} m off the centre line", "接触面距中心线 {} m", number(d, 4)));
     return out;
+}
+
+std::vector<std::string> beam_list(const Subject& of, const Varied& varied) {
+    const auto& [p, units, lang, end] = of;
+    const sim::Beam& b = p.beam;
+    std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
+                                 fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
+                                 fmt::format("$ρ$ = {} kg m^{{−3}}", number(b.density, 6))};
+    if (b.model != sim::ModelKind::rigid || varied.model) {
+        out.push_back(fmt::format("$I$ = {} m^{{4}}", number(b.second_moment, 5)));
+        out.push_back(fmt::format("$E$ = {} Pa", number(b.youngs_modulus, 5)));
+    }
+    out.push_back(fmt::format("$g$ = {} m s^{{−2}}", number(p.gravity, 5)));
+    out.push_back(fmt::format("$a$ = {} m", number(p.hub.radius, 4)));
+    out.push_back(fmt::format("$I_{{\\r{{h}}}}$ = {} kg m^{{2}}", number(p.hub.inertia, 4)));
+    out.push_back(drive_fact(p.hub.drive, units.speed, lang));
+    for (const auto& more : {start_facts(p, units.speed, lang), model_facts(p, lang, varied)})
+        out.insert(out.end(), more.begin(), more.end());
+    return out;
+}
+
+std::vector<std::string> cam_list(const Subject& of, const Varied&) {
+    if (!of.problem.cam) return {};
+    std::vector<std::string> out = cam_facts(*of.problem.cam, of.units.speed, of.lang);
+    for (std::string& fact : contact_facts(of.problem, of.lang)) out.push_back(std::move(fact));
+    return out;
+}
+
+// The facts of the subject that the others share, separated by commas.
+std::string shared(const Subject& of, const Varied& varied,
+                   std::vector<std::string> (*list)(const Subject&, const Varied&)) {
+    std::vector<std::string> out = list(of, varied);
+    for (const sim::Problem& other : varied.others) {
+        const std::vector<std::string> theirs = list({other, of.units, of.lang}, varied);
+        std::erase_if(out, [&](const std::string& fact) { return std::ranges::find(theirs, fact) == theirs.end(); });
+    }
+    return fmt::format("{}", fmt::join(out, phrase(of.lang, ", ", "，")));
 }
 
 // Equal in the digits that the paper prints.
@@ -195,34 +231,16 @@ std::string grouped(double value, int decimals) {
     return out;
 }
 
-std::string beam_facts(const Subject& of, Varied varied) {
-    const auto& [p, units, lang, end] = of;
-    const sim::Beam& b = p.beam;
-    std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
-                                 fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
-                                 fmt::format("$ρ$ = {} kg m^{{−3}}", number(b.density, 6))};
-    if (b.model != sim::ModelKind::rigid || varied.model) {
-        out.push_back(fmt::format("$I$ = {} m^{{4}}", number(b.second_moment, 5)));
-        out.push_back(fmt::format("$E$ = {} Pa", number(b.youngs_modulus, 5)));
-    }
-    out.push_back(fmt::format("$g$ = {} m s^{{−2}}", number(p.gravity, 5)));
-    out.push_back(fmt::format("$a$ = {} m", number(p.hub.radius, 4)));
-    out.push_back(fmt::format("$I_{{\\r{{h}}}}$ = {} kg m^{{2}}", number(p.hub.inertia, 4)));
-    out.push_back(drive_fact(p.hub.drive, units.speed, lang));
-    for (const auto& more : {start_facts(p, units.speed, lang), model_facts(p, lang, varied)})
-        out.insert(out.end(), more.begin(), more.end());
-    return phrase(lang, "Beam and hub: {}.", "梁与轮毂：{}。", fmt::join(out, phrase(lang, ", ", "，")));
+std::string beam_facts(const Subject& of, const Varied& varied) {
+    return phrase(of.lang, "Beam and hub: {}.", "梁与轮毂：{}。", shared(of, varied, beam_list));
 }
 
-std::string facts(const Subject& of, Varied varied) {
-    const auto& [p, units, lang, end] = of;
-    if (!p.cam) return beam_facts(of, varied);
-    std::vector<std::string> out = cam_facts(*p.cam, units.speed, lang, varied);
-    for (std::string& fact : contact_facts(p, lang)) out.push_back(std::move(fact));
-    std::string text =
-        beam_facts(of, varied) + phrase(lang, " ", "") +
-        phrase(lang, "Cam and contact: {}.", "凸轮与接触：{}。", fmt::join(out, phrase(lang, ", ", "，")));
-    if (is_of_the_paper(p))
+std::string facts(const Subject& of, const Varied& varied) {
+    const Lang lang = of.lang;
+    if (!of.problem.cam) return beam_facts(of, varied);
+    std::string text = beam_facts(of, varied) + phrase(lang, " ", "") +
+                       phrase(lang, "Cam and contact: {}.", "凸轮与接触：{}。", shared(of, varied, cam_list));
+    if (is_of_the_paper(of.problem) && std::ranges::all_of(varied.others, is_of_the_paper))
         text += phrase(lang,
                        " The paper prints neither $a$, $I_{\\r{h}}$, $e$, $ψ_{0}$ nor the constants of contact and "
                        "damping; these values are assumptions.",

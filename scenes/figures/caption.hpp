@@ -55,16 +55,17 @@ inline Subject subject_of(const Scene& scene, Lang lang) { return {scene.problem
 std::string model_name(sim::ModelKind model, Lang lang);  // "first-order", "一阶模型"
 std::string shapes_name(sim::Basis basis, Lang lang);     // "hub–beam", "轮毂–梁"
 
-// Parameters that a figure varies from curve to curve, and that the facts omit.
+// What a figure varies from curve to curve or from point to point, and the facts omit.
 struct Varied {
-    bool model = false, modes = false, cam_speed = false;
+    bool model = false, modes = false;
+    std::vector<sim::Problem> others{};  // a fact that one of them does not share is left out
 };
 
 // Beam, hub, drive and start; with a cam also the cam and the contact. Speeds are in the subject's unit, angles
 // in degrees.
-std::string facts(const Subject& of, Varied varied = {});
+std::string facts(const Subject& of, const Varied& varied = {});
 // Beam, hub, drive and start alone.
-std::string beam_facts(const Subject& of, Varied varied = {});
+std::string beam_facts(const Subject& of, const Varied& varied = {});
 
 // Speeds of the cam in the paper's figure 6 [rad/s].
 inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};

@@ -55,7 +55,8 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
     const Lang lang = subject.lang;
     std::vector<Panel> panels{panel_of(e, e.lambda.size(), lang)};
     if (panels[0].series.empty())
-        throw render::PictureError("exponents: all are −∞, because the contact lasts; there is nothing to draw");
+        throw render::PictureError(
+            "exponents: all are −∞, because sustained contact removes every difference; there is nothing to draw");
     const std::size_t largest = count_of_largest(e);
     const bool both = largest > 0 && largest < panels[0].series.size();
     if (both) panels.insert(panels.begin(), panel_of(e, largest, lang));

@@ -39,7 +39,8 @@ double map_value(const SweptPoints& points, const output::StoredPoint& p, const 
 
 std::string map_label(const SweptPoints& points, const std::string& value) {
     if (value == "exponent") return phrase(points.lang, "largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}");
-    if (value == "impacts_per_period") return phrase(points.lang, "impacts per period", "每周期碰撞次数");
+    if (value == "impacts_per_period")
+        return phrase(points.lang, "impacts per period, or per turn of the cam", "每周期（或每转）碰撞次数");
     return phrase(points.lang, "mean of ", "平均 ") + column_label(points, points.column(value));
 }
 
@@ -79,6 +80,9 @@ std::string white_cells_text(const SweptPoints& points, const std::string& value
         return phrase(points.lang,
                       "White: the exponent is unknown, or −∞ because lasting contact removes every difference.",
                       "白色：指数未知，或持续接触使一切差异消失（−∞）。");
+    if (value == "impacts_per_period")
+        return phrase(points.lang, "Where there is no period: impacts in a turn of the cam. White: neither is known.",
+                      "无周期处为凸轮每转的碰撞次数。白色：二者均未知。");
     return phrase(points.lang, "White: no sample.", "白色：无样本。");
 }
 
@@ -88,10 +92,11 @@ figure::Figure key_map(const SweptPoints& points, const std::string& chosen) {
     const std::string value = chosen.empty() ? kMapValues[0] : chosen;
     const output::SweepAxis &across = points.axis(0), &up = points.axis(1);
     const std::vector<std::size_t> column = ranks(across.values), row = ranks(up.values);
-    figure::Panel panel{.x = {.label = label_of(across), .scale = points.scale(0), .tight = true},
-                        .y = {.label = label_of(up), .scale = points.scale(1), .tight = true},
-                        .cells = {{edges_around(across.values), edges_around(up.values), {}}},
-                        .name = value};
+    figure::Panel panel{
+        .x = {.label = label_of(across), .scale = points.scale(0), .tight = true},
+        .y = {.label = label_of(up), .scale = points.scale(1), .tight = true},
+        .cells = {{edges_around(across.values, points.scale(0)), edges_around(up.values, points.scale(1)), {}}},
+        .name = value};
     panel.cells[0].colors.assign(across.values.size() * up.values.size(), Color{0, 0, 0, 0});
     std::vector<output::StoredPoint> entries;  // of the first start; `point` is the place of its cell
     for (std::uint64_t k = 0; k < points.data.points(); k += points.seeds()) {

@@ -28,13 +28,16 @@ std::string impacts_text(const sim::Problem& problem, const sim::Result& result,
 // The facts of all motions where they differ by the cam's speed alone, else those of the first.
 std::string common_facts(const std::vector<SeriesMotion>& motions, const render::Units& units, Lang lang) {
     const SeriesMotion& first = motions.front();
-    const bool alike = first.problem.cam && std::ranges::all_of(motions, [&](const SeriesMotion& each) {
-                           sim::Problem other = each.problem;
-                           if (other.cam) other.cam->speed = first.problem.cam->speed;
-                           return Studies::key(other) == Studies::key(first.problem);
-                       });
-    if (motions.size() == 1 || alike) return facts({first.problem, units, lang}, {.cam_speed = motions.size() > 1});
-    return phrase(lang, "Of {}: ", "{}：", first.label) + facts({first.problem, units, lang});
+    const bool alike =
+        motions.size() == 1 || (first.problem.cam && std::ranges::all_of(motions, [&](const SeriesMotion& each) {
+                                    sim::Problem other = each.problem;
+                                    if (other.cam) other.cam->speed = first.problem.cam->speed;
+                                    return Studies::key(other) == Studies::key(first.problem);
+                                }));
+    if (!alike) return phrase(lang, "Of {}: ", "{}：", first.label) + facts({first.problem, units, lang});
+    Varied varied;
+    for (const SeriesMotion& motion : motions) varied.others.push_back(motion.problem);
+    return facts({first.problem, units, lang}, varied);
 }
 
 // The first panel, "(c)", of a motion with separate panels. A panel of differences follows those of the motion with

@@ -8,9 +8,11 @@
 #include <stdexcept>
 
 #include "render/base/error.hpp"
+#include "render/plot/channel_label.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/swept_points.hpp"
+#include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -26,14 +28,68 @@ std::string span_text(const sim::CamSpan& span, Lang lang) {
     return phrase(lang, "{:g} turns of the cam", "凸轮 {:g} 转", span.turns);
 }
 
+// "θ₀ = 0.1 … 0.4 rad"
+std::string range_text(const std::string& key, double low, double high, const std::string& unit) {
+    const std::string last = with_unit(number(high, 6), unit), name = symbol_of(key);
+    return low == high ? fmt::format("{} = {}", name, last) : fmt::format("{} = {} … {}", name, number(low, 6), last);
+}
+
 std::string axes_text(const SweptPoints& points) {
     std::string text;
-    for (const output::SweepAxis& axis : points.axes())
-        text +=
-            phrase(points.lang, "{} = {:.6g} … {:.6g}{} in {} values; ", "{} = {:.6g} … {:.6g}{}，共 {} 值；",
-                   symbol_of(axis.name), *std::ranges::min_element(axis.values), *std::ranges::max_element(axis.values),
-                   axis.unit == "1" ? "" : " " + axis.unit, axis.values.size());
+    for (std::size_t i = 0; i < points.axes().size(); ++i) {
+        const output::SweepAxis& axis = points.axis(i);
+        const auto [low, high] = std::ranges::minmax(axis.values);
+        text += range_text(axis.name, low, high, axis.unit);
+        if (low != high)
+            text += phrase(points.lang, " in {} values{}", "，共 {} 值{}", axis.values.size(),
+                           points.scale(i) == render::Scale::linear
+                               ? ""
+                               : phrase(points.lang, " of a logarithmic scale", "（对数分布）"));
+        text += phrase(points.lang, "; ", "；");
+    }
     return text;
+}
+
+std::string sample_text(const SweptPoints& points) {
+    const sim::Sampling& s = points.scene.sweep->sampling;
+    const bool crossing = s.kind == sim::SampleKind::crossings;
+    if (!crossing && s.kind != sim::SampleKind::section)
+        return s.kind == sim::SampleKind::impacts ? phrase(points.lang, "at impacts", "碰撞时刻")
+                                                  : phrase(points.lang, "at apexes", "极点时刻");
+    const Measure in = measure_in(points.scene.units, crossing ? sim::unit(s.channel, points.scene.problem) : "rad");
+    const std::string level = with_unit(number(in.factor * s.level, 6), in.unit);
+    if (!crossing) return phrase(points.lang, "where the cam's angle is {}", "凸轮转角为 {} 处", level);
+    return phrase(points.lang, s.rising ? "where {} rises through {}" : "where {} falls through {}",
+                  s.rising ? "{} 升过 {} 处" : "{} 降过 {} 处", render::print_symbol(s.channel), level);
+}
+
+bool has_random_starts(const SweptPoints& points) {
+    return std::ranges::count(points.scene.sweep->seeds.kinds, SeedKind::random) > 0;
+}
+
+// ": θ₀ = 0.1 … 0.4 rad, …"
+std::string random_text(const SweptPoints& points) {
+    std::vector<std::string> ranges;
+    for (const RandomKey& each : random_keys(*points.scene.sweep, points.scene.problem)) {
+        const Measure in =
+            measure_in(points.scene.units, si_unit(sim::number_key(points.scene.problem, each.key)->dimension));
+        ranges.push_back(range_text(each.key, in.factor * each.from, in.factor * each.to, in.unit));
+    }
+    return phrase(points.lang, " with {}", "：{}", fmt::join(ranges, phrase(points.lang, ", ", "，")));
+}
+
+// The scene's problem at the ends of all ranges.
+std::vector<sim::Problem> problems_at_ends(const SweptPoints& points) {
+    std::vector<sim::Problem> out;
+    const auto add = [&](const std::string& key, double value) {
+        set_number(out.emplace_back(points.scene.problem), key, value);
+    };
+    for (const output::SweepAxis& axis : points.data.axes)
+        for (const double value : {std::ranges::min(axis.values), std::ranges::max(axis.values)}) add(axis.name, value);
+    if (has_random_starts(points))
+        for (const RandomKey& each : random_keys(*points.scene.sweep, points.scene.problem))
+            add(each.key, each.from), add(each.key, each.to);
+    return out;
 }
 
 std::string starts_text(const SweptPoints& points) {
@@ -42,7 +98,8 @@ std::string starts_text(const SweptPoints& points) {
         if (k > 0 && points.seed(k) == points.seed(k - 1)) continue;
         text += (k > 0 ? phrase(points.lang, ", ", "、") : "") + look_of(points.seed(k)).label.in(points.lang);
     }
-    return points.seeds() > 3 ? fmt::format("{} ({})", text, points.seeds()) : text;
+    if (points.seeds() > 3) text += fmt::format(" ({})", points.seeds());
+    return has_random_starts(points) ? text + random_text(points) : text;
 }
 
 // How many points are of each class.
@@ -64,8 +121,8 @@ std::string sweep_caption(const SweptPoints& points) {
     }
     const sim::Sampling& s = points.scene.sweep->sampling;
     std::string text = axes_text(points);
-    text += phrase(points.lang, "samples: {}; transient {}, then {} kept; starts: {}. Points: ",
-                   "样本：{}；舍去 {}，保留 {}；初值：{}。点数：", text_of_sample(s),
+    text += phrase(points.lang, "samples {}; transient {}, then {} kept; starts: {}. Points: ",
+                   "样本：{}；舍去 {}，保留 {}；初值：{}。点数：", sample_text(points),
                    span_text(s.transient, points.lang), span_text(s.keep, points.lang), starts_text(points));
     text += class_counts(kinds, points.lang);
     if (kinds.contains(AttractorClass::chaotic))
@@ -75,10 +132,8 @@ std::string sweep_caption(const SweptPoints& points) {
     if (!s.keep.time && longest > s.keep.turns)
         text += phrase(points.lang, "Of periods longer than the kept turns, up to {}, only a part is sampled. ",
                        "周期长于保留转数（最长 {} 转）时只取其一部分。", longest);
-    const bool over_speed =
-        std::ranges::find(points.data.axes, "cam.speed", &output::SweepAxis::name) != points.data.axes.end();
     return text + phrase(points.lang, "Other parameters: ", "其他参数：") +
-           facts(subject_of(points.scene, points.lang), {.cam_speed = over_speed});
+           facts(subject_of(points.scene, points.lang), {.others = problems_at_ends(points)});
 }
 
 std::string tolerance_text(const SweptPoints& points) {

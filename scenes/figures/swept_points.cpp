@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string_view>
 
 #include "render/base/error.hpp"
@@ -88,7 +89,13 @@ double drawn(const SweptPoints& points, std::size_t column, double sample) {
 
 std::string label_of(const output::SweepAxis& axis) { return axis_label(symbol_of(axis.name), axis.unit); }
 
-std::vector<double> edges_around(std::vector<double> values) {
+std::vector<double> edges_around(std::vector<double> values, render::Scale scale) {
+    if (scale == render::Scale::logarithmic) {
+        for (double& value : values) value = std::log(value);
+        values = edges_around(std::move(values), render::Scale::linear);
+        for (double& edge : values) edge = std::exp(edge);
+        return values;
+    }
     std::ranges::sort(values);
     if (values.size() == 1) return {values[0] - 0.5, values[0] + 0.5};
     std::vector<double> edges{values[0] - 0.5 * (values[1] - values[0])};

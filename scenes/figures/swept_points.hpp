@@ -57,8 +57,8 @@ std::string column_label(const SweptPoints& points, std::size_t column);
 double drawn(const SweptPoints& points, std::size_t column, double sample);
 std::string label_of(const output::SweepAxis& axis);
 
-// Edges of cells around the values, half-way between neighbours.
-std::vector<double> edges_around(std::vector<double> values);
+// Edges of cells around the values, half-way between neighbours along the axis.
+std::vector<double> edges_around(std::vector<double> values, render::Scale scale);
 // By index the place of each value in ascending order.
 std::vector<std::size_t> ranks(const std::vector<double>& values);
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <set>
 
+#include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
@@ -50,14 +51,13 @@ void SceneRun::prepare() {
     report_up_to_date();
     files_.recover();
     files_.claim(plan_);
-    check_encoders();
+    check_libraries();
 }
 
 void SceneRun::report_up_to_date() {
-    for (std::size_t output : up_to_date_.existing.finished) {
+    for (const auto& [output, file] : up_to_date_.existing.finished) {
         ++context_.work.files_left;
-        context_.print("kept {}: up to date (--force writes it again)\n",
-                       files_.path_of(file_of(scene_.outputs[output])).string());
+        context_.print("kept {}: up to date (--force writes it again)\n", files_.path_of(file).string());
     }
     for (const auto& [output, frames] : up_to_date_.existing.frames) {
         context_.work.frames_left += static_cast<long>(frames.size());
@@ -66,8 +66,10 @@ void SceneRun::report_up_to_date() {
     }
 }
 
-// Opens and discards a film of each codec, so that a missing encoder is reported before any computation.
-void SceneRun::check_encoders() {
+// Opens and discards a film of each codec, so that a missing library is reported before any computation.
+void SceneRun::check_libraries() {
+    for (const DataFile& d : plan_.data)
+        if (d.file.ends_with(".nc")) output::netcdf_library();
     std::set<output::Codec> tried;
     for (const Pictures& p : plan_.pictures)
         if (p.kind == Pictures::Kind::video && tried.insert(p.encoding.codec).second) {
@@ -102,17 +104,14 @@ void SceneRun::compute_sweep() {
         sweep_ = std::make_unique<SweepRun>(scene_);
     } else {
         const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
-        sweep_ = std::make_unique<SweepRun>(scene_, context_.options.selection.shard, store);
-        if (sweep_->dropped_others())
-            context_.print("discarded the points in {}: they are of another sweep or another version of beamcam\n",
-                           store.string());
+        sweep_ = std::make_unique<SweepRun>(scene_, context_.options.selection.shard, store, context_.options.force);
     }
     for (const Output& output : scene_.outputs)
         if (const auto* finished = std::get_if<SweepOutput>(&output);
             finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_end_states)
             sweep_->reuse_points_of(files_.path_of(finished->file));
-    if (sweep_->points_there() > 0)
-        context_.print("found {} of an earlier run\n", counted(sweep_->points_there(), "point"));
+    const std::uint64_t found = sweep_->points_there();
+    if (found > 0) context_.print("found {} of an earlier run\n", counted(found, "point"));
     try {
         sweep_->make(context_.options.threads, context_.progress);
     } catch (const sim::Interrupted&) {
@@ -122,6 +121,7 @@ void SceneRun::compute_sweep() {
                            counted(sweep_->points_there(), "point"));
         throw;
     }
+    context_.work.sweep_points += static_cast<long>(sweep_->points_there() - found);
     context_.print("{}\n", sweep_->summary());
 }
 

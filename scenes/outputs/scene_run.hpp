@@ -34,7 +34,7 @@ class SceneRun {
 
   private:
     void report_up_to_date();
-    void check_encoders();
+    void check_libraries();
     void write_data(const DataFile& data);
     void write_figure(std::size_t figure);
     void write_pictures(std::size_t picture);

@@ -35,7 +35,7 @@ struct Selection {
 
 // Results of earlier runs. up_to_date.hpp finds them, so that `plan` reads no files.
 struct ExistingWork {
-    std::set<std::size_t> finished;                // outputs whose files are up to date
+    std::map<std::size_t, std::string> finished;   // outputs whose files are up to date, and the files
     std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the up-to-date frames
     bool keeps = false;                            // trajectories are cached
     std::map<std::string, double> kept_until;      // ends of the cached trajectories, by Studies::key [s]

@@ -81,9 +81,9 @@ Planner::Planner(const Scene& scene, const Selection& selection, const ExistingW
 Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
         const Output& output = scene_.outputs[i];
-        if (existing_.finished.contains(i)) {
+        if (const auto finished = existing_.finished.find(i); finished != existing_.finished.end()) {
             ++finished_;
-            skip(file_of(output), "up to date");
+            skip(finished->second, "up to date");
         } else if (selection_.shard.number > 1 && !is_shared(output)) {
             skip(file_of(output), "the first shard writes it");
         } else {

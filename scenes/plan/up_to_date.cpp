@@ -68,13 +68,13 @@ class UpToDateCheck {
     }
 
     void check(const std::string& file, std::size_t output) {
-        if (is_up_to_date(file, output)) found_.existing.finished.insert(output);
+        if (is_up_to_date(file, output)) found_.existing.finished.emplace(output, file);
     }
 
     void check_figure(const FigureFile& f) {
         const auto files = written_by(scene_.outputs[f.output]);
         if (std::ranges::all_of(files, [&](const std::string& file) { return is_up_to_date(file, f.output); }))
-            found_.existing.finished.insert(f.output);
+            found_.existing.finished.emplace(f.output, f.file);
     }
 
     void check_frames(const Pictures& p) {
@@ -88,7 +88,7 @@ class UpToDateCheck {
             if (const long number = p.first_frame + k; is_up_to_date(numbered_file(p.file, number), p.output))
                 there.insert(number);
         if (there.size() == p.draw.size())
-            found_.existing.finished.insert(p.output);
+            found_.existing.finished.emplace(p.output, p.file);
         else if (!there.empty())
             found_.existing.frames[p.output] = std::move(there);
     }

@@ -37,7 +37,7 @@ enum class SeedKind {
 struct SweepSeeds {
     std::vector<SeedKind> kinds{SeedKind::same};  // one motion each; `random` motions for SeedKind::random
     int random = 0;
-    std::vector<RandomKey> keys;  // empty: initial.angle and initial.angular_velocity, see FORMAT.md
+    std::vector<RandomKey> keys;  // empty: those of `random_keys`
     bool operator==(const SweepSeeds&) const = default;
 };
 
@@ -48,6 +48,8 @@ struct Sweep {
     bool operator==(const Sweep&) const = default;
 };
 
+// The keys that random starts vary: by default initial.angle and initial.angular_velocity, as FORMAT.md says.
+std::vector<RandomKey> random_keys(const Sweep& sweep, const sim::Problem& problem);
 // The starts at one value of the keys, in the order of their points.
 std::vector<SeedKind> starts_of(const SweepSeeds& seeds);
 // Replaces references to tables by their values. Throws SceneError for a missing column, UnreadableFile, IoError.

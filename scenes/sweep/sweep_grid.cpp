@@ -15,8 +15,7 @@ namespace beamcam::scenes {
 namespace {
 
 constexpr std::uint64_t kMostPoints = 100'000'000;
-constexpr std::uint64_t kMostChecked = 100'000;        // problems to check before the work
-constexpr double kRandomAngle = 0.3, kRandomRate = 1;  // [rad], [rad/s] of random starts, as FORMAT.md says
+constexpr std::uint64_t kMostChecked = 100'000;  // problems to check before the work
 
 std::vector<double> values_of(const SweptKey& over) {
     if (!over.values.empty()) return over.values;
@@ -57,11 +56,7 @@ SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
         throw SceneError(fmt::format("sweep: {} points are too many; a sweep has at most {}", points(), kMostPoints));
     for (std::uint64_t s = 0; s < seeds_.size(); ++s)
         (seeds_[s] == SeedKind::carry_up || seeds_[s] == SeedKind::carry_down ? carried_ : single_).push_back(s);
-    random_ = sweep.seeds.keys;
-    const double angle = scene_.problem.initial.angle;
-    if (random_.empty())
-        random_ = {{"initial.angle", angle, angle + kRandomAngle},
-                   {"initial.angular_velocity", -kRandomRate, kRandomRate}};
+    random_ = random_keys(sweep, scene_.problem);
     check();
 }
 

@@ -25,13 +25,13 @@ std::filesystem::path temporary_store() {
 
 }  // namespace
 
-SweepRun::SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store)
+SweepRun::SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store, bool replace)
     : grid_(scene),
       shard_(shard),
-      store_(std::move(store), grid_.points(), grid_.identity()),
+      store_(std::move(store), grid_.points(), grid_.identity(), replace),
       data_(data_of(grid_, store_, shard_)) {}
 
-SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, Shard(), temporary_store()) { store_.remove(); }
+SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, Shard(), temporary_store(), false) { store_.remove(); }
 
 void SweepRun::reuse_points_of(const std::filesystem::path& file) try {
     if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;

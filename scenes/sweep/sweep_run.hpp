@@ -11,13 +11,12 @@ namespace beamcam::scenes {
 
 class SweepRun {
   public:
-    // `store`: file of the points until `remove`; it may contain points of an interrupted run. Throws what SweepGrid
-    // and PointStore throw.
-    SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store);
+    // `store`: file of the points until `remove`; it may contain points of an interrupted run, which `replace` discards
+    // if they are of another sweep. Throws what SweepGrid and PointStore throw.
+    SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store, bool replace);
     // The whole sweep, with a temporary store.
     explicit SweepRun(const Scene& scene);
 
-    bool dropped_others() const { return store_.dropped_others(); }  // the store had points of another sweep or version
     std::uint64_t points_there() const { return store_.count(); }
     // Reuses the points of a finished .nc file of the same sweep and program; ignores other and damaged files.
     void reuse_points_of(const std::filesystem::path& file);

@@ -1,13 +1,16 @@
 #include "scenes/sweep/swept_rows.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
+#include "output/data/manifest.hpp"
 #include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
+#include "scenes/format/reader.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/problem/number_keys.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -80,6 +83,24 @@ sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int r
     problem.initial.angle = value("theta") + kAbove;
     problem.initial.angular_velocity = value("theta_dot");
     return problem;
+}
+
+std::string differences_from_sweep(const sim::Problem& problem, const std::string& file) {
+    const auto record = output::Manifest::find(file);
+    if (!record || record->origin.scene.empty()) return "";
+    const std::optional<Scene> of_sweep = read_scene(Source{file, record->origin.scene}).scene;
+    if (!of_sweep || !of_sweep->sweep) return "";
+    const auto plays_no_role = [&](const std::string& path) {
+        return path.starts_with("initial.") || path.starts_with("solver.") ||
+               std::ranges::find(of_sweep->sweep->over, path, &SweptKey::key) != of_sweep->sweep->over.end();
+    };
+    std::vector<std::string> paths;
+    for (const sim::NumberKey& key : sim::number_keys(of_sweep->problem)) {
+        const auto here = sim::number_key(problem, key.path);
+        const bool same = here && (here->value == key.value || (std::isnan(here->value) && std::isnan(key.value)));
+        if (!same && !plays_no_role(key.path)) paths.push_back(key.path);
+    }
+    return fmt::format("{}", fmt::join(paths, ", "));
 }
 
 }  // namespace beamcam::scenes

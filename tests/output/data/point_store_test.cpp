@@ -92,14 +92,14 @@ TEST(PointStore, DropsADamagedPointAndWhatFollows) {
     EXPECT_FALSE(store.has(2));
 }
 
-TEST(PointStore, DropsThePointsOfAnotherSweep) {
+TEST(PointStore, ReplacesThePointsOfAnotherSweepOnlyWhenAsked) {
     const Scratch scratch;
     const std::filesystem::path file = scratch / "a.part";
     PointStore(file, 4, "one").add(point(1));
-    EXPECT_FALSE(PointStore(file, 4, "one").dropped_others());
-    const PointStore other(file, 4, "other");
-    EXPECT_EQ(other.count(), 0u);
-    EXPECT_TRUE(other.dropped_others());
+    EXPECT_THROW(PointStore(file, 4, "other"), IoError);
+    EXPECT_EQ(PointStore(file, 4, "one").count(), 1u);
+    EXPECT_EQ(PointStore(file, 4, "other", true).count(), 0u);
+    EXPECT_EQ(PointStore(file, 4, "one").count(), 0u);  // none are lost
 }
 
 TEST(PointStore, LeavesAloneAFileThatIsNoStore) {

@@ -113,6 +113,11 @@ TEST(OrbitsCommand, DrawsBranchesOverTheImpactsOfASweep) {
               "r.csv -o b.svg && $BEAMCAM info b.svg");
     ASSERT_EQ(done.code, 0) << done.err;
     EXPECT_THAT(testing::slurp((folder / "b.svg").string()), HasSubstr("impacts of a sweep"));
+    EXPECT_THAT(done.err, ::testing::Not(HasSubstr("warning")));
+    const Finished heavier = shell(folder,
+                                   "$BEAMCAM orbits s.json --over cam.speed=44.5:46.5 --impacts 1 --transient 0 "
+                                   "--set beam.density=3000 --sweep r.csv -o d.svg");
+    EXPECT_THAT(heavier.err, HasSubstr("warning: --sweep r.csv: of another scene, with other beam.density\n"));
     const Finished other = shell(folder, "$BEAMCAM orbits s.json --over gravity=0:1 --sweep r.csv -o c.svg");
     EXPECT_EQ(other.code, 2);
     EXPECT_THAT(other.err, HasSubstr("column gravity is missing"));
@@ -240,6 +245,9 @@ TEST(OrbitsCommand, ReportsWhatItCannotDo) {
     for (const char* command :
          {"lyapunov s.json -o nowhere/l.svg", "orbits s.json -o nowhere/o.csv"})  // before any work
         EXPECT_EQ(shell(folder, std::string("$BEAMCAM ") + command + " --set cam.speed=0").code, 6);
+    const Finished no_netcdf = shell(folder, "BEAMCAM_MODULE_DIR=/nowhere $BEAMCAM orbits s.json -o o.nc --json");
+    EXPECT_EQ(no_netcdf.code, 5);
+    EXPECT_EQ(no_netcdf.out, "");
 }
 
 TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
@@ -262,6 +270,17 @@ TEST(LyapunovCommand, PrintsTheSpectrumAndDrawsItsConvergence) {
                 HasSubstr("after 1.0472 s"));  // at 45 rad/s
     EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov s.json -q --transient 7.5 --duration 1").out,
                 HasSubstr("after 1.0472 s"));
+}
+
+TEST(LyapunovCommand, NamesTheReasonWhyItShowsNoChaos) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const auto said = [&](const std::string& options) {
+        return shell(folder, "$BEAMCAM lyapunov s.json -q --duration '5 s' " + options).out;
+    };
+    EXPECT_THAT(said("--set initial.angle=1.5 --set hub.drive='{\"type\": \"free\"}' --set gravity=0"),
+                HasSubstr("no chaos is shown: there were no impacts\n"));
+    EXPECT_THAT(said("--transient '20 s'"), HasSubstr("no chaos is shown: the largest exponent is not positive"));
 }
 
 TEST(OrbitsCommand, RejectsOptionsThatWouldDoNothing) {

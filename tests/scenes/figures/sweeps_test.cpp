@@ -4,6 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "output/data/sweep_data.hpp"
@@ -18,8 +19,11 @@ namespace beamcam::scenes {
 namespace {
 
 using sim::AttractorClass;
+using ::testing::DoubleNear;
 using ::testing::Each;
+using ::testing::ElementsAre;
 using ::testing::HasSubstr;
+using ::testing::Not;
 using ::testing::SizeIs;
 using ::testing::StartsWith;
 
@@ -77,6 +81,29 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
 }
 
+TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
+    using enum AttractorClass;
+    const SweepGrid swept = grid(
+        R"({"over": [{"key": "cam.eccentricity", "values": [1e-3, 3e-3]}, {"key": "gravity", "values": [9.81]}],
+            "sample": "apexes", "seed": {"random": 5}})");
+    const std::string caption = diagram("map", swept, data(swept, {periodic}), "class").caption;
+    EXPECT_THAT(caption, StartsWith("$e$ = 1 … 3 mm in 2 values; $g$ = 9.81 m s^{−2}; samples at apexes; "));
+    EXPECT_THAT(caption, HasSubstr("random starts (5) with $θ_{0}$ = 0.785398 … 1.0854 rad, $\\dot{θ}_{0}$ = −1 … 1"));
+    for (const char* fact : {"$e$ = 0", "$θ$(0)", "released at rest"}) EXPECT_THAT(caption, Not(HasSubstr(fact)));
+    EXPECT_THAT(caption, HasSubstr("$R$ = 0.1 m"));
+
+    const SweepGrid inertia = grid(R"({"over": [{"key": "hub.inertia", "from": 0.1, "to": 10, "count": 3,
+        "spacing": "log"}], "sample": {"section": "theta", "at": 0.5}})");
+    const render::figure::Figure figure = diagram("bifurcation", inertia, data(inertia, {rest}), "v_n_before");
+    EXPECT_THAT(figure.caption, StartsWith("hub.inertia = 0.1 … 10 kg m^{2} in 3 values of a logarithmic scale; "
+                                           "samples where $θ$ rises through 0.5 rad; "));
+    EXPECT_THAT(figure.caption, Not(HasSubstr("I_{\\r{h}}$ =")));
+    // Cells reach half-way to the next value on that scale.
+    EXPECT_THAT(figure.panels.back().cells.at(0).x,
+                ElementsAre(DoubleNear(std::pow(10, -1.5), 1e-15), DoubleNear(std::pow(10, -0.5), 1e-15),
+                            DoubleNear(std::pow(10, 0.5), 1e-14), DoubleNear(std::pow(10, 1.5), 1e-13)));
+}
+
 TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
     const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 2, 3]}]})");
     using enum AttractorClass;
@@ -105,10 +132,10 @@ TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     ASSERT_THAT(figure.panels, SizeIs(2));
     EXPECT_FALSE(figure.panels[0].y.numbered);
     EXPECT_THAT(figure.caption, HasSubstr("No motion has a section to draw."));
-    EXPECT_EQ(figure.panels[0].title, "No settled point to draw; motions: following, over-the-top");
+    EXPECT_EQ(figure.panels[0].title, "No samples to draw; motions: following, over-the-top");
     const output::SweepData none = data(speeds, {over_the_top});
     const GrowingDiagram growing({&speeds.scene(), &none}, {}, {0, 1});
-    EXPECT_EQ(growing.until(0, 1).panels[0].title, "No settled point to draw; motions: over-the-top");
+    EXPECT_EQ(growing.until(0, 1).panels[0].title, "No samples to draw; motions: over-the-top");
     EXPECT_EQ(growing.until(0, 1).panels[0].legend, render::figure::Legend::none);
 }
 

@@ -91,6 +91,8 @@ TEST(SweepParts, AreRejectedByName) {
         EXPECT_THAT(done.err, HasSubstr(words)) << parts;
         EXPECT_FALSE(std::filesystem::exists(folder / "x.nc"));
     }
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o r.nc --shard 2/3").err,
+                HasSubstr("kept r.2of3.nc: up to date"));
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o r.csv --shard 1/2").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json --shard 1/2").code, 2);
 }

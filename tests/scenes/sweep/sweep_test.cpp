@@ -14,6 +14,7 @@ namespace {
 
 using testing::Finished, testing::Folder, testing::shell, testing::slurp;
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 constexpr const char* kSweptScene = R"({
     "beam": {"model": "rigid"}, "contact": {"model": "restitution", "restitution": 0.5},
@@ -88,17 +89,27 @@ TEST(SweepCommand, LeavesAloneWhatIsUpToDate) {
     EXPECT_EQ(slurp(folder / "mine.csv"), "1,2");
 }
 
-TEST(SweepCommand, SaysThatItDropsThePointsOfAnotherSweep) {
+TEST(SweepCommand, DiscardsThePointsOfAnotherSweepOnlyWhenForced) {
     Folder folder;
     folder.write("s.json", kSweptScene);
     const std::string begun =
         "$BEAMCAM sweep s.json -q --transient 20000 -o a.csv & pid=$!; while [ ! -s a.csv.part ] || "
         "[ $(stat -c %s a.csv.part) -lt 2000 ]; do :; done; kill -9 $pid; wait $pid; ";
-    const Finished done = shell(folder, begun + "$BEAMCAM sweep s.json -o a.csv");
-    ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_THAT(done.err, HasSubstr("discarded the points in a.csv.part"));
+    const Finished other = shell(folder, begun + "cp a.csv.part kept; $BEAMCAM sweep s.json -o a.csv");
+    EXPECT_EQ(other.code, 6);
+    EXPECT_THAT(other.err, HasSubstr("a.csv.part: has points of another sweep"));
+    EXPECT_EQ(slurp(folder / "a.csv.part"), slurp(folder / "kept"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o a.csv --force").code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "a.csv.part"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o b.csv").err, Not(HasSubstr("dropped")));
+}
+
+TEST(SweepCommand, MissesTheNetCdfLibraryBeforeItComputesPoints) {
+    Folder folder;
+    folder.write("s.json", kSweptScene);
+    const Finished done = shell(folder, "BEAMCAM_MODULE_DIR=/nowhere $BEAMCAM sweep s.json -o a.nc");
+    EXPECT_EQ(done.code, 5);
+    EXPECT_THAT(done.err, Not(HasSubstr("points")));
+    EXPECT_FALSE(std::filesystem::exists(folder / "a.nc.part"));
 }
 
 TEST(SweepCommand, LeavesAloneAFileWhereItWouldKeepPoints) {
