@@ -7,6 +7,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "output/data/sweep_data.hpp"
@@ -22,6 +23,8 @@ class NetcdfLibrary {
                        const SweepData& data) const = 0;
     virtual void write(const std::filesystem::path& file, const std::filesystem::path& named,
                        const ColumnTable& table) const = 0;
+    // Nothing if the file is a sweep. Throws IoError.
+    virtual std::optional<ColumnTable> read_table(const std::filesystem::path& file) const = 0;
     // The file stays open while the data exist; points are read on demand. Throws IoError.
     virtual SweepData open(const std::filesystem::path& file) const = 0;
     virtual std::string version() const = 0;

@@ -70,6 +70,8 @@ ColumnDifference compare(const TableColumn& a, const TableColumn& b, const std::
     d.name = a.name;
     double least = INFINITY, most = -INFINITY;
     for (const Pair& row : rows) {
+        if (a.text(row.a) != b.text(row.b)) ++d.texts, d.identical = false;
+        if (!a.text(row.a).empty() || !b.text(row.b).empty()) continue;
         const double x = a.values[row.a], y = b.values[row.b];
         if (!same_bits(x, y)) d.identical = false;
         if (std::isnan(x) != std::isnan(y)) ++d.undefined;
@@ -91,7 +93,7 @@ bool TableDifference::identical() const {
 
 bool TableDifference::within(double share) const {
     return same_shape() && std::ranges::all_of(columns, [share](const ColumnDifference& c) {
-               return c.undefined == 0 && c.share <= share;
+               return c.undefined == 0 && c.texts == 0 && c.share <= share;
            });
 }
 

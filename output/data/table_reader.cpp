@@ -12,7 +12,6 @@
 #include <set>
 
 #include "output/data/tables.hpp"
-#include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"
 #include "output/files/numbers.hpp"
 #include "sim/problem/keys.hpp"
@@ -22,15 +21,13 @@ namespace beamcam::output {
 
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr double kNothing = std::numeric_limits<double>::quiet_NaN();
 
 // ---- CSV ---------------------------------------------------------------------------------------
 
 class CsvParser {
   public:
-    CsvParser(std::string_view text, const std::string& file) : text_(text), file_(file) {
+    CsvParser(std::string_view text, const std::string& file, Texts texts) : text_(text), file_(file), texts_(texts) {
         if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
     }
 
@@ -65,7 +62,7 @@ class CsvParser {
     static void for_cells(std::string_view line, Visit visit) {
         std::size_t begin = 0;
         for (std::size_t count = 0;; ++count) {
-            const std::size_t end = std::min(line.find(',', begin), line.size());
+            const std::size_t end = std::min(line.find(',', end_of_quotes(line, begin)), line.size());
             std::string_view cell = line.substr(begin, end - begin);
             while (cell.starts_with(' ')) cell.remove_prefix(1);
             while (cell.ends_with(' ')) cell.remove_suffix(1);
@@ -75,18 +72,34 @@ class CsvParser {
         }
     }
 
+    // The end of the cell's part in quotes; `begin` if it has none.
+    static std::size_t end_of_quotes(std::string_view line, std::size_t begin) {
+        std::size_t at = std::min(line.find_first_not_of(' ', begin), line.size());
+        if (at == line.size() || line[at] != '"') return begin;
+        while ((at = line.find('"', at + 1)) != line.npos && line.substr(at + 1).starts_with('"')) ++at;
+        return at == line.npos ? begin : at + 1;
+    }
+
+    static std::string unquoted(std::string_view cell) {
+        if (cell.size() < 2 || cell.front() != '"' || cell.back() != '"') return std::string(cell);
+        std::string text;
+        // A quote is written twice.
+        for (std::size_t i = 1; i + 1 < cell.size(); i += cell[i] == '"' ? 2 : 1) text.push_back(cell[i]);
+        return text;
+    }
+
     void read_header(std::string_view line) {
         if (line.starts_with("# ")) line.remove_prefix(2);  // numpy.savetxt
         if (const std::size_t other = line.find_first_of(";\t"); other != line.npos && line.find(',') == line.npos)
             refuse(other + 1, std::string("columns are separated by ") + (line[other] == ';' ? "semicolons" : "tabs") +
                                   "; use commas, and a decimal point as in 0.5");
-        for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t) {
-            if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') cell = cell.substr(1, cell.size() - 2);
+        for_cells(line, [&](std::string_view raw, std::size_t column, std::size_t) {
+            const std::string cell = unquoted(raw);
             if (cell.empty()) refuse(column, "a column without a name in the header");
             if (number(cell)) refuse(column, in_quotes(cell) + " where the name of a column should be");
             if (!known_.emplace(cell).second)
                 refuse(column, "the column " + in_quotes(cell) + " occurs twice in the header");
-            table_.columns.push_back({std::string(cell)});
+            table_.columns.push_back({cell});
         });
     }
 
@@ -97,6 +110,12 @@ class CsvParser {
             if (count >= table_.columns.size()) return;
             std::optional<double> value = cell.empty() ? kNothing : number(cell);
             if (!value) value = class_number(cell);
+            if (!value && texts_ == Texts::kept) {
+                std::vector<std::string>& texts = table_.columns[count].texts;
+                texts.resize(table_.columns[count].values.size());
+                texts.push_back(unquoted(cell));
+                value = kNothing;
+            }
             if (!value) refuse(column, in_quotes(cell) + " is not a number");
             if (std::isinf(*value) && table_.columns[count].name != "exponent")  // of a sweep: −∞ is a valid exponent
                 refuse(column, in_quotes(cell) + " is not a finite number; leave cells without a value empty");
@@ -130,6 +149,7 @@ class CsvParser {
 
     std::string_view text_;
     const std::string& file_;
+    Texts texts_;
     std::size_t at_ = 0, line_ = 0;
     ColumnTable table_;
     std::set<std::string> known_;  // its names
@@ -270,29 +290,11 @@ class NpzParser {
 
 }  // namespace
 
-const std::vector<double>* ColumnTable::find(std::string_view name) const {
-    const auto found = std::ranges::find(columns, name, &TableColumn::name);
-    return found == columns.end() ? nullptr : &found->values;
-}
-
-std::vector<std::string> ColumnTable::names() const {
-    std::vector<std::string> all;
-    for (const TableColumn& column : columns) all.push_back(column.name);
-    return all;
-}
-
-ColumnTable parse_csv(std::string_view text, const std::string& file_name) {
-    return CsvParser(text, file_name).parse();
+ColumnTable parse_csv(std::string_view text, const std::string& file_name, Texts texts) {
+    return CsvParser(text, file_name, texts).parse();
 }
 ColumnTable parse_npz(std::string_view bytes, const std::string& file_name) {
     return NpzParser(bytes, file_name).parse();
-}
-
-ColumnTable read_table(const fs::path& file) {
-    const std::string bytes = read_file(file), name = file.string();
-    if (file.extension() == ".csv") return parse_csv(bytes, name);
-    if (file.extension() == ".npz") return parse_npz(bytes, name);
-    throw IoError("cannot read " + name + ": tables end in .csv or .npz");
 }
 
 }  // namespace beamcam::output

@@ -1,12 +1,15 @@
 #include "output/data/tables.hpp"
 
+#include <algorithm>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"
+#include "output/data/sweep_data.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
 
@@ -76,6 +79,26 @@ void write_columns(const Target& file, const Columns& table) {
 }
 
 }  // namespace
+
+const std::vector<double>* ColumnTable::find(std::string_view name) const {
+    const auto found = std::ranges::find(columns, name, &TableColumn::name);
+    return found == columns.end() ? nullptr : &found->values;
+}
+
+std::vector<std::string> ColumnTable::names() const {
+    std::vector<std::string> all;
+    for (const TableColumn& column : columns) all.push_back(column.name);
+    return all;
+}
+
+ColumnTable read_table(const std::filesystem::path& file, Texts texts) {
+    const std::string name = file.string();
+    if (file.extension() == ".csv") return parse_csv(read_file(file), name, texts);
+    if (file.extension() == ".npz") return parse_npz(read_file(file), name);
+    if (file.extension() != ".nc") throw IoError("cannot read " + name + ": tables end in .csv, .npz or .nc");
+    const std::optional<ColumnTable> table = netcdf_library().read_table(file);
+    return table ? *table : table_of(netcdf_library().open(file));
+}
 
 std::function<void(const std::string&)> to_stream(std::ostream& out) {
     return [&out](const std::string& text) {

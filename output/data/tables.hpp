@@ -18,7 +18,9 @@ namespace beamcam::output {
 
 struct TableColumn {
     std::string name, unit = {}, meaning = {};  // unit and meaning may be unknown
-    std::vector<double> values = {};            // of equal length in all columns; NaN: no value
+    std::vector<double> values = {};            // of equal length in all columns; NaN: no value, or a text
+    std::vector<std::string> texts = {};        // by row, up to the last text; empty where there is none
+    std::string_view text(std::size_t row) const { return row < texts.size() ? texts[row] : std::string_view(); }
 };
 struct ColumnTable {
     std::vector<TableColumn> columns;
@@ -31,12 +33,15 @@ struct ColumnTable {
 
 // ---- reading -------------------------------------------------------------------------------------
 
-// The ending decides: .csv or .npz. The names of classes of motion in the .csv tables of sweeps become numbers as in
-// .npz. Throws IoError with the line and column of the error (CSV), or the name of the array (NPZ).
-ColumnTable read_table(const std::filesystem::path& file);
+enum class Texts { rejected, kept };  // cells of .csv files that are not numbers
+
+// The ending decides: .csv, .npz or .nc (a table or sweep of beamcam). A sweep gives the same rows from each; the names
+// of its classes of motion in .csv become numbers as in .npz. Throws IoError with the line and column of the error
+// (CSV), or the name of the array (NPZ); UnsupportedOption without the NetCDF library.
+ColumnTable read_table(const std::filesystem::path& file, Texts texts = Texts::rejected);
 
 // Also CSV of spreadsheets (byte order mark, "\r\n") and of numpy.savetxt with a header.
-ColumnTable parse_csv(std::string_view text, const std::string& file_name);
+ColumnTable parse_csv(std::string_view text, const std::string& file_name, Texts texts = Texts::rejected);
 ColumnTable parse_npz(std::string_view bytes, const std::string& file_name);
 
 // ---- writing -------------------------------------------------------------------------------------

@@ -10,6 +10,7 @@
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/commands/result_files.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/regression/comparison.hpp"
 #include "scenes/scene/files.hpp"
@@ -25,8 +26,6 @@ struct DiffArguments {
     std::optional<std::string> picture;
     std::optional<double> tolerance, ssim;
 };
-
-bool is_csv_or_npz(const std::string& file) { return file.ends_with(".csv") || file.ends_with(".npz"); }
 
 // ---- difference pictures ------------------------------------------------------------------------
 
@@ -122,7 +121,8 @@ Comparison compare_tables(const DiffArguments& args) {
     if (args.ssim) throw UsageError("--ssim is for pictures; tables are compared by their numbers");
     if (args.tolerance && *args.tolerance < 0) throw UsageError("--tolerance must not be negative");
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
-    all.table = output::difference(output::read_table(args.a), output::read_table(args.b));
+    all.table = output::difference(output::read_table(args.a, output::Texts::kept),
+                                   output::read_table(args.b, output::Texts::kept));
     all.verdict = all.table->identical()                           ? Verdict::identical
                   : all.table->within(args.tolerance.value_or(-1)) ? Verdict::equivalent
                                                                    : Verdict::different;
@@ -130,10 +130,10 @@ Comparison compare_tables(const DiffArguments& args) {
 }
 
 int act(const DiffArguments& args) {
-    if (is_csv_or_npz(args.a) != is_csv_or_npz(args.b))
+    if (is_table(args.a) != is_table(args.b))
         throw UsageError(fmt::format(
             "{} and {} are of different kinds; compare pictures with pictures, tables with tables", args.a, args.b));
-    const Comparison found = is_csv_or_npz(args.a) ? compare_tables(args) : compare_pictures(args);
+    const Comparison found = is_table(args.a) ? compare_tables(args) : compare_pictures(args);
     if (args.common.json)
         print_json(to_json(found));
     else if (!args.common.quiet)
@@ -147,14 +147,14 @@ void add_diff(Grammar& grammar) {
     const auto [app, args] = grammar.command<DiffArguments>(
         "diff", "Compare two pictures, sequences, films or tables; exit code 7 if they differ", act);
     app.examples = {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"};
-    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), film, .csv or .npz table")
+    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), film, .csv, .npz or .nc table")
         .required();
     app.positional("B", &args.b, "The same kind of file").required();
     app.option("-o,--output", &args.picture, "FILE",
                "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");
     app.option("--tolerance", &args.tolerance, "X",
                "Differences up to this count as equivalent: of pictures, a difference of a colour channel, 0 … 255; of "
-               "tables, a share of a column's range");
+               "tables, a share of a column's range (texts have none)");
     app.option("--ssim", &args.ssim, "X",
                "Pictures with at least this structural similarity (0 … 1) count as equivalent")
         .range(0, 1);

@@ -91,20 +91,16 @@ void read_manifest(const std::string& file, Provenance& p) {
     if (!record) return;
     p.version = record->origin.version;
     p.scene = record->origin.scene;
-    p.facts["changed since"] = record->unchanged ? "no" : "yes";
+    p.facts["changed_since"] = record->unchanged ? "no" : "yes";
 }
 
 void read_table(const std::string& file, Provenance& p) {
     read_manifest(file, p);
-    p.kind = "table";
-    try {
-        const output::ColumnTable table = output::read_table(file);
-        p.facts["rows"] = std::to_string(table.rows());
-        p.facts["columns"] = std::to_string(table.columns.size());
-    } catch (const output::IoError&) {
-        if (!p.made_by_beamcam()) throw;
-        p.kind = "table with texts";  // such as the data of a figure
-    }
+    const output::ColumnTable table = output::read_table(file, output::Texts::kept);
+    const bool texts = std::ranges::any_of(table.columns, [](const auto& column) { return !column.texts.empty(); });
+    p.kind = texts ? "table with texts" : "table";  // such as the data of a figure
+    p.facts["rows"] = std::to_string(table.rows());
+    p.facts["columns"] = std::to_string(table.columns.size());
 }
 
 // Files whose provenance is only in the manifest beside them.
@@ -153,7 +149,11 @@ std::string provenance_text(const Provenance& p) {
     auto line = [&](std::string_view key, std::string_view value) {
         if (!value.empty()) text += fmt::format("  {:<14} {}\n", key, output::one_line(value));
     };
-    for (const auto& [key, value] : p.facts) line(key, value);
+    for (const auto& [key, value] : p.facts) {
+        std::string words = key;
+        std::ranges::replace(words, '_', ' ');
+        line(words, value);
+    }
     line("title", p.title);
     if (!p.made_by_beamcam()) {
         line("made by", "not by beamcam, or the metadata is lost");

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "output/files/text_safety.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -72,6 +73,8 @@ std::string to_text(const output::TableDifference& d) {
             ++same;
             continue;
         }
+        if (c.texts > 0) text += fmt::format("{}: {} differ\n", output::one_line(c.name), counted(c.texts, "text"));
+        if (c.largest == 0 && c.undefined == 0 && c.texts > 0) continue;
         text += fmt::format("{}: largest difference {:.3g} at t = {:.6g}, {:.3g} of its range {:.3g}{}\n",
                             output::one_line(c.name), c.largest, c.t, c.share, c.range,
                             c.undefined > 0 ? fmt::format(", {} cells empty in one table only", c.undefined) : "");

@@ -46,7 +46,8 @@ Node table(const output::TableDifference& d) {
                          {"t", c.t},
                          {"range", c.range},
                          {"share", c.share},
-                         {"undefined", c.undefined}}));
+                         {"undefined", c.undefined},
+                         {"texts", c.texts}}));
     return object_node({{"rows_a", d.rows_a},
                         {"rows_b", d.rows_b},
                         {"rows_compared", d.rows_compared},

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "output/data/manifest.hpp"
-#include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/scene/exit_code.hpp"
@@ -26,11 +25,6 @@ std::vector<double> lasting_classes() {
     return numbers;
 }
 
-// A NetCDF file gives the same rows as the .csv file of the sweep.
-output::ColumnTable sweep_table(const std::string& file) {
-    return file.ends_with(".nc") ? table_of(output::netcdf_library().open(file)) : output::read_table(file);
-}
-
 }  // namespace
 
 sim::Problem problem_with(sim::Problem problem, const std::string& key, double value) {
@@ -43,7 +37,7 @@ sim::Problem problem_with(sim::Problem problem, const std::string& key, double v
 }
 
 SweptImpacts swept_impacts(const std::string& file, const std::string& key, double from, double to) {
-    const output::ColumnTable table = sweep_table(file);
+    const output::ColumnTable table = output::read_table(file);
     const auto column = [&](const std::string& name) -> const std::vector<double>& {
         if (const std::vector<double>* found = table.find(name)) return *found;
         throw UsageError(fmt::format(
@@ -64,7 +58,7 @@ SweptImpacts swept_impacts(const std::string& file, const std::string& key, doub
 }
 
 sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int row) {
-    const output::ColumnTable table = sweep_table(file);
+    const output::ColumnTable table = output::read_table(file);
     const auto index = static_cast<std::size_t>(row - 1);
     if (index >= table.rows()) throw UsageError(fmt::format("--row {}: {} has {} rows", row, file, table.rows()));
     const auto value = [&](const char* name) {

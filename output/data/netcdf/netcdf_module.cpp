@@ -27,6 +27,26 @@ void write_columns(const NcFile& file, const ColumnTable& table) {
         need(nc_put_var_double(file.id, ids[c], table.columns[c].values.data()));
 }
 
+std::optional<ColumnTable> read_columns(const NcFile& file) {
+    int row = 0, variables = 0;
+    std::size_t rows = 0;
+    if (nc_inq_dimid(file.id, "row", &row) != NC_NOERR) return std::nullopt;
+    const auto need = [&file](int status) { file.need(status, "is not a table of beamcam"); };
+    need(nc_inq_dimlen(file.id, row, &rows));
+    need(nc_inq_nvars(file.id, &variables));
+    ColumnTable table;
+    for (int v = 0; v < variables; ++v) {
+        char name[NC_MAX_NAME + 1];
+        int dimensions[NC_MAX_VAR_DIMS], count = 0;
+        need(nc_inq_var(file.id, v, name, nullptr, &count, dimensions, nullptr));
+        if (count != 1 || dimensions[0] != row) continue;
+        table.columns.push_back(
+            {name, from_udunits(file.text(v, "units")), file.text(v, "long_name"), std::vector<double>(rows)});
+        need(nc_get_var_double(file.id, v, table.columns.back().values.data()));
+    }
+    return table;
+}
+
 class Library final : public NetcdfLibrary {
   public:
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
@@ -38,6 +58,9 @@ class Library final : public NetcdfLibrary {
         const std::shared_ptr<NcFile> made = NcFile::create(file, named);
         write_columns(*made, table);
         made->close();
+    }
+    std::optional<ColumnTable> read_table(const std::filesystem::path& file) const override {
+        return read_columns(*NcFile::open(file));
     }
     SweepData open(const std::filesystem::path& file) const override { return open_nc_sweep(file); }
     std::string version() const override { return nc_inq_libvers(); }

@@ -88,10 +88,37 @@ TEST(Diff, ComparesTablesOfBothFormats) {
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1e-2").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1e-6").code, 7);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv s.json").code, 2);
-    folder.write("bad.csv", "t,theta\n0,x\n");
+    folder.write("bad.csv", "t,theta\n0\n");
     const Finished bad = shell(folder, "$BEAMCAM diff a.csv bad.csv");
     EXPECT_EQ(bad.code, 6);
-    EXPECT_THAT(bad.err, HasSubstr("bad.csv:2:3"));
+    EXPECT_THAT(bad.err, HasSubstr("bad.csv:2:1"));
+}
+
+TEST(Diff, ComparesTextsOfTables) {
+    const Folder folder;
+    folder.write("a.csv", "case,x\n\"stiff, \"\"hard\"\"\",1\nsoft,2\n3,3\n");
+    folder.write("b.csv", "case,x\n\"stiff, hard\",1\nsoft,2\nthree,3\n");
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.csv a.csv").code, 0);
+    const Finished differs = shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1");
+    EXPECT_EQ(differs.code, 7);
+    EXPECT_THAT(differs.out, HasSubstr("case: 2 texts differ\n1 of 2 columns identical in 3 rows\n"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info a.csv").out,
+                HasSubstr("a.csv: table with texts\n  columns        2\n  rows           3\n"));
+}
+
+TEST(Diff, ComparesNetcdfFilesOfTablesAndSweeps) {
+    const Folder folder;
+    ASSERT_EQ(shell(folder,
+                    "$BEAMCAM init -q --from pressed; for e in nc csv; do "
+                    "$BEAMCAM sweep -q pressed.json --over cam.speed=45:46:3 --keep 5 -o s.$e && "
+                    "$BEAMCAM orbits -q pressed.json --over cam.speed=45:46 -o o.$e || exit 1; done")
+                  .code,
+              0);
+    for (const char* files : {"s.nc s.csv", "o.nc o.csv"}) {
+        const Finished same = shell(folder, std::string("$BEAMCAM diff ") + files);
+        EXPECT_EQ(same.code, 0) << same.out << same.err;
+    }
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff s.nc o.nc").code, 7);
 }
 
 TEST(Diff, ATableWithAnEmptyTimeIsItself) {
