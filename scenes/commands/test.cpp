@@ -103,14 +103,16 @@ void print_result(const TestArguments& args, const RegressionResult& result, con
     else
         print_text(to_text(result, rule, args.common.quiet));
     std::map<Verdict, std::size_t> counts;
-    for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
+    std::size_t not_run = 0;
+    for (const EntryResult& entry : result.entries) ++(entry.exit_code == 0 ? counts[entry.verdict()] : not_run);
     const std::size_t new_renderer = counts[Verdict::new_renderer];
-    inform(args.common,
-           fmt::format("{}: {} identical, {} equivalent, {}{} different, {} missing; {}, {}, {:.2f} s",
-                       counted(result.entries.size(), "entry"), counts[Verdict::identical], counts[Verdict::equivalent],
-                       new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "",
-                       counts[Verdict::different], counts[Verdict::missing], counted(result.simulations, "simulation"),
-                       counted(result.pictures, "picture"), result.seconds));
+    inform(
+        args.common,
+        fmt::format("{}: {} identical, {} equivalent, {}{} different, {} missing{}; {}, {}, {:.2f} s",
+                    counted(result.entries.size(), "entry"), counts[Verdict::identical], counts[Verdict::equivalent],
+                    new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "", counts[Verdict::different],
+                    counts[Verdict::missing], not_run > 0 ? fmt::format(", {} not run", not_run) : "",
+                    counted(result.simulations, "simulation"), counted(result.pictures, "picture"), result.seconds));
     if (result.changed)
         inform(args.common,
                fmt::format("{} was changed: check the pictures and motions that it accepts now before you keep it",
@@ -118,6 +120,7 @@ void print_result(const TestArguments& args, const RegressionResult& result, con
 }
 
 int act(const TestArguments& args) {
+    if (args.junit) require_ending("--junit", *args.junit, {".xml"});
     RegressionOptions options = options_of(args);
     output::Manifest manifest(args.common.force);
     require_replaceable(args, manifest);

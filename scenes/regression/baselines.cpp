@@ -104,9 +104,7 @@ class Reader {
         f.text("file", entry.file, "Pictures of another program, in place of a scene.");
         f.text("expected", entry.expected, "Expected pictures, in place of accepted digests.");
         const bool drawn_here = entry.file.empty();
-        const Node* scene = drawn_here ? f.take(sim::required("scene", "\"fall.json\"")) : nullptr;
-        const Node* output =
-            drawn_here ? f.take(sim::required("output", "{\"type\": \"still\", \"at\": \"0.3 s\"}")) : nullptr;
+        const Node *scene = drawn_here ? f.take("scene") : nullptr, *output = drawn_here ? f.take("output") : nullptr;
         f.boolean("physics", entry.physics, "Whether the motion is compared, too.");
         Tolerances own;
         if (const Node* tolerance = f.take("tolerance"))
@@ -122,9 +120,14 @@ class Reader {
             all_.entries.push_back(std::move(entry));
             return;
         }
-        if (!scene || !output) return;
-        // An error in a scene concerns its entry only.
-        if (read_scene_of(*scene, overrides, path, entry) &&
+        // A missing scene, or an error in it, concerns its entry only.
+        const auto present = [&](const Node* node, const char* key, const char* example) {
+            return node || reject(entry, member.key_place,
+                                  fmt::format("{} needs {}, for example {}", path, in_quotes(key), example));
+        };
+        if (present(scene, "scene", "\"fall.json\"") &&
+            present(output, "output", "{\"type\": \"still\", \"at\": \"0.3 s\"}") &&
+            read_scene_of(*scene, overrides, path, entry) &&
             read_output_of(*output, path + ".output", scene_file(*scene), entry) &&
             (entry.expected.empty() || entry.has_pictures() ||
              reject(entry, *output, fmt::format("{}.output has no pictures to compare with \"expected\"", path))))
@@ -132,8 +135,9 @@ class Reader {
         all_.entries.push_back(std::move(entry));
     }
 
-    bool reject(Baseline& entry, const Node& node, const std::string& text) {
-        entry.problem += describe({all_.source}, Message{node.place, text});
+    bool reject(Baseline& entry, const Node& node, const std::string& text) { return reject(entry, node.place, text); }
+    bool reject(Baseline& entry, const Place& place, const std::string& text) {
+        entry.problem += describe({all_.source}, Message{place, text});
         return false;
     }
 

@@ -78,7 +78,9 @@ Tolerance tolerance_argument(const std::vector<std::string>& texts) {
         if (!number)
             throw UsageError(fmt::format(
                 "--tolerance {}: write channel=2, share=1e-4, ssim=0.98, motion=1e-5 or impacts=1e-4", text));
-        set_value(given, text.substr(0, sign), Node(*number), messages);
+        Node value(*number);
+        value.text = text.substr(sign + 1);  // as it was written, for messages
+        set_value(given, text.substr(0, sign), std::move(value), messages);
     }
     Diagnostics diagnostics;
     Tolerances tolerances;

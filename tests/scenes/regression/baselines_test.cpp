@@ -110,6 +110,19 @@ TEST(Baselines, PicturesAreExpectedOfPicturesOnly) {
     EXPECT_THAT(finished.err, HasSubstr("b.json:2:53: entries.a.output has no pictures to compare with \"expected\""));
 }
 
+TEST(Baselines, AnEntryWithoutASceneIsAnErrorOfThatEntryAlone) {
+    const Folder folder;
+    folder.write("b.json", R"({"entries": {
+  "a": {"output": {"type": "still", "at": 0}},
+  "b": {"scene": {}},
+  "c": {"scene": {"time": {"end": 0.1}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --junit j.xml");
+    EXPECT_EQ(finished.code, 3);
+    EXPECT_THAT(finished.err, HasSubstr("b.json:2:3: entries.a needs \"scene\", for example \"fall.json\""));
+    EXPECT_THAT(finished.err, HasSubstr("0 different, 1 missing, 2 not run; 1 simulation"));
+    EXPECT_THAT(testing::slurp(folder / "j.xml"), HasSubstr("failures=\"1\" errors=\"2\""));
+}
+
 TEST(Baselines, ReferencesMayBeBesideTheFile) {
     const Folder folder;
     folder.write("b.json", R"({"references": "", "entries": {
