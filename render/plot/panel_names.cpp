@@ -64,6 +64,13 @@ void PanelNames::fit(const Plot& plot, double width, double height) {
     widest_right_ = plot.right() ? widest(*plot.right()) : 0;
     widest_bar_ = plot.bar() ? widest(*plot.bar()) : 0;
     drop_ = plot.drop(sheet_);
+    beyond_left_ = beyond_right_ = 0;
+    for (const Tick& tick : plot.x().ticks()) {
+        if (!lowest_ || !panel_.x.numbered || tick.label.empty()) continue;
+        const double half = 0.5 * sheet_.measure(tick.label, style_.tick_numbers()).w;
+        beyond_left_ = std::max(beyond_left_, half - tick.at * width);
+        beyond_right_ = std::max(beyond_right_, half - (1 - tick.at) * width);
+    }
     title_ = lines_of(panel_.title, width - (panel_.letter.empty() ? 0 : 2 * style_.letters), style_.words(), sheet_);
     titles_height_ = 0;
     if (!panel_.letter.empty() || !panel_.title.empty())
@@ -77,6 +84,7 @@ Margins PanelNames::room_around(const Plot& plot) const {
     Margins m;
     m.left = widest_y_ + (widest_y_ > 0 ? style_.gap : 0) + (panel_.y.label.empty() ? 0 : letter + 1.3 * style_.gap) +
              y_.beside;
+    m.left = std::max(m.left, beyond_left_);
     m.bottom = number / 2;
     if (lowest_) {
         m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 + drop_ : style_.gap;
@@ -85,7 +93,7 @@ Margins PanelNames::room_around(const Plot& plot) const {
     m.top = std::max(number / 2 + 0.5, titles_height_);
     if (!plot.y().common().empty() || (plot.right() && !plot.right()->common().empty()))
         m.top += style_.numbers + style_.gap;
-    m.right = 1.3 * style_.numbers;  // the last x number overhangs
+    m.right = std::max(1.3 * style_.numbers, beyond_right_);
     if (plot.right()) m.right = widest_right_ + style_.gap + letter + 1.5 * style_.gap + right_.beside;
     if (plot.bar() && !panel_.color_bar->hidden)
         m.right = 2.2 * style_.gap + 0.9 * letter + style_.gap + widest_bar_ + letter + 1.6 * style_.gap;

@@ -182,7 +182,8 @@ void add_series_options(Command& app, FigureArguments& args) {
     app.option("--note", &args.notes, "AT=TEXT",
                "Of \"series\": a line with a text at an instant, for example impact:1=touch (repeatable)");
     app.flag("--panels", args.apart, "Of \"series\" with --compare: separate panels for each motion");
-    app.flag("--log", args.logarithmic, "Of \"series\": logarithmic axes of values");
+    app.flag("--log", args.logarithmic,
+             "Of \"series\": logarithmic axes of values, which omit values that are not positive");
     app.flag("--impacts", args.impacts, "Of \"series\": lines where impacts begin");
     app.flag("--residuals", args.residuals,
              "Of \"series\": below each panel with measured data, a panel with the differences");

@@ -106,6 +106,8 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     Places on_beam, on_cam;
     for (std::size_t i = 0; i < time.size(); ++i) {
         if (!(n[i] > 0) || !std::isfinite(x[i] + s[i])) continue;
+        // The end of a step is sampled again as the beginning of the next one.
+        if (!on_beam.points.x.empty() && on_beam.points.x.back() == time[i]) continue;
         on_beam.add(time[i], x[i], n[i]);
         on_cam.add(time[i], s[i] / problem.cam->radius * 180 / std::numbers::pi, n[i]);
     }

@@ -29,6 +29,8 @@ class SeriesAbscissa {
     std::optional<std::vector<double>> of(const Measurement& data, const sim::Problem& problem) const;
     // The factor from seconds to the axis: 1, or the cam's turns per second.
     double per_second(const sim::Problem& problem) const;
+    // The part of the abscissae of a curve that the axis shows, in SI units.
+    std::pair<double, double> drawn(const sim::Problem& problem) const;
     // Turns angles of the cam into phases of a turn; a line is broken at each turn.
     void fold(render::figure::Series& curve) const;
     // Gives all panels one axis, with its label and unit.

@@ -44,6 +44,13 @@ double SeriesAbscissa::per_second(const sim::Problem& problem) const {
     return problem.cam ? std::abs(problem.cam->speed) / (2 * std::numbers::pi) : 0;
 }
 
+std::pair<double, double> SeriesAbscissa::drawn(const sim::Problem& problem) const {
+    const std::pair<double, double> all = sim::TableRequest().drawn;
+    if (is_phase() || against_ == "t") return all;  // not folded yet; the rows lie within limits of time
+    const double unit = channel_ ? 1 : per_second(problem);
+    return {low_ ? *low_ / unit : all.first, high_ ? *high_ / unit : all.second};
+}
+
 void SeriesAbscissa::fold(Series& curve) const {
     if (!is_phase()) return;
     const Series whole = curve;
@@ -68,13 +75,12 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
         for (const Series& curve : each.series) range.add(curve.x);
     double largest = std::max(std::abs(range.low), std::abs(range.high));
     // A logarithmic panel omits what is not positive, but has the same axis.
-    const double air = channel_ && !is_phase() ? kAir * (range.high - range.low) : 0;
+    const double air = channel_ && !is_phase() ? kAir * (range.high - range.low) : 0;  // none at a limit
     // Seconds, as usual in print, unless the interval is short.
     if (!channel_ && range.high - range.low >= kShort) largest = 1;
     if (is_phase()) range.low = 0, range.high = 1;
     const double extent = range.high - range.low;
-    if (low_) range.low = *low_ + air;
-    if (high_) range.high = *high_ - air;
+    range.low = low_.value_or(range.low - air), range.high = high_.value_or(range.high + air);
     // One limit beyond all curves still is the end of the axis.
     if (low_ && !high_ && range.low >= range.high) range.high = range.low + extent;
     if (high_ && !low_ && range.low >= range.high) range.low = range.high - extent;
@@ -86,8 +92,7 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
     if (is_turns()) measure = {1, ""}, symbol = phrase(lang_, "turns of the cam", "凸轮转数");
     for (Panel& each : figure.panels) {
         each.x.label = axis_label(symbol, measure.unit);
-        if (range.high > range.low)
-            each.x.from = (range.low - air) * measure.factor, each.x.to = (range.high + air) * measure.factor;
+        if (range.high > range.low) each.x.from = range.low * measure.factor, each.x.to = range.high * measure.factor;
         for (Series& curve : each.series) curve.x = scaled(std::move(curve.x), measure.factor);
         for (auto& rule : each.rules)
             if (rule.vertical) rule.at *= measure.factor;

@@ -102,6 +102,18 @@ std::string trust_text(const SeriesPlan& plan, const Figure& figure, const Resul
            agreement_text(plan.measured, *results[motion.study], {motion.problem, plan.units, plan.lang});
 }
 
+std::string omitted_text(const Figure& figure, Lang lang) {
+    const auto omits = [](const Panel& panel) {
+        return std::ranges::any_of(panel.series, [&](const Series& curve) {
+            const render::Scale scale = curve.right && panel.right ? panel.right->scale : panel.y.scale;
+            return scale == render::Scale::logarithmic &&
+                   std::ranges::any_of(curve.y, [](double value) { return value <= 0; });
+        });
+    };
+    if (std::ranges::none_of(figure.panels, omits)) return {};
+    return phrase(lang, "Logarithmic axes omit values that are not positive. ", "对数轴略去非正值。");
+}
+
 }  // namespace
 
 std::string series_subject(const SeriesKeys& keys, Lang lang) {
@@ -124,8 +136,8 @@ std::string series_subject(const SeriesKeys& keys, Lang lang) {
 std::string series_caption(const SeriesPlan& plan, const std::string& subject, const Figure& figure,
                            const Results& results) {
     return fmt::format("{}{}{}", subject, motions_text(plan, figure, results), phrase(plan.lang, ". ", "。")) +
-           dashed_lines_text(plan, figure, results) + trust_text(plan, figure, results) +
-           common_facts(plan.motions, plan.units, plan.lang);
+           omitted_text(figure, plan.lang) + dashed_lines_text(plan, figure, results) +
+           trust_text(plan, figure, results) + common_facts(plan.motions, plan.units, plan.lang);
 }
 
 }  // namespace beamcam::scenes

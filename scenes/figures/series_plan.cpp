@@ -38,7 +38,8 @@ std::vector<sim::Channel> channels_of(const SeriesPlan& plan) {
 std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const SeriesMotion& motion, Studies& studies) {
     if (!plan.abscissa.is_frequency())
         return studies.curve(motion.study, {plan.keys.from, plan.end, kRows},
-                             plan.abscissa.channel().value_or(sim::Channel{}), channel);
+                             plan.abscissa.channel().value_or(sim::Channel{}), channel, {},
+                             plan.abscissa.drawn(motion.problem));
     return studies.add_table(motion.study,
                              {spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}});
 }
@@ -54,8 +55,8 @@ void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::s
                 if (std::ranges::find(all, channel) == all.end()) all.push_back(channel);
     const sim::Channel first = all.front();
     all.erase(all.begin());
-    const std::size_t table =
-        studies.curve(plan.motions[motion].study, {plan.keys.from, plan.end, kSumRows}, {}, first, all);
+    const std::size_t table = studies.curve(plan.motions[motion].study, {plan.keys.from, plan.end, kSumRows}, {}, first,
+                                            all, plan.abscissa.drawn(plan.motions[motion].problem));
     for (const SeriesSum& sum : sums) curves.push_back({first, motion, table, sum});
 }
 

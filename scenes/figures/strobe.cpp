@@ -75,6 +75,26 @@ void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
                                     : VAlign::top});
 }
 
+// First and last, in one label where two would overlap; then the others that have room.
+void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
+    constexpr double kApart = 0.05;  // [rad]
+    std::vector<double> labelled;
+    const auto has_room = [&](const sim::Pose& pose) {
+        return std::ranges::all_of(labelled, [&](double theta) { return std::abs(pose.theta - theta) > kApart; });
+    };
+    const auto label = [&](const sim::Pose& pose, const std::string& text) {
+        labelled.push_back(pose.theta);
+        add_instant(pose, text, to);
+    };
+    const auto text_of = [](const sim::Pose& pose) { return number(pose.t, 3) + " s"; };
+    const sim::Pose &first = poses.front(), &last = poses.back();
+    const bool joined = poses.size() > 1 && std::abs(last.theta - first.theta) <= kApart;
+    label(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first));
+    if (has_room(last)) label(last, text_of(last));
+    for (const sim::Pose& pose : poses)
+        if (has_room(pose)) label(pose, text_of(pose));
+}
+
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
     Sketch sketch;
     const bool one = poses.size() == 1;
@@ -86,12 +106,7 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     sketch.dot({0, 0}, Sketch::kInk, 2);
     if (problem.hub.radius > 0 && !one) sketch.circle({0, 0}, problem.hub.radius, Sketch::kInk, 0.9);
     if (problem.cam) sketch.dot(problem.cam->centre);
-    // First and last, in one label where two would overlap.
-    const std::string first = number(poses.front().t, 3) + " s", last = number(poses.back().t, 3) + " s";
-    constexpr double kApart = 0.12;  // [rad]
-    const bool apart = std::abs(poses.back().theta - poses.front().theta) > kApart;
-    add_instant(poses.front(), one || apart ? first : first + ", " + last, sketch);
-    if (apart) add_instant(poses.back(), last, sketch);
+    label_instants(poses, sketch);
     return {.shapes = sketch.take()};
 }
 

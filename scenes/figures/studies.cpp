@@ -60,10 +60,10 @@ std::size_t Studies::table(std::size_t study, const Instants& at, const std::vec
 }
 
 std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
-                           const std::vector<sim::Channel>& also) {
+                           const std::vector<sim::Channel>& also, const std::pair<double, double>& drawn) {
     const sim::Channel time{};
     constexpr double kStray = 0.002;  // a quarter of a line's width in a column
-    sim::TableRequest table{instants(at), {time}, std::pair(x, y), kStray};
+    sim::TableRequest table{instants(at), {time}, std::pair(x, y), kStray, drawn};
     if (x != time) table.channels.push_back(x);
     table.channels.push_back(y);
     table.channels.insert(table.channels.end(), also.begin(), also.end());

@@ -44,9 +44,10 @@ class Studies {
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
     std::size_t table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels);
     // A separate table for a curve: t, `x` and `y`, or t and `y` where x is t, with rows added where the curve bends,
-    // and the channels `also` at the same rows.
+    // and the channels `also` at the same rows. `drawn`: ends of the drawn part of x.
     std::size_t curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
-                      const std::vector<sim::Channel>& also = {});
+                      const std::vector<sim::Channel>& also = {},
+                      const std::pair<double, double>& drawn = sim::TableRequest().drawn);
     std::size_t add_table(std::size_t study, sim::TableRequest table);
     std::size_t point(std::size_t study, double x, const Instants& at);
     void apexes(std::size_t study) { request(study).apexes = true; }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "sim/base/vec2.hpp"
 #include "sim/observe/constants.hpp"
@@ -13,6 +14,9 @@ namespace beamcam::sim {
 
 class CurveRefiner {
   public:
+    // `drawn`: ends of the drawn abscissae. Finite ones are those of the range; pieces outside are not halved.
+    explicit CurveRefiner(std::pair<double, double> drawn) : drawn_(drawn) {}
+
     // Between the instants a < b. `at(t)` is the curve; `keep(t)` receives the added instants, in order. `stray`: the
     // largest distance from a piece, as a share of the range so far.
     template <class At, class Keep>
@@ -27,6 +31,8 @@ class CurveRefiner {
         const double middle = 0.5 * (a + b);
         if (halvings == 0 || added_ >= kMostCurveRows || !(middle > a && middle < b)) return;
         const Vec2 aside = seen(at(a + kBesideMiddle * (b - a))), centre = seen(at(middle));
+        if (std::max({from.x, centre.x, to.x}) < drawn_.first || std::min({from.x, centre.x, to.x}) > drawn_.second)
+            return;
         // Where the curve has no value the distance is NaN and nothing is refined.
         if (!(std::max(stray(centre, from, to), stray(aside, from, to)) > most_)) return;
         halve(a, from, middle, centre, halvings - 1, at, keep);
@@ -43,7 +49,8 @@ class CurveRefiner {
 
     // Distance of p from the piece, each direction by its range.
     double stray(Vec2 p, Vec2 from, Vec2 to) const {
-        const Vec2 range = high_ - low_;
+        const auto end = [](double drawn, double seen) { return std::isfinite(drawn) ? drawn : seen; };
+        const Vec2 range{end(drawn_.second, high_.x) - end(drawn_.first, low_.x), high_.y - low_.y};
         const auto scaled = [&](Vec2 v) {
             return Vec2{range.x > 0 ? v.x / range.x : 0, range.y > 0 ? v.y / range.y : 0};
         };
@@ -54,6 +61,7 @@ class CurveRefiner {
     }
 
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    std::pair<double, double> drawn_;
     Vec2 low_{kInfinity, kInfinity}, high_{-kInfinity, -kInfinity};
     double most_ = 0;
     long added_ = 0;

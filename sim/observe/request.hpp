@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <functional>
+#include <limits>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -20,6 +21,8 @@ struct TableRequest {
     // rows follow it. All rows are then in the order of time.
     std::optional<std::pair<Channel, Channel>> curve = {};
     double stray = 0.01;  // distance of the curve from the pieces, as a share of its range
+    // Ends of the abscissae that are drawn; no rows are added outside.
+    std::pair<double, double> drawn{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
 };
 struct PoseRequest {
     std::vector<double> times;  // [s]

@@ -21,7 +21,7 @@ SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluat
         table_cursors_.push_back(ascending(table.times));
         result_.tables.push_back({table.channels, {}});
         result_.tables.back().values.assign(table.channels.size(), std::vector<double>(table.times.size(), kNan));
-        refined_.push_back({{}, {}, std::vector<std::vector<double>>(table.channels.size())});
+        refined_.push_back({CurveRefiner(table.drawn), {}, std::vector<std::vector<double>>(table.channels.size())});
     }
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ascending(poses.times));

@@ -69,6 +69,17 @@ TEST(Figure, ABandLooksLikeItsOscillations) {
     EXPECT_LT(of_tones, all / 50);
 }
 
+TEST(Figure, NumbersBelowThePlotStayOnThePage) {
+    Figure figure = plot({40, 52}, {0, 1});
+    Panel& panel = figure.panels[0];
+    panel.series.clear();
+    panel.cells.push_back({{40, 52}, {0, 1}, {rgb(0x404040)}});
+    panel.y = {.numbered = false};
+    const Drawn drawn = draw_png(figure);
+    ASSERT_FALSE(drawn.written.empty());
+    for (const auto& each : drawn.written) EXPECT_GE(each.box.x, 0) << each.markup;
+}
+
 TEST(Figure, BadNumbersGiveAPictureOrAClearError) {
     const double nan = std::nan(""), inf = std::numeric_limits<double>::infinity();
     for (const auto& [x, y] :

@@ -195,6 +195,16 @@ TEST(ContactPlaces, HaveTheUnitThatSuitsTheBeam) {
     EXPECT_THAT(label(R"({"contact": {"model": "restitution"}, "time": {"end": 0.4}})"), HasSubstr("/ mm"));
 }
 
+TEST(ContactPlaces, OfAnInstantAreOnePoint) {
+    const auto figure = figure_of(scene_from(R"({"time": {"end": 0.35}})"), "contact-places");
+    for (const auto& panel : figure.panels) {
+        std::vector<double> times = panel.series[0].x;
+        EXPECT_GT(times.size(), 100u);
+        std::ranges::sort(times);
+        EXPECT_EQ(std::ranges::adjacent_find(times), times.end());
+    }
+}
+
 TEST(Figures, EnergiesAreThoseThatTheSceneHas) {
     const auto labels = [](const char* scene) {
         std::string all;

@@ -146,6 +146,28 @@ TEST(Series, LimitsOfATimeAxisSelectWhatIsDrawn) {
     EXPECT_EQ(by_limits.series[0].y, by_times.series[0].y);
 }
 
+TEST(Series, LimitsOfTheAbscissaAreItsEndsAndItsPartIsDrawnFine) {
+    const auto drawn = [](const std::string& limits) {
+        return figure_of(R"("channels": ["theta_dot"], "x": "theta")" + limits).panels[0];
+    };
+    const auto whole = drawn(""), part = drawn(R"(, "x_low": 0.4, "x_high": 0.401)");
+    EXPECT_EQ(part.x.from, 0.4);
+    EXPECT_EQ(part.x.to, 0.401);
+    const auto inside = [](const auto& panel) {
+        return std::ranges::count_if(panel.series[0].x, [](double x) { return x > 0.4 && x < 0.401; });
+    };
+    EXPECT_GT(inside(part), 2 * inside(whole));
+    EXPECT_LT(part.series[0].x.size(), whole.series[0].x.size());
+}
+
+TEST(Series, SaysWhatLogarithmicAxesOmit) {
+    const auto caption = [](const char* channel) {
+        return figure_of(fmt::format(R"("panels": [{{"channels": ["{}"], "scale": "log"}}])", channel)).caption;
+    };
+    EXPECT_THAT(caption("theta_dot"), HasSubstr("omit values that are not positive"));
+    EXPECT_THAT(caption("theta"), Not(HasSubstr("omit values")));
+}
+
 // What a logarithmic panel leaves out stays on the axis that all panels share.
 TEST(Series, PanelsShareOneAxis) {
     const Figure figure =
