@@ -26,25 +26,6 @@ void check_camera(ObjectReader& r, const View& view) {
         if (view.keyframes[i].follow) check(*view.keyframes[i].follow, fmt::format("keyframes.{}.follow", i));
 }
 
-std::string problem_with_span(const FrameSpan& span, double end_time) {
-    const double to = span.to.value_or(end_time), fps = span.fps.value();
-    if (span.from_event || span.to_event) return {};
-    if (!span.real_time()) {
-        if (to > span.from) return {};  // the number of frames depends on the motion
-        return fmt::format("the film begins at {1:g} s and ends at {0:g} s; \"to\" must be later than \"from\"", to,
-                           span.from);
-    }
-    const double first = std::round(span.from * fps), last = std::round(to * fps);
-    if (!(last > first))
-        return fmt::format("no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
-                           to > span.from ? "increase \"to\" or \"fps\"" : "\"to\" must be later than \"from\"");
-    if (last - first > kMostFrames)
-        return fmt::format(
-            "{:.0f} frames are too many: an output has at most {:.0f}; use \"from\" and \"to\", or reduce \"fps\"",
-            last - first, kMostFrames);
-    return {};
-}
-
 void check_speed(ObjectReader& r, const Speed& speed) {
     if (r.diagnostics().failed(r.object_name())) return;
     for (std::size_t i = 1; i < speed.intervals.size(); ++i) {

@@ -211,8 +211,10 @@ void SceneRun::write_pictures(std::size_t picture) {
             p.file, empty, counted(film.frames(), "frame"));
     const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
-    files_.record_cost(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()),
-                       start, files_.files_of(p));
+    constexpr std::size_t kTypical = 10;  // frames; of fewer, the start of drawing and encoding dominates
+    if (p.kind == Pictures::Kind::still || p.draw.size() >= kTypical)
+        files_.record_cost(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()),
+                           start, files_.files_of(p));
 }
 
 void SceneRun::write_document(const Pictures& p, const std::string& bytes) {

@@ -116,6 +116,21 @@ std::string picture_text(const Pictures& p, const std::vector<double>& times) {
     return text + file_cost(p.cost);
 }
 
+// What the total does not include: no earlier run did similar work, or its amount depends on events.
+std::vector<std::string> work_without_cost(const Plan& plan) {
+    std::vector<std::string> all;
+    const auto check = [&](const std::optional<Cost>& cost, const std::string& name) {
+        if (!cost) all.push_back(name);
+    };
+    if (plan.simulation) check(plan.simulation->cost, "the motion");
+    for (const Simulation& other : plan.others) check(other.cost, fmt::format("the motion of \"{}\"", other.label));
+    for (const Pictures& p : plan.pictures) check(p.cost, p.file);
+    for (const FigureFile& f : plan.figures) check(f.cost, f.file);
+    for (const DataFile& d : plan.data)
+        if (d.numbers > 0) check(d.cost, d.file);
+    return all;
+}
+
 }  // namespace
 
 std::string to_text(const Plan& plan) {
@@ -132,10 +147,11 @@ std::string to_text(const Plan& plan) {
         line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
     for (const DataFile& d : plan.data)
         line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
-    const bool some = std::ranges::any_of(plan.pictures, [](const Pictures& p) { return p.draw.empty(); });
-    if (const auto cost = plan.cost())
-        line("total", fmt::format("{}{}, estimated from earlier runs",
-                                  some ? "without pictures that depend on events, " : "", file_cost(cost).substr(2)));
+    if (const auto cost = plan.cost()) {
+        const std::vector<std::string> more = work_without_cost(plan);
+        line("total", fmt::format("{}, estimated from earlier runs{}", file_cost(cost).substr(2),
+                                  more.empty() ? "" : fmt::format("; not known: {}", fmt::join(more, ", "))));
+    }
     text += "skipped\n";
     for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
     return text;

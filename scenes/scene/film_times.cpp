@@ -104,9 +104,7 @@ Speed speed_of(const FrameSpan& span, double to, const sim::Result& motion) {
     double left = *span.duration - span.hold;
     for (const FilmEvent& event : span.events)
         if (const auto t = reached(event.at, span, to, motion); t && *t >= span.from && *t <= to) left -= event.freeze;
-    if (!(left > 0))
-        throw render::PictureError(
-            fmt::format("the freezes and the hold fill the film of {:g} s; increase \"duration\"", *span.duration));
+    if (!(left > 0)) throw render::PictureError(pauses_fill(span));
     return {.factor = (to - span.from) / left};
 }
 
@@ -250,7 +248,7 @@ FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& 
 
 FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::Result& motion,
                      const std::vector<sim::Impact>& slowed, bool collisions) {
-    const FrameSpan span = with_times(with_events, motion);
+    const FrameSpan span = resolved(with_events, end_time, motion);
     const double to = span.to.value_or(end_time);
     std::vector<double> fine;
     FilmTimes out = span.real_time() ? real_time(span, to) : warped(span, to, motion, slowed, fine);

@@ -27,6 +27,13 @@ struct FilmTimes {
     std::vector<double> survey;
 };
 
+// Why a span has no frames, or too many; empty if it is valid, as far as that is known before the motion.
+std::string problem_with_span(const FrameSpan& span, double end_time);
+std::string pauses_fill(const FrameSpan& span);  // that problem of a span with a duration
+// With times in place of events at its ends. Throws render::PictureError for an event that does not occur, and for a
+// span without frames.
+FrameSpan resolved(const FrameSpan& span, double end_time, const sim::Result& motion);
+
 // The numbers of the frames, the end not included; nullopt if they depend on events. Throws render::PictureError if a
 // film with a duration has no frame or too many.
 std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time);

@@ -6,6 +6,7 @@
 #include <sys/stat.h>
 
 #include "scenes/format/checks.hpp"
+#include "scenes/scene/film_times.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
@@ -314,6 +315,13 @@ TEST(Reader, FramesAreCountedByRoundedNumbers) {
     EXPECT_EQ(problem_with_span({{60, 1}, 0.5, 0.517}, 1.5), "");
     EXPECT_THAT(problem_with_span({{60, 1}, 0.5, 0.505}, 1.5), HasSubstr("no frame lies between"));
     EXPECT_THAT(problem_with_span({{60, 1}, 2, {}}, 1.5), HasSubstr("no frame lies between"));
+    const auto film = [](const std::string& keys) {
+        return read(R"({"outputs": [{"type": "video", "from": 0.2, "to": 0.4, "duration": 2, )" + keys + "}]}")
+            .report();
+    };
+    EXPECT_EQ(film(R"("hold": 1.9)"), "");
+    EXPECT_THAT(film(R"("hold": 2)"), HasSubstr("the freezes and the hold fill the film of 2 s"));
+    EXPECT_THAT(film(R"("hold": 1, "events": [{"at": 0.3, "freeze": 1}])"), HasSubstr("fill the film of 2 s"));
 }
 
 // ---- overrides ---------------------------------------------------------------------------------

@@ -26,6 +26,19 @@ TEST(Cache, GivesPlansTheDurationsOfEarlierRuns) {
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --no-cache").out, Not(HasSubstr("about")));
 }
 
+// The start of drawing is most of the time of a single frame.
+TEST(Cache, AFewFramesDoNotEstimateAFilm) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.5}, "outputs": [{"type": "frames", "file": "f-##.png",
+        "size": [64, 64], "view": {"style": "flat"}}]})");
+    const std::string part = "$BEAMCAM render -q s.json -o f-##.png --frames ";
+    ASSERT_EQ(shell(folder, part + "0:1").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out,
+                HasSubstr("estimated from earlier runs; not known: f-##.png\n"));
+    ASSERT_EQ(shell(folder, part + "0:20").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("estimated from earlier runs\n"));
+}
+
 TEST(Cache, LeavesPixelsOfFilmsUnchanged) {
     SKIP_UNDER_SANITIZERS();
     const Folder folder;

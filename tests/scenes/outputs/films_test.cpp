@@ -471,7 +471,7 @@ TEST(Films, LastAsLongAsIsWanted) {
     const FilmTimes frozen = times_in(R"("duration": "10 s", "hold": 2, "events": [{"at": 0.5, "freeze": 3}])");
     EXPECT_EQ(frozen.frames.size(), 300u);
     EXPECT_NEAR(frozen.speeds.front(), 1.0 / 5, 1e-12);
-    EXPECT_THROW(times_in(R"("duration": 1, "hold": 2)"), std::runtime_error);
+    EXPECT_THROW(times_in(R"("duration": 1, "events": [{"at": "last", "freeze": 2}])"), std::runtime_error);
 }
 
 TEST(Films, ShowWordsForTheirTimeAndOthersUntilTheNext) {
