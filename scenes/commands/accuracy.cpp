@@ -101,7 +101,7 @@ void act(const AccuracyArguments& args) {
 void add_accuracy(Grammar& grammar) {
     const auto [app, args] = grammar.command<AccuracyArguments>(
         "accuracy", "Compute the error budget of a scene, and error against run time", act);
-    app.examples = {"accuracy fall.json --target 1e-5 -o budget.pdf"};
+    app.examples = {"accuracy fall.json --until 0.3 --repeats 1 --target 1e-5 -o budget.pdf"};
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the diagram as .png, .svg or .pdf (repeatable)");

@@ -6,6 +6,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <iostream>
 #include <string>
 #include <type_traits>
@@ -18,6 +19,7 @@
 #include "output/files/standard_output.hpp"
 #include "output/film/video.hpp"
 #include "output/json/source.hpp"
+#include "output/json/tree.hpp"
 #include "render/base/error.hpp"
 #include "render/base/limits.hpp"
 #include "render/gl/lit.hpp"
@@ -84,6 +86,20 @@ struct Parsers {
     std::vector<std::pair<CLI::Option*, const Parameter*>> key_options;
 };
 
+// Values separated by a character are several; throws UsageError for an empty one, as in "45deg,,3".
+std::function<void(const std::vector<std::string>&)> splitter(const Parameter& parameter) {
+    return [&parameter](const std::vector<std::string>& words) {
+        auto& values = *std::get<std::vector<std::string>*>(parameter.target);
+        for (const std::string& word : words)
+            for (std::string& value : split(word, parameter.separator)) {
+                if (value.empty())
+                    throw UsageError(fmt::format("{} {}: a value is empty; remove a \"{}\"", parameter.names, word,
+                                                 parameter.separator));
+                values.push_back(std::move(value));
+            }
+    };
+}
+
 void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) {
     CLI::Option* option = std::visit(
         [&](const auto& target) {
@@ -92,6 +108,9 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
                 return app.add_flag(parameter.names, *target, parameter.meaning);
             else if constexpr (!std::is_pointer_v<Stored>)
                 return app.add_option_function(parameter.names, target, parameter.meaning)->type_name(parameter.value);
+            else if (parameter.separator != 0)
+                return app.add_option_function(parameter.names, splitter(parameter), parameter.meaning)
+                    ->type_name(parameter.value);
             else
                 return app.add_option(parameter.names, *target, parameter.meaning)->type_name(parameter.value);
         },
@@ -107,7 +126,6 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
                           .description(""));
         option->description(fmt::format("{} ({:g} to {:.10g})", parameter.meaning, low, high));
     }
-    if (parameter.separator != 0) option->delimiter(parameter.separator);
     if (parameter.is_option() && !parameter.takes_several) option->allow_extra_args(false);
 }
 

@@ -98,6 +98,7 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
     // "x_low" before "x", which begins it.
     std::ranges::stable_sort(given, std::ranges::greater(), [](const auto* option) { return option->key.size(); });
     for (Message& message : messages) {
+        if (message.text.starts_with("output: ")) message.text.erase(0, 8);
         for (const KeyOptions::Option* option : given) {
             const std::string first = option->key.substr(0, option->key.find('.')),
                               unknown = fmt::format("unknown key {} in ", in_quotes(first));
@@ -106,6 +107,9 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
                                              types_with(option->key), output.find("type")->value.text));
             replace_all(message.text, kPrefix + option->key, option->name);
         }
+        for (const KeyOptions* group : options)  // "to" → --to
+            for (const KeyOptions::Option& option : group->options_)
+                replace_all(message.text, in_quotes(option.key.substr(option.key.rfind('.') + 1)), option.name);
         if (message.fatal) throw UsageError(message.text);
         if (!common.quiet) output::print_message("{}: warning: {}\n", scene_file, message.text);
     }

@@ -78,7 +78,6 @@ std::string text_of(const std::vector<KeyRow>& rows) {
 void act(const KeysArguments& args) {
     if (args.markdown) return print_data(reference_text());
     const std::vector<KeyRow> rows = chosen(args.pattern);
-    if (args.json) return print_data(to_text(array_node(rows, json_of)));
     if (rows.empty()) {
         std::vector<std::string> names;
         for (const KeyRow& row : key_rows()) {
@@ -87,7 +86,7 @@ void act(const KeysArguments& args) {
         }
         throw UsageError(fmt::format("no key matches {}{}", args.pattern, suggestion(args.pattern, names)));
     }
-    print_data(text_of(rows));
+    print_data(args.json ? to_text(array_node(rows, json_of)) : text_of(rows));
 }
 
 }  // namespace

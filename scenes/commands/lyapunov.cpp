@@ -92,7 +92,8 @@ void act(const LyapunovArguments& args) {
 void add_lyapunov(Grammar& grammar) {
     const auto [app, args] = grammar.command<LyapunovArguments>(
         "lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos", act);
-    app.examples = {"lyapunov chaos.json --transient 200 --duration '300 s' -o convergence.pdf"};
+    app.examples = {"lyapunov pressed.json --set cam.speed=54.3 --transient 200 --duration '60 s' -o convergence.pdf"};
+    app.footer = "`beamcam init --from pressed` writes the scene of the example.";
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");

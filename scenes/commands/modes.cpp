@@ -10,6 +10,7 @@
 
 #include "output/data/records.hpp"
 #include "scenes/commands/commands.hpp"
+#include "sim/beam/model.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -29,9 +30,10 @@ void act(const ModesArguments& args) {
     for (std::size_t& number : inaccurate) ++number;
     if (!inaccurate.empty())
         inform(args.common,
-               fmt::format("warning: not converged: mode{} {} would change by more than 1 % with more shapes; increase "
-                           "beam.modes",
-                           inaccurate.size() == 1 ? "" : "s", fmt::join(inaccurate, ", ")));
+               fmt::format(
+                   "warning: not converged: mode{} {} would change by more than 1 % with more shapes; {}",
+                   inaccurate.size() == 1 ? "" : "s", fmt::join(inaccurate, ", "),
+                   scene.problem.beam.modes < sim::kMaxModes ? "increase beam.modes" : "no model has more shapes"));
     if (args.common.json) {
         print_json(output::modes_json(modes));
         return;

@@ -256,8 +256,9 @@ int act(const OrbitsArguments& args) {
 void add_orbits(Grammar& grammar) {
     const auto [app, args] = grammar.command<OrbitsArguments>(
         "orbits", "Find periodic orbits and their stability, and follow them over a parameter", act);
-    app.examples = {"orbits fast-cam.json --turns 1",
-                    "orbits fast-cam.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
+    app.examples = {"orbits pressed.json --turns 1",
+                    "orbits pressed.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
+    app.footer = "`beamcam init --from pressed` writes the scene of the examples.";
     add_scene(app, args.scene, args.common);
     add_result_options(
         app, args.files, args.common,

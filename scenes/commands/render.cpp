@@ -150,10 +150,12 @@ std::pair<long, long> frames_argument(const std::string& text, long begin, long 
             fmt::format("--frames {}: write FIRST:END, for example {}:{} for all of them", text, begin, end));
     const long from = number(std::string_view(text).substr(0, colon), begin),
                to = number(std::string_view(text).substr(colon + 1), end);
-    if (from < begin || to > end || from >= to)
-        throw UsageError(fmt::format(
-            "--frames {}: the film has the frames {}:{}, the last one not included; name at least one of them", text,
-            begin, end));
+    if (from < begin || to > end)
+        throw UsageError(
+            fmt::format("--frames {}: the frames of the film are {} … {}; END, not included, is at most {}", text,
+                        begin, end - 1, end));
+    if (from >= to)
+        throw UsageError(fmt::format("--frames {}: END must be above FIRST, because it is not included", text));
     return {from, to};
 }
 
@@ -223,8 +225,8 @@ void add_key_options(Command& app, RenderArguments& args) {
 void add_render(Grammar& grammar) {
     const auto [app, args] = grammar.command<RenderArguments>(
         "render", "Make one film, picture sequence, still picture, page or model of a scene", act);
-    app.examples = {"render fall.json -o fall.mp4 --size 1280x720 --speed impacts",
-                    "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4"};
+    app.examples = {"render fall.json -o fall.mp4 --size 1280x720 --to 0.4 --speed impacts",
+                    "render fall.json -o touch.png --at impact:1", "render slow.json fast.json -o both.mp4 --to 0.5"};
     add_scene(app, args.scene, args.common);
     app.positional("OTHERS", &args.others, "Further scenes, compared with the first in one picture");
     app.option("-o,--output", &args.file, "FILE",

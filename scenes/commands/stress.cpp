@@ -16,7 +16,6 @@
 #include "output/json/tree.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/command_figures.hpp"
-#include "scenes/figures/figure_files.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/progress.hpp"
 
@@ -157,19 +156,10 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
 
 // ---- the command ---------------------------------------------------------------------------------
 
-// At the size of a double page.
-render::Image drawn_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    FigureOutput how;
-    how.column = "elsevier-double";
-    how.width = 0.3;
-    how.dpi = 150;
-    return figure_image(survival_map(campaign, results), how);
-}
-
 void write(const output::Target& file, const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
     const std::string ending = file.path.extension().string();
     if (ending == ".png")
-        output::write_png(file, drawn_map(campaign, results));
+        output::write_png(file, survival_picture(campaign, results));
     else
         output::write_file(file, ending == ".csv" ? stress_csv(campaign, results) : stress_json(campaign, results));
 }

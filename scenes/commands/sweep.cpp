@@ -44,7 +44,7 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
     const std::string option = "--over " + text;
     const std::size_t equals = text.find('=');
     if (equals == std::string::npos || equals == 0)
-        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, for example cam.speed=40:52:601");
+        throw UsageError(option + ": write KEY=FIRST:LAST:COUNT, for example cam.speed=40:60:601");
     SweptKey over;
     over.key = text.substr(0, equals);
     std::string value = text.substr(equals + 1);
@@ -243,8 +243,9 @@ void act(const SweepArguments& args) {
 void add_sweep(Grammar& grammar) {
     const auto [app, args] = grammar.command<SweepArguments>(
         "sweep", "Simulate many motions over one or two keys: samples, classes, diagrams", act);
-    app.examples = {"sweep fast-cam.json --over cam.speed=40:52:601 -o sweep.nc --diagram bifurcation.pdf",
-                    "sweep fast-cam.json --over cam.speed=40:52:601 -o sweep.nc --shard 2/8"};
+    app.examples = {"sweep pressed.json --over cam.speed=40:60:601 -o sweep.nc --diagram bifurcation.pdf",
+                    "sweep pressed.json --over cam.speed=40:60:601 -o sweep.nc --shard 2/8"};
+    app.footer = "`beamcam init --from pressed` writes the scene of the examples.";
     add_scene(app, args.scene, args.common);
     app.option(
         "--over", &args.over, "KEY=VALUES",

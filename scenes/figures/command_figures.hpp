@@ -33,5 +33,7 @@ render::figure::Figure exponents_figure(const sim::Exponents& exponents, const S
 // variant, coloured by its outcome. Failures are crossed out as well, so that colour alone does not carry them.
 // `results` belong to `campaign.cases`, in their order.
 render::figure::Figure survival_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
+// At the size of a double page.
+render::Image survival_picture(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
 
 }  // namespace beamcam::scenes

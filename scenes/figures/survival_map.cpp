@@ -4,6 +4,7 @@
 
 #include "render/draw/markup.hpp"
 #include "scenes/figures/command_figures.hpp"
+#include "scenes/figures/figure_files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -19,8 +20,8 @@ struct OutcomeLook {
     const char* meaning;
 };
 constexpr OutcomeLook kOutcomes[] = {
-    {sim::Outcome::closed, 0x2F6DB3, "ended, energy balance closed"},
-    {sim::Outcome::open, 0x9CC3E6, "ended, open energy balance reported"},
+    {sim::Outcome::closed, 0x2F6DB3, "closed energy balance"},
+    {sim::Outcome::open, 0x9CC3E6, "open energy balance"},
     {sim::Outcome::refused, 0xC9CCD1, "rejected with a message"},
     {sim::Outcome::stopped, 0xE9A23B, "stopped with a message"},
     {sim::Outcome::failed, 0xC62828, "failed"},
@@ -116,6 +117,14 @@ render::figure::Figure survival_map(const sim::Campaign& campaign, const std::ve
                                   render::rgb(look.color)});
     figure.aspect = 0.8 * static_cast<double>(figure.panels.size());
     return figure;
+}
+
+render::Image survival_picture(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
+    FigureOutput how;
+    how.column = "elsevier-double";
+    how.width = 0.3;
+    how.dpi = 150;
+    return figure_image(survival_map(campaign, results), how);
 }
 
 }  // namespace beamcam::scenes

@@ -22,7 +22,7 @@ struct Mode {
 std::vector<Mode> natural_modes(const Problem& problem, std::optional<double> speed = std::nullopt);
 
 // The indices of those modes whose frequency changes by more than 1 % with 2 n + 4 shapes, at most 40, in place of the
-// problem's n: they are not converged.
+// problem's n: they are not converged. Those of `exact` are compared with the shapes of `first-order`.
 std::vector<std::size_t> unconverged_modes(const std::vector<Mode>& modes, const Problem& problem,
                                            std::optional<double> speed = std::nullopt);
 

@@ -29,6 +29,25 @@ TEST(CommandLine, VersionHelpAndSchemaAreData) {
         << "after a change of keys: beamcam schema > scenes/beamcam-scene.schema.json";
 }
 
+// Those of commands that search: others work with any scene.
+TEST(CommandLine, ExamplesOfTheHelpShowSomething) {
+    const Folder folder;
+    ASSERT_EQ(shell(folder, "$BEAMCAM init --from pressed").code, 0);
+    for (const auto& [command, shown] :
+         {std::pair{"orbits", "period 1 turn"}, std::pair{"sweep", "periodic"}, std::pair{"lyapunov", "chaotic:"}}) {
+        const std::string help = shell(folder, fmt::format("$BEAMCAM {} --help", command)).out,
+                          line = fmt::format("\n  beamcam {} ", command);
+        std::size_t at = help.find(line);
+        ASSERT_NE(at, std::string::npos) << command;
+        for (; at != std::string::npos; at = help.find(line, at + 1)) {
+            const std::string arguments = help.substr(at + 10, help.find('\n', at + 1) - at - 10);
+            const Finished example = shell(folder, "$BEAMCAM" + arguments);
+            EXPECT_EQ(example.code, 0) << arguments << example.err;
+            EXPECT_THAT(example.out + example.err, HasSubstr(shown)) << arguments;
+        }
+    }
+}
+
 TEST(CommandLine, EveryKeyIsExplained) {
     const Folder folder;
     EXPECT_EQ(shell(folder, "$BEAMCAM keys --markdown").out, testing::slurp(BEAMCAM_TEST_DIR "/../scenes/FORMAT.md"))
@@ -90,6 +109,10 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "sweep s.json --over cam.speed=1:2:2 --diagram -",
                                   "sweep s.json --over cam.speed=1:2:2 --film -",
                                   "collect a.nc -o -",
+                                  "keys --json nonsense",
+                                  "test s.json --junit j.txt",
+                                  "figure s.json --channels theta --lines 45deg,,3 -o a.pdf",
+                                  "figure s.json --channels theta, -o a.pdf",
                                   "paper"}) {
         const Finished finished = shell(folder, std::string("$BEAMCAM ") + arguments);
         EXPECT_EQ(finished.code, 2) << arguments << "\n" << finished.err;
@@ -99,6 +122,14 @@ TEST(CommandLine, WrongUsageIsTwo) {
     EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json").err, HasSubstr("no key varies"));
     EXPECT_THAT(shell(folder, "$BEAMCAM figure s.json --channels theta --low abc -o a.pdf -n").err,
                 HasSubstr("beamcam: --low = \"abc\": it does not begin with a number"));
+    for (const auto& [arguments, message] :
+         {std::pair{"figure s.json --channels theta --low 3 --high 1 -o a.pdf", "--high must be above --low"},
+          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "beamcam: no frame lies between 1 s and 0.5 s"},
+          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to must be later than --from"},
+          std::pair{"render s.json --frames 80:91 -o a.mp4", "the frames of the film are 0 … 89; END, not included"},
+          std::pair{"render s.json --frames 9:9 -o a.mp4", "END must be above FIRST"},
+          std::pair{"test s.json --tolerance motion=1e9", "--tolerance.motion = 1e9 is outside 0 … 1"}})
+        EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }
@@ -128,6 +159,8 @@ TEST(CommandLine, ModesThatAreNotConvergedAreNamed) {
     EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json").err,
                 HasSubstr("warning: not converged: modes 2, 3, 4 would change by more than 1 %"));
     EXPECT_EQ(shell(folder, "$BEAMCAM modes s.json --set beam.model=first-order").err, "");
+    EXPECT_THAT(shell(folder, "$BEAMCAM modes s.json --set beam.modes=40").err,
+                HasSubstr("39, 40 would change by more than 1 % with more shapes; no model has more"));
 }
 
 TEST(CommandLine, ABadSceneIsThreeAndNothingIsWritten) {
@@ -141,6 +174,14 @@ TEST(CommandLine, ABadSceneIsThreeAndNothingIsWritten) {
         EXPECT_THAT(finished.out, IsEmpty());
     }
     EXPECT_FALSE(std::filesystem::exists(folder / "out"));
+}
+
+TEST(CommandLine, AFilmBetweenEventsInTheWrongOrderIsRejected) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.7}})");
+    const Finished finished = shell(folder, "$BEAMCAM render s.json --from apex:1 --to touch -o a.mp4");
+    EXPECT_EQ(finished.code, 3);
+    EXPECT_THAT(finished.err, HasSubstr("a.mp4: no frame lies between 0.52"));
 }
 
 TEST(CommandLine, AnUnreadableSceneIsSix) {

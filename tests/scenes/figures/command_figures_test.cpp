@@ -38,6 +38,12 @@ TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
     EXPECT_EQ(shown, 4);  // a lone variant fills both stripes of its cell
 }
 
+TEST(SurvivalMap, OfTheWholeCampaignHasRoomOnItsPage) {
+    const sim::Campaign campaign = sim::stress_campaign(false);
+    const render::Image image = survival_picture(campaign, std::vector<sim::StressResult>(campaign.cases.size()));
+    EXPECT_GT(image.height, image.width);
+}
+
 sim::Accuracy measured() {
     sim::Accuracy a;
     a.until = a.end_time = 1;
