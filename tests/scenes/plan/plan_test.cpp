@@ -253,7 +253,7 @@ TEST(PlanText, AMotionThatTwoPicturesCompareIsSimulatedOnceAndMayBeCached) {
 
 TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
     ExistingWork existing;
-    existing.finished = {1};
+    existing.finished = {{1, "t.csv"}};
     existing.frames[0] = {0, 1, 2, 7};
     existing.keeps = true;
     double& kept_until = existing.kept_until[Studies::key(scene_of(kTwo).problem)];
