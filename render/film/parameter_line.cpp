@@ -11,13 +11,13 @@ namespace beamcam::render {
 namespace {
 
 // A row of text from `x` to `right`, on its baseline.
-struct Row {
+struct TextRow {
     double x = 0, right = 0, y = 0;
 };
 
 // Positions of as many pieces, in order, as fit into the rows.
 std::vector<Vec2> placed(const Canvas& canvas, const std::vector<std::string>& pieces, const TextStyle& style,
-                         double gap, const std::vector<Row>& rows) {
+                         double gap, const std::vector<TextRow>& rows) {
     std::vector<Vec2> out;
     std::size_t row = 0;
     double x = rows.front().x;
@@ -115,8 +115,8 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
     }
     const double u = places.unit;
     const Box& b = *places.parameters;
-    std::vector<Row> rows{{b.x, b.right(), b.y + 24 * u}};
-    const auto choose = [&](const std::vector<Row>& into) {
+    std::vector<TextRow> rows{{b.x, b.right(), b.y + 24 * u}};
+    const auto choose = [&](const std::vector<TextRow>& into) {
         for (const auto& [size, gap] : {std::pair{21, 26}, {21, 16}, {19, 16}, {17, 14}}) {
             const TextStyle style{.size = size * u};
             const std::vector<Vec2> at = placed(canvas, pieces, style, gap * u, into);
@@ -128,7 +128,7 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
     };
     choose(rows);
     if (out.pieces.size() < pieces.size() && places.title) {
-        const Row above{b.x, b.right(), places.title->y + 38 * u};
+        const TextRow above{b.x, b.right(), places.title->y + 38 * u};
         rows.insert(rows.begin(), above);  // beside the title
         if (!title.empty()) rows.front().x += canvas.measure(text_markup(title), title_style(u)).w + 40 * u;
         choose(rows);

@@ -9,7 +9,7 @@ namespace beamcam::sim {
 
 Eigenmodes eigenmodes(const Eigen::MatrixXd& stiffness, const Eigen::MatrixXd& mass) {
     // Eigen's solver factors M too, but does not report a failure.
-    const bool definite = Eigen::LLT<Eigen::MatrixXd>(mass).info() == Eigen::Success;
+    const bool definite = is_positive_definite(mass);
     const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass);
     if (!definite || solver.info() != Eigen::Success)
         throw std::domain_error("the natural modes of the beam cannot be computed");
@@ -37,5 +37,19 @@ Eigen::VectorXcd eigenvector_nearest(const Eigen::MatrixXd& matrix, std::complex
 }
 
 Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b) { return a.fullPivLu().solve(b); }
+
+Eigen::VectorXd null_vector(const Eigen::MatrixXd& rows) { return rows.fullPivLu().kernel().col(0); }
+
+bool is_positive_definite(const Eigen::MatrixXd& symmetric) {
+    return Eigen::LLT<Eigen::MatrixXd>(symmetric).info() == Eigen::Success;
+}
+
+Eigen::MatrixXd in_basis(const Eigen::MatrixXd& form, const Eigen::MatrixXd& basis) {
+    return basis.transpose() * form * basis;
+}
+
+Eigen::MatrixXd weighted_square(const Eigen::MatrixXd& factor, const Eigen::VectorXd& weight) {
+    return factor * weight.asDiagonal() * factor.transpose();
+}
 
 }  // namespace beamcam::sim

@@ -1,4 +1,5 @@
-// Dense linear systems and eigenproblems by Eigen, compiled in one file because each decomposition takes seconds.
+// Products, linear systems and eigenproblems of dense matrices by Eigen, compiled in one file because each takes
+// seconds.
 #pragma once
 
 #include <Eigen/Core>
@@ -24,5 +25,13 @@ Eigen::VectorXcd eigenvector_nearest(const Eigen::MatrixXd& matrix, std::complex
 
 // x of A x = b by LU decomposition with complete pivoting; for a singular A some x, or not finite.
 Eigen::VectorXd solve(const Eigen::MatrixXd& a, const Eigen::VectorXd& b);
+
+// A vector that all rows are orthogonal to, of no particular length.
+Eigen::VectorXd null_vector(const Eigen::MatrixXd& rows);
+
+bool is_positive_definite(const Eigen::MatrixXd& symmetric);
+
+Eigen::MatrixXd in_basis(const Eigen::MatrixXd& form, const Eigen::MatrixXd& basis);            // BᵀFB
+Eigen::MatrixXd weighted_square(const Eigen::MatrixXd& factor, const Eigen::VectorXd& weight);  // F·diag(w)·Fᵀ
 
 }  // namespace beamcam::sim

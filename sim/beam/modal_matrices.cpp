@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
@@ -28,7 +29,7 @@ ModalMatrices modal_matrices(const Problem& problem, const Shapes& shapes, Basis
     m.W.noalias() = y * w.matrix();              // (S9)
     m.K.noalias() = beam.bending_stiffness() * (y2.cwiseAbs2() * rule.w);
     const auto product = [&](const Eigen::MatrixXd& f, const Eigen::ArrayXd& weight, Eigen::MatrixXd& out) {
-        out.noalias() = f * weight.matrix().asDiagonal() * f.transpose();
+        out = weighted_square(f, weight.matrix());
         out = 0.5 * (out + out.transpose()).eval();
     };
     product(y, w, m.M);                                                               // (S10)

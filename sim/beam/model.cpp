@@ -95,7 +95,7 @@ void Model::build_damping(const Problem& problem) {
             twice[i] = 2 * ratio * std::sqrt(std::max(0.0, modes.omega_squared[i]));
         }
         const Eigen::MatrixXd weighted = inertia * modes.shapes;
-        damping = weighted * twice.asDiagonal() * weighted.transpose();
+        damping = weighted_square(weighted, twice);
     }
     damping = 0.5 * (damping + damping.transpose()).eval();
     const double off = (damping - Eigen::MatrixXd(damping.diagonal().asDiagonal())).cwiseAbs().maxCoeff();

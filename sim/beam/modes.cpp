@@ -50,8 +50,8 @@ std::vector<Mode> natural_modes(const Problem& given, std::optional<double> spee
     Eigen::MatrixXd reduce(size, n);
     reduce.row(0) = follow;
     reduce.bottomRows(n).setIdentity();
-    const Eigen::MatrixXd m = reduce.transpose() * linear.mass * reduce;
-    Eigen::MatrixXd k = reduce.transpose() * linear.stiffness * reduce;
+    const Eigen::MatrixXd m = in_basis(linear.mass, reduce);
+    Eigen::MatrixXd k = in_basis(linear.stiffness, reduce);
     k = 0.5 * (k + k.transpose()).eval();
     const Eigenmodes natural = eigenmodes(k, m);
 

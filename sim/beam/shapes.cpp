@@ -1,10 +1,11 @@
 #include "sim/beam/shapes.hpp"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <numbers>
 
 #include "sim/base/assert.hpp"
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 
 namespace beamcam::sim {
@@ -79,8 +80,7 @@ Shapes Shapes::hub_beam(int count, double length, double radius, double inertia)
                                                                      : high;
         const Eigen::Matrix4d conditions = hub_beam_conditions(b, kappa, h);
         // With a heavy hub the row of moments at the root is ill-conditioned; the other three determine the shape.
-        const Eigen::Matrix<double, 3, 4> rows = conditions.topRows<3>();
-        Eigen::Vector4d v = rows.fullPivLu().kernel().col(0);
+        Eigen::Vector4d v = null_vector(conditions.topRows<3>());
         const double decay = std::exp(-b);
         if (b * (v[1] - v[2] + decay * v[3]) < 0) v = -v;  // y′(0) > 0
         Coefficients c{v[0], v[1], v[2], v[3]};

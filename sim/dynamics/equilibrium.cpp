@@ -1,10 +1,10 @@
 #include "sim/dynamics/equilibrium.hpp"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/newton.hpp"
 
@@ -91,7 +91,7 @@ bool is_stable(Model& model, const Eigen::VectorXd& xi, const Eigen::VectorXd& s
         const Eigen::VectorXd change = central_difference(force, xi, bend) / step;
         variation.col(j - 1) = -(change.tail(n - 1) - hub.tail(n - 1) * (change[0] / hub[0]));
     }
-    return Eigen::LLT<Eigen::MatrixXd>(0.5 * (variation + variation.transpose())).info() == Eigen::Success;
+    return is_positive_definite(0.5 * (variation + variation.transpose()));
 }
 
 // Calls solve(system) for ever softer beams, from one that bends little to the given one, until one has no solution.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <vector>
 
+#include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/beam/exact_model.hpp"
 #include "sim/beam/modal_model.hpp"
@@ -58,7 +59,7 @@ class ModalInertia final : public InertiaForces {
         const ModalMatrices& m = model.matrices();
         const Eigen::Index n = model.size() - 1;
         const Eigen::MatrixXd shapes = natural.bottomRightCorner(n, n);
-        const auto in_modes = [&](const Eigen::MatrixXd& by) { return LaneMatrix(shapes.transpose() * by * shapes); };
+        const auto in_modes = [&](const Eigen::MatrixXd& by) { return LaneMatrix(in_basis(by, shapes)); };
         J_ = m.J;
         S_ = m.S;
         turn_ = natural.topRightCorner(1, n).transpose();
