@@ -274,7 +274,7 @@ skipped
 )");
     kept_until = 0.4;  // too short
     EXPECT_THAT(text_with(existing), HasSubstr("needed by f-##.png; added to the cache, unless it is short\n"));
-    existing.finished = {0, 1};
+    existing.finished = {{0, "f-##.png"}, {1, "t.csv"}};
     EXPECT_EQ(text_with(existing), R"(to do
 skipped
   f-##.png: up to date
