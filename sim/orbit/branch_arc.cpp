@@ -26,14 +26,18 @@ Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Val
     return (back ? here.image - before.image : after.image - here.image) / kArcDifference;
 }
 
+Progress BranchArc::poll(double p) const {
+    return [progress = progress_, p](double) { return !progress || progress(p); };
+}
+
 SectionMap BranchArc::map(double share) const {
     const double p = request_.from + share * (request_.to - request_.from);
-    const Progress poll = [progress = progress_, p](double) { return !progress || progress(p); };
-    return {for_orbits(family_(p)), like_.section, turns_, like_.start, scale_, poll};
+    return {for_orbits(family_(p)), like_.section, turns_, like_.start, scale_, poll(p)};
 }
 
 BranchArc BranchArc::recentred(const BranchPoint& point) const {
-    return {family_, request_, sim::recentred(family_(point.parameter), point.orbit), turns_, scale_, progress_};
+    const double p = point.parameter;
+    return {family_, request_, sim::recentred(family_(p), point.orbit, poll(p)), turns_, scale_, progress_};
 }
 
 Eigen::VectorXd BranchArc::place(const BranchPoint& point) const {

@@ -44,6 +44,7 @@ class BranchArc {
 
   private:
     SectionMap map(double share) const;
+    Progress poll(double parameter) const;
     Eigen::VectorXd slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const;
 
     Family family_;

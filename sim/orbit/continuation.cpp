@@ -239,7 +239,8 @@ std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, c
 
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress) {
-    const SectionScale scale = section_scale(for_orbits(family(start.parameter)), start.orbit);
+    const SectionScale scale = section_scale(for_orbits(family(start.parameter)), start.orbit,
+                                             [&](double) { return !progress || progress(start.parameter); });
     std::vector<Branch> branches(1);
     const auto run = [&](const BranchArc& arc, ArcPoint at, bool both, Branch& branch) {
         branch.points.push_back(arc.branch_point(at));

@@ -203,8 +203,8 @@ Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& req
     RunOptions options{.start = request.start ? &*request.start : nullptr};
     options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
         const Eigen::MatrixXd v = all_tangents(problem, system.coordinates(), request.count);
-        auto made =
-            std::make_unique<TangentIntegrator>(system, std::move(motion), kTangentErrors * problem.solver.rtol, v);
+        auto made = std::make_unique<TangentIntegrator>(system, std::move(motion), kTangentErrors * problem.solver.rtol,
+                                                        v, progress);
         stretching.emplace(made->tangents(), request.blocks, request.transient, request.duration,
                            longest_interval(problem));
         tangents = made.get();

@@ -47,7 +47,7 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     options.around = [&](System& system, std::unique_ptr<Integrator> motion) {
         const Eigen::Index n = 2 * system.coordinates();
         auto made = std::make_unique<TangentIntegrator>(system, std::move(motion), problem.solver.rtol,
-                                                        Eigen::MatrixXd::Identity(n, derivative ? n : 0));
+                                                        Eigen::MatrixXd::Identity(n, derivative ? n : 0), progress);
         made->end_at(duration);
         if (on_cam == StartOnCam::kept) made->start_on_cam();
         tangents = made.get();

@@ -199,8 +199,8 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
     return found;
 }
 
-PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit) {
-    const Place place = longest_flight(for_orbits(problem), {orbit.section, orbit.start}, 2 * orbit.period, {});
+PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit, const Progress& progress) {
+    const Place place = longest_flight(for_orbits(problem), {orbit.section, orbit.start}, 2 * orbit.period, progress);
     orbit.section = place.section;
     orbit.start = place.state;
     return orbit;

@@ -54,8 +54,8 @@ struct OrbitRequest {
 std::vector<PeriodicOrbit> find_orbits(const Problem& problem, const OrbitRequest& request,
                                        const Progress& progress = {});
 
-// The same orbit with its section in the middle of its longest flight.
-PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit);
+// The same orbit with its section in the middle of its longest flight. Throws SolverError, Interrupted.
+PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit, const Progress& progress = {});
 
 // The problem with a start on the orbit, in the middle of a flight. Nothing if the beam never leaves the cam. Throws
 // SolverError, Interrupted.

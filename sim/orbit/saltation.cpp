@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "sim/base/ode.hpp"
 #include "sim/orbit/constants.hpp"
 #include "sim/run/constants.hpp"
 
@@ -95,6 +96,7 @@ void Saltation::impact(const Instant& at, Eigen::MatrixXd& tangents) {
         jets_.apply_impact(s, near_, !at.is.held && rebound > -kPlastic * near_.gap_rate ? pre_set : 0);
         for (int k = 0; k < kFlow && first + k < tangents.cols(); ++k) {
             const double delay = -gap.d[k] / gap.d[kFlow];
+            if (!std::isfinite(delay)) throw StepFailure("a touch without speed has no derivative");
             for (int i = 0; i < n_; ++i) {
                 const Jet &xi = s.xi[static_cast<std::size_t>(i)], &rate = s.rate[static_cast<std::size_t>(i)];
                 tangents(i, first + k) = units_[i] * (xi.d[k] + (xi.d[kFlow] - flow[i]) * delay);

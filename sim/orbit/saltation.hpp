@@ -22,7 +22,8 @@ class Saltation {
     // `jets` and `units` (of the rows of tangents) must outlive this object.
     Saltation(const System& system, ModalJets& jets, const Eigen::VectorXd& units);
 
-    // Applies the event between the states `before` and `after`, if there is one, to the tangents (in units).
+    // Applies the event between the states `before` and `after`, if there is one, to the tangents (in units). Throws
+    // StepFailure at an impact whose speed is zero: neighbouring motions touch at an instant without derivative.
     void pass(double t, const double* before, const Phase& was, const double* after, const Phase& is,
               Eigen::MatrixXd& tangents);
     // Start in sustained contact: projects the tangents onto differences that remain on the cam.

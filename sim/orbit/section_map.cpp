@@ -27,8 +27,8 @@ Problem for_orbits(Problem problem) {
     return problem;
 }
 
-SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit) {
-    const FlowMap map = flow_map(at_section(problem, orbit.section), orbit.start, orbit.period, false);
+SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit, const Progress& progress) {
+    const FlowMap map = flow_map(at_section(problem, orbit.section), orbit.start, orbit.period, false, progress);
     const Eigen::Map<const Eigen::VectorXd> state(orbit.start.y.data(), map.units.size());
     return {map.units, size_of(problem, map, map.units.cwiseProduct(state))};
 }

@@ -39,7 +39,7 @@ class SectionMap {
     Progress progress_;
 };
 
-SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit);
+SectionScale section_scale(const Problem& problem, const PeriodicOrbit& orbit, const Progress& progress);
 
 // The problem with tight tolerances, with which Newton's method converges to rounding.
 Problem for_orbits(Problem problem);

@@ -28,7 +28,7 @@ Eigen::VectorXd units_of(System& system) {
 }  // namespace
 
 TangentIntegrator::TangentIntegrator(System& system, std::unique_ptr<Integrator> motion, double rtol,
-                                     const Eigen::MatrixXd& tangents)
+                                     const Eigen::MatrixXd& tangents, const Progress& progress)
     : system_(system),
       probe_(system),
       jets_(system),
@@ -37,7 +37,7 @@ TangentIntegrator::TangentIntegrator(System& system, std::unique_ptr<Integrator>
       units_(units_of(system)),
       tangents_(Eigen::MatrixXd::Zero(2 * n_ + kTangentMemories, tangents.cols())),
       y_(static_cast<std::size_t>(system.size)),
-      tangent_step_(probe_, jets_, units_, rtol),
+      tangent_step_(probe_, jets_, units_, rtol, progress),
       saltation_(system, jets_, units_) {
     tangents_.topRows(2 * n_) = tangents;
 }
@@ -86,6 +86,12 @@ void TangentIntegrator::advance(double t) {
         if (pause_ && t_ >= next_pause_) next_pause_ = pause_(t_);
     }
     segment_->value(t, y_.data());
+}
+
+void TangentIntegrator::finish(double t) try {
+    if (segment_) advance(t);
+} catch (const StepFailure& failure) {
+    throw SolverError(failure.what(), t_, {});
 }
 
 double TangentIntegrator::inertia_share() const { return jets_.inertia_share(y_.data() + 1); }

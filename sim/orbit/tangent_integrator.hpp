@@ -21,8 +21,9 @@ namespace beamcam::sim {
 class TangentIntegrator final : public Integrator {
   public:
     // `system` is the system of the run, integrated by `motion`. `tangents` has 2n rows, in units, and any number of
-    // columns.
-    TangentIntegrator(System& system, std::unique_ptr<Integrator> motion, double rtol, const Eigen::MatrixXd& tangents);
+    // columns. `progress` receives the time that the tangents have reached.
+    TangentIntegrator(System& system, std::unique_ptr<Integrator> motion, double rtol, const Eigen::MatrixXd& tangents,
+                      const Progress& progress);
 
     void start(double t, const double* y) override;
     const Segment& step() override;
@@ -39,10 +40,8 @@ class TangentIntegrator final : public Integrator {
     // Projects the tangents of a start in sustained contact onto differences that remain on the cam. Without this, gap
     // and gap rate are free there, and decay according to (S45).
     void start_on_cam() { starts_kept_ = true; }
-    // After the run: integrates the tangents up to its end.
-    void finish(double t) {
-        if (segment_) advance(t);
-    }
+    // After the run: integrates the tangents up to its end. Throws SolverError.
+    void finish(double t);
     // The tangents; `canonical`: with the momentum ∂T/∂ξ̇ in place of ξ̇ (S73).
     Eigen::MatrixXd tangents(bool canonical = false) const;
     void set_canonical(const Eigen::MatrixXd& tangents);

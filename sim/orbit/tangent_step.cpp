@@ -2,10 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/nodal_step.hpp"
 #include "sim/orbit/constants.hpp"
+#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -29,11 +31,12 @@ StepTable::Row hub_row(double h) {
 
 }  // namespace
 
-TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol)
+TangentStep::TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol, Progress progress)
     : probe_(probe),
       jets_(jets),
       units_(units),
       rtol_(std::max(rtol, kTangentRounding)),
+      progress_(std::move(progress)),
       n_(probe.coordinates()),
       forced_(n_ + (probe.has_bristle() ? 1 : 0)),
       flight_level_(kFirstFlightLevel),
@@ -190,7 +193,9 @@ void TangentStep::advance(const Segment& motion, double t0, double t1, Eigen::Ma
         differentiate(motion, t, step.h);
         couple(step);
         const double e = solve(step, at, after);
-        if (e > 1 && level > kLowestLevel) {
+        if (++steps_ % kStepsPerReport == 0 && progress_ && !progress_(t)) throw Interrupted();
+        if (e > 1 && level == kLowestLevel) throw StepFailure("the tangents cannot be integrated");
+        if (e > 1) {
             const int down = std::isfinite(e) ? static_cast<int>(std::ceil(2 * std::log2(e) / kTangentOrder)) : 4;
             while (level > kLowestLevel && step_length(level) > step.h) --level;
             level = std::max(kLowestLevel, level - std::clamp(down, 1, 4));

@@ -10,6 +10,7 @@
 #include "sim/integrate/integrator.hpp"
 #include "sim/integrate/oscillator.hpp"
 #include "sim/orbit/modal_jets.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::sim {
 
@@ -17,10 +18,11 @@ class TangentStep {
   public:
     // `probe` evaluates the contact along the motion. It, `jets` and `units` (of the rows of tangents) must outlive
     // this object. Errors are kept below rtol of each tangent.
-    TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol);
+    TangentStep(System& probe, ModalJets& jets, const Eigen::VectorXd& units, double rtol, Progress progress);
 
     void begin(const Phase& phase);
-    // From t0 to t1 inside the segment. Tangents are columns; their rows are in units.
+    // From t0 to t1 inside the segment. Tangents are columns; their rows are in units. Throws StepFailure,
+    // Interrupted.
     void advance(const Segment& motion, double t0, double t1, Eigen::MatrixXd& tangents);
 
   private:
@@ -37,6 +39,8 @@ class TangentStep {
     ModalJets& jets_;
     const Eigen::VectorXd& units_;
     double rtol_;
+    Progress progress_;
+    long steps_ = 0;
     Phase phase_;
     int n_, forced_;                       // coordinates; components with a forcing, the bristle among them
     std::vector<Oscillator> oscillators_;  // of the modes

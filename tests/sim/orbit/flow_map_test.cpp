@@ -194,5 +194,20 @@ TEST(FlowMapLaw, VolumeShrinksByImpactsAndDampingAlone) {
         }
 }
 
+// Tangents may need many steps within one of the motion.
+TEST(FlowMapFailure, TangentsCanBeInterrupted) {
+    Problem p = machine(ModelKind::first_order, 8, ContactModel::restitution);
+    const InitialState start = initial_state(p);
+    const auto calls = [&](bool derivative) {
+        long count = 0;
+        flow_map(p, start, 0.1, derivative, [&](double) { return ++count > 0; });
+        return count;
+    };
+    const long motion = calls(false), both = calls(true);
+    EXPECT_GT(both, motion);
+    long count = 0;
+    EXPECT_THROW(flow_map(p, start, 0.1, true, [&](double) { return ++count < both; }), Interrupted);
+}
+
 }  // namespace
 }  // namespace beamcam::sim::testing

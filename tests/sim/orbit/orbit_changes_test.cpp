@@ -166,6 +166,22 @@ TEST(OrbitChanges, RestOnTheCamEndsWhereTheBouncesNoLongerDieOutInTime) {
     EXPECT_NEAR(released.front()->at.parameter, expected, released.front()->uncertainty);
 }
 
+// Over its release the branch becomes that of the beam that follows the cam; in between, flights have no duration.
+TEST(OrbitChanges, TheBranchThatRestsOnACamTurningBackwardsEndsWhereTheBeamFollows) {
+    const PressedBeam b;
+    const double expected =
+        -std::sqrt(-b.alpha / least_of([&](double psi) { return b.curve(psi); }, 0, 2 * std::numbers::pi));
+    const Family family = close_to_cam(b);
+    const auto found = find_orbits(family(-45), {10, 1});
+    ASSERT_FALSE(found.empty());
+    ASSERT_TRUE(found.front().chatters());
+    const auto branches = continue_orbit(family, {-45, found.front()}, {-46, -40, 0.05, 2000, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    const auto released = all_of(branches.front(), OrbitChange::release);
+    ASSERT_EQ(released.size(), 1u);
+    EXPECT_NEAR(released.front()->at.parameter, expected, released.front()->uncertainty);
+}
+
 // A bending mode that keeps in step with the bounces of a beam with a heavy hub takes energy from them and gives it
 // back: the softer beam's orbit of one impact sheds a torus.
 struct BendingBeam {
