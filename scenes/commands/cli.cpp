@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
+#include <cstdlib>
 #include <filesystem>
 #include <functional>
 #include <iostream>
@@ -124,6 +126,11 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
         const bool whole = std::holds_alternative<int*>(parameter.target);
         option->check((whole ? CLI::Range(static_cast<int>(low), static_cast<int>(high)) : CLI::Range(low, high))
                           .description(""));
+        // Range lets NaN pass.
+        const auto a_number = [](const std::string& word) {
+            return std::isnan(std::strtod(word.c_str(), nullptr)) ? word + " is not a number" : "";
+        };
+        option->check(a_number, "");
         option->description(fmt::format("{} ({:g} to {:.10g})", parameter.meaning, low, high));
     }
     if (parameter.is_option() && !parameter.takes_several) option->allow_extra_args(false);

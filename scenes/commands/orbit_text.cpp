@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <complex>
 
 #include "sim/base/counted.hpp"
@@ -34,19 +35,36 @@ std::string orbit_text(const sim::PeriodicOrbit& orbit) {
     return text;
 }
 
+// Along a branch that rests on the cam the number of impacts varies: they die out before it.
+std::string impacts_text(const std::vector<sim::BranchPoint>& points) {
+    std::size_t least = points.front().orbit.impacts.size(), most = least;
+    for (const sim::BranchPoint& point : points) {
+        least = std::min(least, point.orbit.impacts.size());
+        most = std::max(most, point.orbit.impacts.size());
+    }
+    return least == most ? counted(most, "impact") : fmt::format("{} to {}", least, counted(most, "impact"));
+}
+
+// Significant digits of the parameter, up to the first that is uncertain.
+int known_digits(const sim::SpecialPoint& point) {
+    constexpr double kMost = 13;
+    const double digits =
+        std::floor(std::log10(std::abs(point.at.parameter))) - std::floor(std::log10(point.uncertainty)) + 1;
+    return static_cast<int>(std::isnan(digits) ? kMost : std::clamp(digits, 1.0, kMost));
+}
+
 std::string branches_text(const output::BranchTable& table) {
     std::string text;
     for (const sim::Branch& branch : table.branches) {
         const auto [low, high] =
             std::minmax_element(branch.points.begin(), branch.points.end(),
                                 [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
-        const sim::PeriodicOrbit& orbit = branch.points.front().orbit;
-        text += fmt::format("branch of {}, {}: {}, {} from {:.9g} to {:.9g}\n", counted(orbit.turns, "turn"),
-                            counted(orbit.impacts.size(), "impact"), counted(branch.points.size(), "point"), table.key,
-                            low->parameter, high->parameter);
+        text += fmt::format("branch of {}, {}: {}, {} from {:.9g} to {:.9g}\n",
+                            counted(branch.points.front().orbit.turns, "turn"), impacts_text(branch.points),
+                            counted(branch.points.size(), "point"), table.key, low->parameter, high->parameter);
         for (const sim::SpecialPoint& point : branch.special)
-            text += fmt::format("  {:16} {} = {:.13g} ± {:.0e}\n", name(point.change), table.key, point.at.parameter,
-                                point.uncertainty);
+            text += fmt::format("  {:16} {} = {:.{}g} ± {:.0e}\n", name(point.change), table.key, point.at.parameter,
+                                known_digits(point), point.uncertainty);
         for (const std::string& end : {branch.first_end, branch.last_end})
             if (!end.empty()) text += fmt::format("  ends: {}\n", end);
     }
@@ -59,6 +77,14 @@ std::string to_text(const output::BranchTable& table) {
     std::string text;
     for (const sim::PeriodicOrbit& orbit : table.orbits) text += orbit_text(orbit);
     return text + branches_text(table);
+}
+
+std::string nothing_found(int turns) {
+    std::string text = "no periodic orbit was found";
+    if (turns > 1)
+        text +=
+            fmt::format(" with a shortest period of {} turns (one of fewer turns that repeats is not counted)", turns);
+    return text + "; try another initial state, --turns, --impacts or --transient";
 }
 
 }  // namespace beamcam::scenes

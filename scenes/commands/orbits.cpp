@@ -76,7 +76,9 @@ void search_elsewhere(output::BranchTable& table, const sim::Family& family, con
     request.transient = 0;
     for (const double share : {0.5, 0.25, 0.75, 0.125, 0.375, 0.625, 0.875}) {
         const double value = range.from + share * (range.to - range.from);
-        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(family(value), request, progress);
+        const sim::Problem problem = family(value);
+        if (std::ranges::any_of(sim::validate(problem), &sim::Issue::fatal)) continue;  // the initial state
+        std::vector<sim::PeriodicOrbit> found = sim::find_orbits(problem, request, progress);
         if (!first_of(found, false)) continue;
         table.start = value;
         table.orbits = std::move(found);
@@ -194,11 +196,12 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
     sim::Family family;
     output::BranchTable table;
     if (range) {
-        family = [problem, key = range->key.path](double value) { return problem_with(problem, key, value); };
+        // A branch begins on an orbit, wherever the initial state is.
+        family = [problem, key = range->key.path](double value) { return problem_with(problem, key, value, true); };
         for (const double end : {range->from, range->to}) family(end);  // throws if the end is impossible
         table = {range->key.path, si_unit(range->key.dimension), start_value(args, *range), {}, {}};
         need_narrow(*range, table.start);
-        problem = family(table.start);
+        problem = problem_with(problem, range->key.path, table.start);
     }
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
     const sim::OrbitRequest request = request_of(args, problem);
@@ -243,12 +246,13 @@ int act(const OrbitsArguments& args) {
                   [&] { return output::orbit_columns(table, attributes_of(scene)); }},
                  args.files, scene, args.common, manifest);
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
-    if (table.orbits.empty())
-        inform(args.common,
-               "no periodic orbit was found; try another initial state, --turns, --impacts or --transient");
-    else if (range && table.branches.empty())
-        inform(args.common, "the orbits that were found could not be followed");
-    return written ? kDone : kSolverFailed;
+    if (table.orbits.empty()) inform(args.common, nothing_found(args.turns));
+    const bool followed = !range || table.orbits.empty() || !table.branches.empty();
+    if (!followed)
+        inform(args.common, fmt::format("the orbits that were found could not be followed: Newton's method did not "
+                                        "converge at {} = {:.10g}; try another start (--at)",
+                                        table.key, table.start));
+    return written && followed ? kDone : kSolverFailed;
 }
 
 }  // namespace

@@ -27,11 +27,11 @@ std::vector<double> lasting_classes() {
 
 }  // namespace
 
-sim::Problem problem_with(sim::Problem problem, const std::string& key, double value) {
+sim::Problem problem_with(sim::Problem problem, const std::string& key, double value, bool any_start) {
     if (!sim::set_number(problem, key, value))
         throw SceneError(fmt::format("{} = {:.10g} is outside its range or not a whole number", key, value));
     for (const sim::Issue& finding : sim::validate(problem))
-        if (finding.fatal)
+        if (finding.fatal && !(any_start && finding.path.starts_with("initial")))
             throw SceneError(fmt::format("at {} = {:.10g}: {}: {}", key, value, finding.path, finding.message));
     return problem;
 }

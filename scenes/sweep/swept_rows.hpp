@@ -9,8 +9,9 @@
 
 namespace beamcam::scenes {
 
-// The problem with another value of a key. Throws SceneError for an impossible one.
-sim::Problem problem_with(sim::Problem problem, const std::string& key, double value);
+// The problem with another value of a key. Throws SceneError for an impossible one; with `any_start` its initial state
+// may be.
+sim::Problem problem_with(sim::Problem problem, const std::string& key, double value, bool any_start = false);
 
 // The impacts in a .csv, .npz or .nc table of `sweep --sample impacts` with the key between two values. Throws
 // UsageError for a missing column.

@@ -16,14 +16,31 @@ bool same_events(const FlowMap& a, const FlowMap& b) {
 
 }  // namespace
 
-// ∂P/∂p by finite differences; one-sided where only one side has the same events.
-Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const {
+// The map at a parameter nearby; nothing where there is no problem or no motion.
+std::optional<SectionMap::Value> BranchArc::beside(const Eigen::VectorXd& z, double shift) const try {
     const Eigen::Index n = z.size() - 1;
-    const auto shifted = [&](double shift) { return map(z[n] + shift).at(z.head(n), false); };
-    const SectionMap::Value before = shifted(-kArcDifference), after = shifted(kArcDifference);
-    const bool back = same_events(before.map, here.map), forth = same_events(after.map, here.map);
-    if (back == forth) return (after.image - before.image) / (2 * kArcDifference);
-    return (back ? here.image - before.image : after.image - here.image) / kArcDifference;
+    return map(z[n] + shift).at(z.head(n), false);
+} catch (const SolverError&) {
+    return std::nullopt;
+} catch (const StepFailure&) {
+    return std::nullopt;
+}
+
+// ∂P/∂p by finite differences; one-sided where only one side has the same events, or exists.
+Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const {
+    const auto before = beside(z, -kArcDifference), after = beside(z, kArcDifference);
+    if (!before && !after) throw StepFailure("the parameter cannot be varied");
+    const bool back = before && (!after || same_events(before->map, here.map));
+    const bool forth = after && (!before || same_events(after->map, here.map));
+    if (before && after && back == forth) return (after->image - before->image) / (2 * kArcDifference);
+    return (back ? here.image - before->image : after->image - here.image) / kArcDifference;
+}
+
+// The ends of the range may be the last values with a problem: rounding must not pass them.
+double BranchArc::parameter(double share) const {
+    const double end = std::round(share);
+    if (std::fabs(share - end) < kAtRangeEnd) share = end;
+    return std::lerp(request_.from, request_.to, share);
 }
 
 Progress BranchArc::poll(double p) const {
@@ -31,7 +48,7 @@ Progress BranchArc::poll(double p) const {
 }
 
 SectionMap BranchArc::map(double share) const {
-    const double p = request_.from + share * (request_.to - request_.from);
+    const double p = parameter(share);
     return {for_orbits(family_(p)), like_.section, turns_, like_.start, scale_, poll(p)};
 }
 

@@ -25,9 +25,7 @@ class BranchArc {
               const SectionScale& scale, const Progress& progress)
         : family_(family), request_(request), like_(like), turns_(turns), scale_(scale), progress_(progress) {}
 
-    double parameter(const Eigen::VectorXd& z) const {
-        return request_.from + z[z.size() - 1] * (request_.to - request_.from);
-    }
+    double parameter(const Eigen::VectorXd& z) const { return parameter(z[z.size() - 1]); }
     double share(double parameter) const { return (parameter - request_.from) / (request_.to - request_.from); }
     // z of the point; z of `like` at this parameter.
     Eigen::VectorXd place(const BranchPoint& point) const;
@@ -43,8 +41,10 @@ class BranchArc {
     std::optional<ArcPoint> correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const;
 
   private:
+    double parameter(double share) const;
     SectionMap map(double share) const;
     Progress poll(double parameter) const;
+    std::optional<SectionMap::Value> beside(const Eigen::VectorXd& z, double shift) const;
     Eigen::VectorXd slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const;
 
     Family family_;

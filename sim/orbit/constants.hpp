@@ -45,7 +45,8 @@ inline constexpr double kAtTip =
 // too slow to be separated.
 inline constexpr double kRestUncertainty = 3e-5;
 inline constexpr double kMovedSection = 0.01;       // [rad] smaller changes of the section are ignored
-inline constexpr double kAtRangeEnd = 1e-5;         // of the range: problems beyond its ends may be invalid
+inline constexpr double kNearSection = 0.1;         // of its flight: an impact so close to the section moves it
+inline constexpr double kAtRangeEnd = 1e-12;        // of the range: rounding
 inline constexpr double kDoubledShift = 0.02;       // of the orbit's size: first step onto the doubled branch
 inline constexpr double kLeastDoubledShift = 1e-4;  // of that step: smallest one tried
 

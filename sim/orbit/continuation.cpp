@@ -12,6 +12,7 @@
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/branch_arc.hpp"
 #include "sim/orbit/constants.hpp"
+#include "sim/orbit/contact_pattern.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -51,16 +52,11 @@ bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
     return before.product * after.product < 0 && std::min(before.nearest, after.nearest) > kOnCircle;
 }
 
-// Orbits have the same pattern unless grazing or release lies between them. Before sustained contact the number of
-// impacts is infinite and is not compared.
-bool same_pattern(const PeriodicOrbit& a, const PeriodicOrbit& b) {
-    return (a.chatters() || a.impacts.size() == b.impacts.size()) && a.holds == b.holds && a.lifts == b.lifts &&
-           a.start.phase.touching == b.start.phase.touching;
-}
-
-bool beyond_range(const ArcPoint& p) {
+bool beyond_range(const Eigen::VectorXd& z) { return z[z.size() - 1] < 0 || z[z.size() - 1] > 1; }
+// The point is an end of the range, and its tangent points outwards.
+bool leaves_range(const ArcPoint& p) {
     const double share = p.z[p.z.size() - 1];
-    return share < 0 || share > 1;
+    return fold_test(p) < 0 ? share < kAtRangeEnd : share > 1 - kAtRangeEnd;
 }
 
 class Continuation {
@@ -77,7 +73,7 @@ class Continuation {
     void locate(const ArcPoint& a, double step, OrbitChange change, const Test& test, Branch& branch) const;
     void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
     std::optional<ArcPoint> recentre(const ArcPoint& at);
-    void end_at_range(const ArcPoint& last, const ArcPoint& beyond, Branch& branch) const;
+    bool end_at_range(const ArcPoint& last, const Eigen::VectorXd& beyond, Branch& branch) const;
     bool passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
                 std::string& end) const;
 
@@ -144,10 +140,7 @@ bool Continuation::passes(const ArcPoint& last, const std::optional<ArcPoint>& b
     const bool rests = orbit.chatters() || (beyond && beyond->orbit.chatters());
     const double unsure = rests && !orbit.always_touching() ? kRestUncertainty * std::fabs(arc_.parameter(last.z)) : 0;
     branch.special.push_back({change, arc_.branch_point(last), std::max(step * range, unsure)});
-    end =
-        beyond
-            ? fmt::format("{}: {} impacts become {}", name(change), orbit.impacts.size(), beyond->orbit.impacts.size())
-            : fmt::format("{}: the orbit cannot be followed with its {} impacts", name(change), orbit.impacts.size());
+    end = fmt::format("{}: {}", name(change), change_of_pattern(orbit, beyond ? &beyond->orbit : nullptr));
     return false;
 }
 
@@ -166,54 +159,59 @@ std::optional<ArcPoint> Continuation::recentre(const ArcPoint& at) {
     return same;
 }
 
-// Puts the last point at the end of the range, if it has the pattern of the point before.
-void Continuation::end_at_range(const ArcPoint& last, const ArcPoint& beyond, Branch& branch) const {
+// Puts the last point at the end of the range. False if there is none with the pattern of the point before.
+bool Continuation::end_at_range(const ArcPoint& last, const Eigen::VectorXd& beyond, Branch& branch) const {
     const Eigen::Index n = last.z.size() - 1;
-    const double end = beyond.z[n] > 1 ? 1 : 0, way = (end - last.z[n]) / (beyond.z[n] - last.z[n]);
-    Eigen::VectorXd z = last.z + way * (beyond.z - last.z);
+    const double end = beyond[n] > 1 ? 1 : 0, way = (end - last.z[n]) / (beyond[n] - last.z[n]);
+    Eigen::VectorXd z = last.z + way * (beyond - last.z);
     z[n] = end;
     auto point = arc_.correct(z, Eigen::VectorXd::Unit(n + 1, n));
-    if (!point || !same_pattern(last.orbit, point->orbit)) return;
+    if (!point || !same_pattern(last.orbit, point->orbit)) return false;
     if (fold_test(*point) * fold_test(last) < 0) point->tangent *= -1;
     find_changes(last, *point, branch);
     branch.points.push_back({end == 1 ? request_.to : request_.from, point->orbit});
+    return true;
 }
 
 void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
-    const Eigen::Index n = from.z.size() - 1;
-    double step = kFirstArc * request_.step;
-    for (int count = 0; count < request_.most_points; ++count) {
+    const double first_step = kFirstArc * request_.step;
+    double step = first_step;
+    bool moved = false;  // the section, since the last point
+    for (int count = 0; count < request_.most_points;) {
         if (progress_ && !progress_(arc_.parameter(from.z))) throw Interrupted();
-        auto next = arc_.correct(from.z + step * from.tangent, from.tangent);
+        end = "the range ends";
+        if (leaves_range(from)) return;
+        const Eigen::VectorXd predicted = from.z + step * from.tangent;
+        auto next = arc_.correct(predicted, from.tangent);
         const bool same = next && same_pattern(from.orbit, next->orbit);
         if (!same || next->tangent.dot(from.tangent) < kLeastCosine) {
+            // Beyond the range there may be no problem.
+            if (!next && beyond_range(predicted) && end_at_range(from, predicted, branch)) return;
             if (kArcShrink * step >= kSmallestArc) {
                 step *= kArcShrink;
                 continue;
             }
-            if (!next && (from.z[n] < kAtRangeEnd || from.z[n] > 1 - kAtRangeEnd)) {
-                end = "the range ends";
-                return;
-            }
             const bool corner = next && same;
-            if (auto moved = corner ? std::nullopt : recentre(from)) {
-                from = std::move(*moved);
-                step = kFirstArc * request_.step;
+            if (auto centred = corner || moved ? std::nullopt : recentre(from)) {
+                from = std::move(*centred);
+                step = first_step;
+                moved = true;
                 continue;
             }
             if (!passes(from, next, step, branch, end)) return;
-            step = kFirstArc * request_.step;
-        } else if (beyond_range(*next)) {
-            end_at_range(from, *next, branch);
+            step = first_step;
+        } else if (beyond_range(next->z)) {
+            end_at_range(from, next->z, branch);
         } else {
             find_changes(from, *next, branch);
         }
-        if (beyond_range(*next)) {
-            end = "the range ends";
-            return;
-        }
+        if (beyond_range(next->z)) return;
         branch.points.push_back(arc_.branch_point(*next));
+        ++count;
         from = std::move(*next);
+        moved = false;
+        if (near_section(from.orbit))
+            if (auto centred = recentre(from)) from = std::move(*centred);
         step = std::min(kArcGrowth * step, request_.step);
     }
     end = "the largest number of points is reached";

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <limits>
 #include <stdexcept>
 #include <utility>
 
@@ -53,8 +54,13 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
         tangents = made.get();
         return made;
     };
-    Run run(problem, {&request, 1}, progress, options);
     FlowMap map;
+    const auto factor = [&](double) {
+        if (tangents->holds() == 0) map.factors.push_back(tangents->factor());
+        return std::numeric_limits<double>::infinity();
+    };
+    Run run(problem, {&request, 1}, progress, options);
+    if (derivative) tangents->pause_at(std::numeric_limits<double>::infinity(), factor);
     run.integrate();
     tangents->finish(duration);
     map.end.y = run.state().y;
@@ -67,9 +73,10 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     map.units = tangents->units().head(2 * (tangents->units().size() / 2 - 1));
     if (derivative) {
         const Eigen::Index n = tangents->tangents().cols();
-        const auto units = tangents->units().head(n).array();
-        map.derivative =
-            (tangents->tangents().topRows(n).array().colwise() / units).matrix() * units.matrix().asDiagonal();
+        map.factors.push_back(tangents->tangents().topRows(n));
+        Eigen::MatrixXd product = map.factors.back();
+        for (std::size_t k = map.factors.size() - 1; k-- > 0;) product *= map.factors[k];
+        map.derivative = map.units.cwiseInverse().asDiagonal() * product * map.units.asDiagonal();
     }
     return map;
 }

@@ -14,8 +14,11 @@ namespace beamcam::sim {
 struct FlowMap {
     InitialState end;            // final state and phase; a new run may start there
     Eigen::MatrixXd derivative;  // ∂(ξ, ξ̇)/∂(ξ₀, ξ̇₀), 2n × 2n, in SI units; empty if not requested
-    double inertia_share = 1;    // at the end (S73)
-    Eigen::VectorXd units;       // of ξ and ξ̇ (TangentIntegrator::units)
+    // Of the derivative, in `units` and in the order of time: it is their product. Each ends at a touch, before any
+    // sustained contact, and is well conditioned where the derivative is not.
+    std::vector<Eigen::MatrixXd> factors;
+    double inertia_share = 1;  // at the end (S73)
+    Eigen::VectorXd units;     // of ξ and ξ̇ (TangentIntegrator::units)
     std::vector<TangentTouch> touches;
     long holds = 0, lifts = 0;  // impacts followed by sustained contact; ends of sustained contact
     long steps = 0;

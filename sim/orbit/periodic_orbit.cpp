@@ -134,6 +134,13 @@ bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
            std::fabs(a.slowest_impact() - b.slowest_impact()) < kSameOrbit * a.slowest_impact();
 }
 
+// The orbit once more, from the middle of its longest flight; a throw leaves it anywhere.                       (S75)
+PeriodicOrbit centred(const Problem& problem, const PeriodicOrbit& orbit, const OrbitRequest& request,
+                      const Progress& progress) {
+    const Place middle = longest_flight(problem, {orbit.section, orbit.start}, 2 * orbit.period, progress);
+    return orbit_through(problem, middle, request, progress).value_or(orbit);
+}
+
 // Orbits with few impacts that may coexist with a motion that chatters or cannot be integrated.
 std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t size, const OrbitRequest& request,
                                             const Progress& progress) {
@@ -149,7 +156,7 @@ std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t 
             if (!orbit || orbit->impacts.empty() || orbit->chatters()) continue;
             if (request.impacts && static_cast<int>(orbit->impacts.size()) != *request.impacts) continue;
             if (std::ranges::none_of(found, [&](const auto& o) { return same_orbit(o, *orbit); }))
-                found.push_back(std::move(*orbit));
+                found.push_back(centred(problem, *orbit, one, progress));
         } catch (const SolverError&) {  // this throw cannot be integrated
         }
     }

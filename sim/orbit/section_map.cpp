@@ -5,6 +5,7 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/orbit/constants.hpp"
+#include "sim/orbit/multipliers.hpp"
 
 namespace beamcam::sim {
 
@@ -75,12 +76,13 @@ PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) co
     orbit.residual = (value.image - y).norm();
     for (const TangentTouch& touch : value.map.touches)
         orbit.impacts.push_back({section_ - problem_.cam->speed * touch.t, touch.approach, touch.x, touch.overhang});
-    Eigen::MatrixXd derivative = value.derivative;
     if (like_.phase.held)  // only neighbouring states on the cam
-        derivative = flow_map(problem_, orbit.start, period_, true, progress_, StartOnCam::kept).derivative;
-    const Eigen::VectorXcd multipliers = eigenvalues(derivative);
-    orbit.multipliers.assign(multipliers.begin(), multipliers.end());
-    std::ranges::stable_sort(orbit.multipliers, [](const auto& a, const auto& b) { return std::abs(a) > std::abs(b); });
+        orbit.multipliers =
+            multipliers({flow_map(problem_, orbit.start, period_, true, progress_, StartOnCam::kept).derivative});
+    else if (orbit.chatters())
+        orbit.multipliers = multipliers({value.derivative});
+    else
+        orbit.multipliers = multipliers(value.map.factors);
     return orbit;
 }
 

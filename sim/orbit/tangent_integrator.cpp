@@ -1,5 +1,6 @@
 #include "sim/orbit/tangent_integrator.hpp"
 
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -100,6 +101,13 @@ Eigen::MatrixXd TangentIntegrator::tangents(bool canonical) const {
     Eigen::MatrixXd all = tangents_;
     if (canonical) all.row(n_) *= inertia_share();
     return all;
+}
+
+Eigen::MatrixXd TangentIntegrator::factor() {
+    const Eigen::Index columns = tangents_.cols();
+    const Eigen::HouseholderQR<Eigen::MatrixXd> qr(tangents_);
+    tangents_ = qr.householderQ() * Eigen::MatrixXd::Identity(tangents_.rows(), columns);
+    return qr.matrixQR().topRows(columns).triangularView<Eigen::Upper>();
 }
 
 void TangentIntegrator::set_canonical(const Eigen::MatrixXd& tangents) {

@@ -44,6 +44,8 @@ class TangentIntegrator final : public Integrator {
     void finish(double t);
     // The tangents; `canonical`: with the momentum ∂T/∂ξ̇ in place of ξ̇ (S73).
     Eigen::MatrixXd tangents(bool canonical = false) const;
+    // Makes the tangents orthonormal, in units. Returns the factor R by which they were the product QR.
+    Eigen::MatrixXd factor();
     void set_canonical(const Eigen::MatrixXd& tangents);
 
     // In sustained contact: the same projection at the present instant.

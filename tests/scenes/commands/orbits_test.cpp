@@ -27,7 +27,7 @@ TEST(OrbitsCommand, ReportsTheShortestPeriod) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished three = shell(folder, "$BEAMCAM orbits s.json --turns 3 --transient 0");
-    EXPECT_THAT(three.err, HasSubstr("no periodic orbit was found"));
+    EXPECT_THAT(three.err, HasSubstr("no periodic orbit was found with a shortest period of 3 turns"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --turns 1 --transient 0").out, StartsWith("period 1 turn"));
 }
 
@@ -45,6 +45,48 @@ TEST(OrbitsCommand, ABranchEndsWithTheRangeOfItsKey) {
     const nlohmann::json branch = nlohmann::json::parse(whole.out)["branches"][0];
     for (const auto& [point, end] : {std::pair{branch["points"].front(), 43.0}, {branch["points"].back(), 48.0}})
         EXPECT_EQ(point["value"], end);
+}
+
+// Zero is the default of the hub's inertia, and no inertia is less.
+TEST(OrbitsCommand, ABranchMayStartAtTheLeastValueOfItsKey) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM orbits s.json --over hub.inertia=0:0.005 --impacts 1 --transient 0 -q --json");
+    const nlohmann::json table = nlohmann::json::parse(done.out);
+    ASSERT_EQ(table["branches"].size(), 1u);
+    EXPECT_EQ(table["branches"][0]["points"].front()["value"], 0);
+    EXPECT_EQ(table["branches"][0]["points"].back()["value"], 0.005);
+}
+
+TEST(OrbitsCommand, AStepIsANumber) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    for (const std::string step : {"nan", "-nan", "inf", "0"})
+        EXPECT_EQ(shell(folder, "$BEAMCAM orbits s.json --transient 0 --over cam.speed=44:46 --step=" + step).code, 2)
+            << step;
+}
+
+// The scene's own initial state would lie in a cam of the largest radius, but orbits begin where they are.
+TEST(OrbitsCommand, ABranchDoesNotNeedTheInitialState) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM orbits s.json --over 'cam.radius=99 mm:115 mm' --impacts 1 --transient 0 -q");
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.out, HasSubstr("to 0.115\n"));
+}
+
+TEST(OrbitsCommand, ABranchWithRestSaysHowItsImpactsVaryAndWhatEndsIt) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done = shell(
+        folder, "$BEAMCAM orbits s.json --set cam.speed=42.2 --over cam.speed=42:60 --step 0.1 --transient '10 s' -q");
+    EXPECT_THAT(done.out, ::testing::ContainsRegex("branch of 1 turn, [0-9]+ to [0-9]+ impacts: "));
+    EXPECT_THAT(done.out, HasSubstr("ends: release: the rest on the cam vanishes"));
+    // No digit beyond the first uncertain one.
+    EXPECT_THAT(done.out,
+                ::testing::ContainsRegex("release          cam.speed = [0-9]+\\.[0-9][0-9][0-9] ± [0-9]e-03"));
 }
 
 // Nobody knows before how much motion the search integrates, and how many points the branches will have.

@@ -2,6 +2,7 @@
 // on the cam, reciprocal multipliers, the limit of stiff contact.
 #include "sim/orbit/continuation.hpp"
 
+#include "sim/base/ode.hpp"
 #include "tests/sim/orbit/pressed_beam.hpp"
 #include "tests/sim/support.hpp"
 
@@ -128,6 +129,58 @@ TEST(Continuation_, DoubledBranchesDoubleAgain) {
     const double second = first_of(branches[1], OrbitChange::period_doubling)->at.parameter;
     const double third = first_of(branches[2], OrbitChange::period_doubling)->at.parameter;
     EXPECT_NEAR((second - first) / (third - second), 4.669, 0.3);  // on the way to Feigenbaum's number
+}
+
+// No value beyond an end of the range has a problem. The branch begins and ends there, once.
+TEST(Continuation_, ABranchMayStartAtTheLastValueWithAProblem) {
+    const PressedBeam b;
+    constexpr double kEnd = 0.05;
+    const Family family = [&](double inertia) {
+        if (!(inertia >= 0 && inertia <= kEnd)) throw StepFailure("no problem");
+        Problem p = b.problem(45);
+        p.hub.inertia = inertia;
+        return p;
+    };
+    for (const double start : {0.0, kEnd}) {
+        const auto branches = branches_of(family, start, {0, kEnd, 0.1, 500, 0});
+        ASSERT_EQ(branches.size(), 1u) << start;
+        const auto& points = branches.front().points;
+        ASSERT_GT(points.size(), 5u);
+        EXPECT_EQ(points.front().parameter, 0);
+        EXPECT_EQ(points.back().parameter, kEnd);
+        for (std::size_t i = 1; i < points.size(); ++i) EXPECT_GT(points[i].parameter, points[i - 1].parameter);
+        EXPECT_EQ(branches.front().first_end, "the range ends");
+        EXPECT_EQ(branches.front().last_end, "the range ends");
+    }
+}
+
+// Over the speed the impact turns with the cam by more than half a turn, past any fixed section.
+TEST(Continuation_, TheSectionStaysInFlight) {
+    const Family family = [](double speed) {
+        Problem p;
+        p.beam.model = ModelKind::rigid;
+        p.cam->speed = speed;
+        p.cam->eccentricity = 2e-4;
+        p.contact.model = ContactModel::restitution;
+        p.contact.restitution = 0.6;
+        p.initial.angle = 0.5;
+        return p;
+    };
+    OrbitRequest search;
+    search.transient = 0;
+    search.turns = search.impacts.emplace(1);
+    const auto found = find_orbits(family(126.52), search);
+    ASSERT_FALSE(found.empty());
+    for (const PeriodicOrbit& orbit : found)
+        EXPECT_NEAR(std::fabs(orbit.impacts.front().cam_angle - orbit.section), std::numbers::pi, 1e-6);
+    const auto branches = continue_orbit(family, {126.52, found.front()}, {99.14, 164.31, 0.02, 600, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    EXPECT_EQ(branches.front().first_end, "the range ends");
+    EXPECT_EQ(branches.front().last_end, "the range ends");
+    for (const BranchPoint& point : branches.front().points) {
+        const double after = std::fabs(point.orbit.impacts.front().cam_angle - point.orbit.section);
+        EXPECT_GT(std::min(after, 2 * std::numbers::pi - after), 0.1) << point.parameter;
+    }
 }
 
 // An area-preserving map has reciprocal multipliers μ and 1/μ.

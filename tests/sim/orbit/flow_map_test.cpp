@@ -2,6 +2,7 @@
 #include "sim/orbit/flow_map.hpp"
 
 #include "sim/base/linear_algebra.hpp"
+#include "sim/orbit/multipliers.hpp"
 #include "tests/sim/orbit/pressed_beam.hpp"
 #include "tests/sim/support.hpp"
 
@@ -192,6 +193,34 @@ TEST(FlowMapLaw, VolumeShrinksByImpactsAndDampingAlone) {
             const double volume = std::log(std::fabs(map.derivative.determinant())) + std::log(map.inertia_share);
             EXPECT_NEAR(volume, expected, 1e-9 * std::fabs(expected)) << modes << " modes, ratio " << zeta;
         }
+}
+
+double log_product(const std::vector<std::complex<double>>& values) {
+    double sum = 0;
+    for (const auto& each : values) sum += std::log(std::abs(each));
+    return sum;
+}
+
+// Over twenty turns of the unstable orbit the smaller multiplier, 5e-15, is below the rounding of the product.
+TEST(FlowMapLaw, SmallMultipliersKeepTheDeterminant) {
+    Problem pressed = PressedBeam().on_orbit(52);
+    set_tolerance(pressed, 1e-13);
+    const FlowMap map = flow_map(pressed, initial_state(pressed), 20 * 2 * std::numbers::pi / 52, true);
+    ASSERT_EQ(map.touches.size(), 20u);
+    const double expected = 40 * std::log(pressed.contact.restitution);
+    EXPECT_GT(std::fabs(log_product(multipliers({map.derivative})) - expected), 0.01);
+    EXPECT_NEAR(log_product(multipliers(map.factors)), expected, 1e-8);
+    // With modes and damping.
+    Problem p = machine(ModelKind::first_order, 2, ContactModel::restitution);
+    p.hub.radius = 0.05;
+    p.beam.damping_ratio = {1e-3};
+    const double duration = 0.2;
+    const FlowMap damped = flow_map(p, initial_state(p), duration, true);
+    ASSERT_GE(damped.touches.size(), 2u);
+    ASSERT_FALSE(damped.end.phase.held);
+    double volume = 2 * static_cast<double>(damped.touches.size()) * std::log(p.contact.restitution);
+    for (int i = 0; i < 2; ++i) volume -= 2 * 1e-3 * System(p).model().frequency(i) * duration;
+    EXPECT_NEAR(log_product(multipliers(damped.factors)) + std::log(damped.inertia_share), volume, 1e-8);
 }
 
 // Tangents may need many steps within one of the motion.
