@@ -168,21 +168,15 @@ Eigen::MatrixXd all_tangents(const Problem& problem, int coordinates, int count)
 }
 
 void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
-    double squares = 0, slowest = std::numeric_limits<double>::infinity();
+    std::vector<double> approaches;
     for (const TangentTouch& touch : touches)
-        if (touch.t > e.transient) {
-            ++e.impacts;
-            squares += touch.approach * touch.approach;
-            slowest = std::min(slowest, touch.approach);
-        }
-    if (e.impacts == 0) return;
-    e.slowest_impact = slowest;
-    const double typical = std::sqrt(squares / static_cast<double>(e.impacts));
-    for (const TangentTouch& touch : touches)
-        if (touch.t > e.transient && touch.approach < kGrazing * typical) {
-            ++e.near_grazing;
-            e.doubt += std::log(typical / touch.approach) / e.duration;
-        }
+        if (touch.t > e.transient) approaches.push_back(touch.approach);
+    if (approaches.empty()) return;
+    e.impacts = static_cast<long>(approaches.size());
+    e.slowest_impact = std::ranges::min(approaches);
+    const GrazingDoubt grazing = grazing_doubt(approaches, e.duration);
+    e.near_grazing = grazing.impacts;
+    e.doubt = grazing.doubt;
     if (e.near_grazing > 0)
         e.warnings.push_back(fmt::format(
             "{} of {} impacts are near grazing (slower than {:g} of the typical approach speed): the linearized impact "
@@ -191,6 +185,19 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
 }
 
 }  // namespace
+
+GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration) {
+    double squares = 0;
+    for (const double approach : approaches) squares += approach * approach;
+    const double typical = std::sqrt(squares / static_cast<double>(approaches.size()));
+    GrazingDoubt out;
+    for (const double approach : approaches)
+        if (approach < kGrazing * typical) {
+            ++out.impacts;
+            out.doubt += std::log(typical / approach) / duration;
+        }
+    return out;
+}
 
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
     require_tangents(problem);

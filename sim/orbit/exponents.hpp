@@ -5,6 +5,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -53,6 +54,14 @@ struct Exponents {
     }
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
+
+// Near-grazing impacts, slower than kGrazing of the root mean square speed, and the amount by which they may make the
+// largest exponent too large, from the approach speeds of all impacts in this time [s].                          (S74)
+struct GrazingDoubt {
+    long impacts = 0;
+    double doubt = 0;  // [1/s]
+};
+GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration);
 
 // Nothing if this problem has a tangent flow, else the reason and the remedy: models beyond first order have none.
 std::optional<std::string> tangent_refusal(const Problem& problem);

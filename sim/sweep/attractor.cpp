@@ -104,7 +104,9 @@ bool loses_energy(const Contact& contact) {
 // For a motion without a period.                                                                             (S89)
 AttractorClass class_without_period(const Problem& problem, const LargestExponent& exponent, bool near_period) {
     const bool positive = exponent.value > kSureErrors * exponent.error;
-    if (std::isfinite(exponent.value) && positive && exponent.late_growth > kLateGrowth) return AttractorClass::chaotic;
+    if (std::isfinite(exponent.value) && positive && exponent.late_growth > kLateGrowth)
+        return exponent.value > kSureErrors * exponent.error + exponent.doubt ? AttractorClass::chaotic
+                                                                              : AttractorClass::aperiodic;
     if (near_period) return AttractorClass::unsettled;
     if (std::isnan(exponent.value)) return AttractorClass::aperiodic;
     if (!std::isfinite(exponent.value)) return AttractorClass::unsettled;  // −∞ implies a period not yet found
@@ -162,6 +164,8 @@ Attractor classify(const Problem& problem, const SampledMotion& motion) {
         return static_cast<double>(s[to].impacts - s[from].impacts);
     };
     out.exponent = exponent_of(problem, s);
+    if (!motion.approaches.empty())
+        out.exponent.doubt = grazing_doubt(motion.approaches, static_cast<double>(turns) * cam_period(problem)).doubt;
     // The period of the last third must hold for all states.
     std::size_t n = period_of(scale, s.last(s.size() / 3 + 1));
     if (n == 0) n = period_of(scale, s);

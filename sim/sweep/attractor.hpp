@@ -38,6 +38,7 @@ bool has_section(AttractorClass kind);
 struct LargestExponent {
     double value = kNan, error = kNan;
     double late_growth = kNan;  // logarithm of the growth of differences in the later half of the turns
+    double doubt = 0;           // amount by which near-grazing impacts may make it too large (S74) [1/s]
 };
 
 struct Attractor {

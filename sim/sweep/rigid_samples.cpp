@@ -35,6 +35,7 @@ void RigidMotion::sample_impact(const SurfaceAngle& c, double rate_after) {
     sample_lasts_ = false;
     if (turn_ < span_.from) return;
     ++kept_impacts_;
+    motion_.approaches.push_back(c.lever * (surface_.rate(c) - state_.rate));
     if (sampling_.kind != SampleKind::impacts) return;
     MotionSample out = sample(s_, state_);
     out[kContactX] = c.lever - problem_.hub.radius;

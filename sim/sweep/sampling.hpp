@@ -82,11 +82,13 @@ struct Strobe {
 struct SampledMotion {
     std::vector<MotionSample> samples;
     std::vector<Strobe> strobes;  // one for each turn of the samples
-    bool over_the_top = false;    // the motion ended because the beam pointed away from the cam
-    InitialState end;             // initial state of the motion at the next parameter
-    long impacts = 0;             // including the transient
-    double accuracy = 0;          // approximate error of angles [rad]
-    std::string failure;          // reason of a failed integration
+    // Approach speeds of the impacts in these turns [m/s]; empty if the growth at strobes is unknown.
+    std::vector<double> approaches;
+    bool over_the_top = false;  // the motion ended because the beam pointed away from the cam
+    InitialState end;           // initial state of the motion at the next parameter
+    long impacts = 0;           // including the transient
+    double accuracy = 0;        // approximate error of angles [rad]
+    std::string failure;        // reason of a failed integration
 };
 
 }  // namespace beamcam::sim

@@ -25,9 +25,7 @@ Attractor by_tangents(const Problem& problem, const Sampling& sampling, const Sw
         const Exponents found = lyapunov_exponents(problem, request, progress);
         if (found.lambda.empty()) return point.attractor;  // a rigid beam on a prescribed hub has no tangents
         const double late = found.settled ? found.lambda.front() * found.duration / 2 : kNan;
-        Attractor judged = with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late});
-        if (found.chaos() == Chaos::doubtful) judged.kind = AttractorClass::aperiodic;
-        return judged;
+        return with_exponent(problem, point.attractor, {found.lambda.front(), found.error.front(), late, found.doubt});
     } catch (const SolverError&) {
         return point.attractor;  // the exponent remains unknown
     }
@@ -77,7 +75,9 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
     RigidMotion motion(problem, sampling, start);
     point.motion = motion.follow(progress);
     point.attractor = classify(problem, point.motion);
-    const bool chaotic = point.attractor.kind == AttractorClass::chaotic;
+    // Or seems so, with near-grazing impacts.
+    const bool chaotic =
+        point.attractor.kind == AttractorClass::chaotic || point.attractor.kind == AttractorClass::aperiodic;
     if (!chaotic && point.attractor.kind != AttractorClass::unsettled) return point;
     if (!chaotic && !motion.rested()) return point;
     std::optional<RigidMotion::Return> period = motion.returned();

@@ -49,6 +49,15 @@ TEST(Attractor, IsNotChaoticWhileTheExponentMayBeAnError) {
     EXPECT_NE(kind(motion), AttractorClass::chaotic);
 }
 
+TEST(Attractor, IsNotChaoticByItsSlowestImpactsAlone) {
+    SampledMotion motion = circle(5.3137, 0.4);
+    motion.approaches.assign(120, 1.0);
+    motion.approaches.push_back(1e-3);  // ln 1000 = 6.9 in 59 turns, far less than 0.4 a turn
+    EXPECT_EQ(kind(motion), AttractorClass::chaotic);
+    motion.approaches.insert(motion.approaches.end(), 9, 1e-3);
+    EXPECT_EQ(kind(motion), AttractorClass::aperiodic);
+}
+
 TEST(Attractor, IsATorusWhereNothingIsLostAndDifferencesGrowLikeTheTime) {
     SampledMotion motion = circle(5.3137, 0);
     for (std::size_t k = 0; k < motion.strobes.size(); ++k)

@@ -254,6 +254,20 @@ TEST(RigidMotion, RestsOnACamThatStandsStill) {
     EXPECT_TRUE(point.motion.samples.empty());
 }
 
+// A quarter of its impacts is so slow that they alone could make its exponent positive: no method calls it chaotic.
+TEST(RigidMotion, IsNotChaoticWhereNearGrazingImpactsMakeItDoubtful) {
+    Sampling s;
+    s.transient = {500, {}};
+    s.keep = {470, {}};
+    Problem p = rigid_newton(49.55, 0.002, 0.5);
+    p.initial.angle = 0.5;
+    ASSERT_TRUE(RigidMotion::applies(p, s));
+    const Attractor a = sweep_point(p, s, nullptr, {}).attractor;
+    EXPECT_EQ(a.kind, AttractorClass::aperiodic);
+    EXPECT_GT(a.exponent.value, 3 * a.exponent.error);
+    EXPECT_GT(a.exponent.doubt, a.exponent.value);
+}
+
 TEST(RigidMotion, FollowsASlowCam) {
     const SweepPoint point = sweep_point(rigid_newton(5, 0.002, 0.5), Sampling{}, nullptr, {});
     EXPECT_EQ(point.attractor.kind, AttractorClass::following);
