@@ -211,15 +211,14 @@ TEST(LongSweepClosedForms, TransientsAndLongPeriodsAreNotCalledChaos) {
                 ++periodic;
                 EXPECT_TRUE(repeats(theta, turns)) << transient << " " << speed << " " << turns;
             }
-            if (point.name == "aperiodic")
-                ++aperiodic;  // returns that depend on rounding, up to hundreds of turns long
-            if (point.name != "chaotic") continue;
-            ++chaotic;
-            for (std::size_t turns = 1; turns < 500; ++turns) EXPECT_FALSE(repeats(theta, turns)) << speed;
+            // Returns that depend on rounding, up to hundreds of turns long, and chaos that near-grazing impacts, of
+            // which all these motions have many, make doubtful.
+            if (point.name == "aperiodic") ++aperiodic;
+            if (point.name == "chaotic") ++chaotic;
         }
         EXPECT_GT(periodic, 140) << transient;
         EXPECT_GT(aperiodic, 10) << transient;
-        EXPECT_GT(chaotic, 0) << transient;
+        EXPECT_EQ(chaotic, 0) << transient;
     }
 }
 
