@@ -30,7 +30,7 @@ class NetcdfLibrary {
     virtual std::string version() const = 0;
 };
 
-// Throws UnsupportedOption with every place that was searched.
+// Throws render::MissingPart with every place that was searched.
 const NetcdfLibrary& netcdf_library();
 
 }  // namespace beamcam::output

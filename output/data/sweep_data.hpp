@@ -69,7 +69,7 @@ inline std::vector<double> SweepData::place(std::uint64_t point) const {
     return values;
 }
 
-// The ending decides: .csv, .npz or .nc. Throws IoError, UnsupportedOption.
+// The ending decides: .csv, .npz or .nc. Throws IoError, UnsupportedOption, render::MissingPart.
 void write_sweep(const Target& file, const SweepData& data);
 void write_sweep_csv(std::ostream& out, const SweepData& data);
 // The rows of .csv and .npz.

@@ -37,7 +37,7 @@ enum class Texts { rejected, kept };  // cells of .csv files that are not number
 
 // The ending decides: .csv, .npz or .nc (a table or sweep of beamcam). A sweep gives the same rows from each; the names
 // of its classes of motion in .csv become numbers as in .npz. Throws IoError with the line and column of the error
-// (CSV), or the name of the array (NPZ); UnsupportedOption without the NetCDF library.
+// (CSV), or the name of the array (NPZ); render::MissingPart without the NetCDF library.
 ColumnTable read_table(const std::filesystem::path& file, Texts texts = Texts::rejected);
 
 // Also CSV of spreadsheets (byte order mark, "\r\n") and of numpy.savetxt with a header.

@@ -6,7 +6,7 @@
 
 namespace beamcam::render {
 
-// A renderer, codec or font is missing on this machine (exit code 5).
+// A renderer, codec, font or library is missing on this machine (exit code 5).
 struct MissingPart : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -80,6 +80,13 @@ void KeyOptions::forget(std::string_view name) {
         if (option.name == name) option.value.reset();
 }
 
+bool KeyOptions::is_in_values(const std::string& word, const std::vector<const Option*>& given) {
+    const auto has = [&](const std::string& value) { return value.find(word) != value.npos; };
+    return std::ranges::any_of(given, [&](const Option* option) {
+        return (option->value && has(*option->value)) || std::ranges::any_of(option->values, has);
+    });
+}
+
 Output read_output(Node output, std::initializer_list<const KeyOptions*> options, Scene scene,
                    const std::string& scene_file, const Common& common) {
     std::vector<Message> messages;
@@ -107,9 +114,11 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
                                              types_with(option->key), output.find("type")->value.text));
             replace_all(message.text, kPrefix + option->key, option->name);
         }
-        for (const KeyOptions* group : options)  // "to" → --to
+        for (const KeyOptions* group : options)  // "to" → --to, unless it may be the user's word
             for (const KeyOptions::Option& option : group->options_)
-                replace_all(message.text, in_quotes(option.key.substr(option.key.rfind('.') + 1)), option.name);
+                if (const std::string key = option.key.substr(option.key.rfind('.') + 1);
+                    !KeyOptions::is_in_values(key, given))
+                    replace_all(message.text, in_quotes(key), option.name);
         if (message.fatal) throw UsageError(message.text);
         if (!common.quiet) output::print_message("{}: warning: {}\n", scene_file, message.text);
     }

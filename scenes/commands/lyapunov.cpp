@@ -23,6 +23,7 @@ struct LyapunovArguments {
 
 // The first reason why no chaos is shown.
 const char* reason(const sim::Exponents& e) {
+    if (e.lambda.empty()) return "the hub's motion is prescribed and the beam rigid";
     if (e.impacts == 0) return "there were no impacts";
     if (!e.settled) return "the motion had not settled; a longer --transient may help";
     if (!(e.lambda.front() > 0)) return "the largest exponent is not positive";

@@ -79,13 +79,14 @@ BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lan
     return out;
 }
 
-// At the ends of the branches.
+// At the ends of the ranges of the branches.
 std::vector<sim::Problem> problems_along(const output::BranchTable& table, const sim::Problem& problem) {
     std::vector<sim::Problem> out;
     for (const sim::Branch& branch : table.branches) {
         if (branch.points.empty()) continue;
-        for (const sim::BranchPoint* end : {&branch.points.front(), &branch.points.back()})
-            set_number(out.emplace_back(problem), table.key, end->parameter);
+        const auto [low, high] = std::ranges::minmax_element(branch.points, {}, &sim::BranchPoint::parameter);
+        for (const double value : {low->parameter, high->parameter})
+            set_number(out.emplace_back(problem), table.key, value);
     }
     return out;
 }
@@ -95,10 +96,10 @@ std::string branches_caption(const output::BranchTable& table, const std::string
     return phrase(lang,
                   "Approach speeds of the impacts of periodic orbits over {}: stable orbits solid, unstable ones "
                   "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
-                  "contact passes the tip), R release. {}. {}{}",
+                  "contact passes the tip), R release. {}{}{}",
                   "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
-                  "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}。{}{}",
-                  symbol_of(table.key), special,
+                  "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}{}{}",
+                  symbol_of(table.key), special.empty() ? "" : phrase(lang, "{}. ", "{}。", special),
                   !with_sweep ? "" : phrase(lang, "Dots: impacts of a sweep. ", "点：扫描所得碰撞。"),
                   facts(subject_of(scene, lang), {.others = problems_along(table, scene.problem)}));
 }

@@ -27,6 +27,14 @@ std::string shapes_name(sim::Basis basis, Lang lang) {
 
 namespace {
 
+// A statement of a caption. `brief`: the same without its numbers, for figures that vary one of them.
+struct Fact {
+    Fact(std::string what) : text(std::move(what)) {}
+    Fact(std::string what, std::string without_numbers) : text(std::move(what)), brief(std::move(without_numbers)) {}
+    std::string text, brief;
+};
+using Facts = std::vector<Fact>;
+
 // The model exact has its own polynomials in every basis.
 std::string shapes_fact(const sim::Problem& p, Lang lang) {
     const int count = p.beam.modes;
@@ -37,9 +45,9 @@ std::string shapes_fact(const sim::Problem& p, Lang lang) {
                   count == 1 ? "" : "s");
 }
 
-std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, const Varied& varied) {
+Facts model_facts(const sim::Problem& p, Lang lang, const Varied& varied) {
     if (p.beam.model == sim::ModelKind::rigid && !varied.model) return {phrase(lang, "rigid beam", "刚性梁")};
-    std::vector<std::string> out;
+    Facts out;
     if (!varied.model) out.push_back(phrase(lang, "model {}", "{}", model_name(p.beam.model, lang)));
     if (!varied.modes) out.push_back(shapes_fact(p, lang));
     const std::vector<double>& ratios = p.beam.damping_ratio;
@@ -55,45 +63,49 @@ std::vector<std::string> model_facts(const sim::Problem& p, Lang lang, const Var
     return out;
 }
 
-std::string drive_fact(const sim::Drive& drive, render::SpeedUnit unit, Lang lang) {
+Fact drive_fact(const sim::Drive& drive, render::SpeedUnit unit, Lang lang) {
     struct Visitor {
         render::SpeedUnit unit;
         Lang lang;
-        std::string operator()(const sim::FreeDrive&) const { return phrase(lang, "hub turns freely", "轮毂自由转动"); }
-        std::string operator()(const sim::ConstantTorque& d) const {
-            return phrase(lang, "hub torque $τ$ = {} N m", "轮毂力矩 $τ$ = {} N m", number(d.value, 4));
+        Fact operator()(const sim::FreeDrive&) const { return phrase(lang, "hub turns freely", "轮毂自由转动"); }
+        Fact operator()(const sim::ConstantTorque& d) const {
+            return {phrase(lang, "hub torque $τ$ = {} N m", "轮毂力矩 $τ$ = {} N m", number(d.value, 4)),
+                    phrase(lang, "constant hub torque", "恒定轮毂力矩")};
         }
-        std::string operator()(const sim::HarmonicTorque& d) const {
-            return phrase(lang, "hub torque $τ$ = {} N m sin(2π $t$ {} Hz + {})",
-                          "轮毂力矩 $τ$ = {} N m sin(2π $t$ {} Hz + {})", number(d.amplitude, 4),
-                          number(d.frequency, 4), degrees(d.phase, 4));
+        Fact operator()(const sim::HarmonicTorque& d) const {
+            return {phrase(lang, "hub torque $τ$ = {} N m sin(2π $t$ {} Hz + {})",
+                           "轮毂力矩 $τ$ = {} N m sin(2π $t$ {} Hz + {})", number(d.amplitude, 4),
+                           number(d.frequency, 4), degrees(d.phase, 4)),
+                    phrase(lang, "sinusoidal hub torque", "正弦轮毂力矩")};
         }
-        std::string operator()(const sim::TorqueTable& d) const {
+        Fact operator()(const sim::TorqueTable& d) const {
             return phrase(lang, "hub torque from a table of {} instants", "轮毂力矩由 {} 个时刻的表给定", d.t.size());
         }
-        std::string operator()(const sim::ConstantSpeed& d) const {
+        Fact operator()(const sim::ConstantSpeed& d) const {
             if (d.speed == 0) return phrase(lang, "hub held", "轮毂固定");
-            return phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动",
-                          angular_speed_text(d.speed, unit));
+            return {phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动",
+                           angular_speed_text(d.speed, unit)),
+                    phrase(lang, "hub driven at constant speed", "轮毂匀速转动")};
         }
-        std::string operator()(const sim::SpinUp& d) const {
-            return phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}",
-                          angular_speed_text(d.speed, unit), number(d.duration, 4));
+        Fact operator()(const sim::SpinUp& d) const {
+            return {phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}",
+                           angular_speed_text(d.speed, unit), number(d.duration, 4)),
+                    phrase(lang, "hub spun up", "轮毂加速转动")};
         }
-        std::string operator()(const sim::AngleTable& d) const {
+        Fact operator()(const sim::AngleTable& d) const {
             return phrase(lang, "hub angle from a table of {} instants", "轮毂转角由 {} 个时刻的表给定", d.t.size());
         }
     };
     return std::visit(Visitor{unit, lang}, drive);
 }
 
-std::vector<std::string> start_facts(const sim::Problem& p, render::SpeedUnit unit, Lang lang) {
+Facts start_facts(const sim::Problem& p, render::SpeedUnit unit, Lang lang) {
     using Shape = sim::InitialShape;
     if (p.initial.shape == Shape::resting)
         return {phrase(lang, "resting on the cam at the start", "初始时静置于凸轮上")};
     const bool prescribed = sim::is_prescribed(p.hub.drive), rigid = p.beam.model == sim::ModelKind::rigid;
     const double angle = prescribed ? sim::DriveLaw(p.hub.drive, p.initial.angle).motion(0).angle : p.initial.angle;
-    std::vector<std::string> out{fmt::format("$θ$(0) = {}", degrees(angle, 6))};
+    Facts out{fmt::format("$θ$(0) = {}", degrees(angle, 6))};
     const double rate = p.initial.angular_velocity;
     if (!prescribed)
         out.push_back(rate == 0 ? phrase(lang, "released at rest", "由静止释放")
@@ -108,11 +120,10 @@ std::vector<std::string> start_facts(const sim::Problem& p, render::SpeedUnit un
     return out;
 }
 
-std::vector<std::string> cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang) {
-    std::vector<std::string> out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
-                                 fmt::format("$R$ = {} m", number(c.radius, 4)),
-                                 fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
-                                 fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
+Facts cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang) {
+    Facts out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
+              fmt::format("$R$ = {} m", number(c.radius, 4)), fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
+              fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
     if (c.speed == 0)
         out.push_back(phrase(lang, "cam at rest", "凸轮静止"));
     else
@@ -123,23 +134,26 @@ std::vector<std::string> cam_facts(const sim::Cam& c, render::SpeedUnit unit, La
     return out;
 }
 
-std::string friction_fact(const sim::Friction& friction, Lang lang) {
+Fact friction_fact(const sim::Friction& friction, Lang lang) {
     if (const auto* c = std::get_if<sim::CoulombFriction>(&friction))
-        return fmt::format("$μ$ = {}", number(c->coefficient, 3));
+        return {fmt::format("$μ$ = {}", number(c->coefficient, 3)), phrase(lang, "Coulomb friction", "库仑摩擦")};
     if (const auto* s = std::get_if<sim::StickSlipFriction>(&friction))
-        return fmt::format("$μ$ = {} ({})", number(s->coefficient, 3), phrase(lang, "stick–slip", "黏滑"));
+        return {fmt::format("$μ$ = {} ({})", number(s->coefficient, 3), phrase(lang, "stick–slip", "黏滑")),
+                phrase(lang, "stick–slip friction", "黏滑摩擦")};
     return phrase(lang, "no friction", "无摩擦");
 }
 
-std::vector<std::string> contact_facts(const sim::Problem& p, Lang lang) {
-    std::vector<std::string> out;
+Facts contact_facts(const sim::Problem& p, Lang lang) {
+    Facts out;
     const std::string restitution = number(p.contact.restitution, 3);
     if (p.contact.model == sim::ContactModel::compliant) {
         out.push_back(
             fmt::format("$K$ = {} N m^{{−{}}}", number(contact_stiffness(p), 4), number(p.contact.exponent, 3)));
-        out.push_back(p.contact.damping == sim::DampingLaw::none
-                          ? phrase(lang, "no dissipation in the contact", "接触无耗散")
-                          : fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), restitution));
+        if (p.contact.damping == sim::DampingLaw::none)
+            out.push_back(phrase(lang, "no dissipation in the contact", "接触无耗散"));
+        else
+            out.push_back({fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), restitution),
+                           name(p.contact.damping)});
     } else {
         out.push_back(phrase(lang, "impulsive contact ({})", "冲量接触（{}）", name(p.contact.law)));
         out.push_back(fmt::format("$c_{{\\r{{r}}}}$ = {}", restitution));
@@ -151,12 +165,11 @@ std::vector<std::string> contact_facts(const sim::Problem& p, Lang lang) {
     return out;
 }
 
-std::vector<std::string> beam_list(const Subject& of, const Varied& varied) {
+Facts beam_list(const Subject& of, const Varied& varied) {
     const auto& [p, units, lang, end] = of;
     const sim::Beam& b = p.beam;
-    std::vector<std::string> out{fmt::format("$L$ = {} m", number(b.length, 4)),
-                                 fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
-                                 fmt::format("$ρ$ = {} kg m^{{−3}}", number(b.density, 6))};
+    Facts out{fmt::format("$L$ = {} m", number(b.length, 4)), fmt::format("$A$ = {} m^{{2}}", number(b.area, 5)),
+              fmt::format("$ρ$ = {} kg m^{{−3}}", number(b.density, 6))};
     if (b.model != sim::ModelKind::rigid || varied.model) {
         out.push_back(fmt::format("$I$ = {} m^{{4}}", number(b.second_moment, 5)));
         out.push_back(fmt::format("$E$ = {} Pa", number(b.youngs_modulus, 5)));
@@ -170,21 +183,26 @@ std::vector<std::string> beam_list(const Subject& of, const Varied& varied) {
     return out;
 }
 
-std::vector<std::string> cam_list(const Subject& of, const Varied&) {
+Facts cam_list(const Subject& of, const Varied&) {
     if (!of.problem.cam) return {};
-    std::vector<std::string> out = cam_facts(*of.problem.cam, of.units.speed, of.lang);
-    for (std::string& fact : contact_facts(of.problem, of.lang)) out.push_back(std::move(fact));
+    Facts out = cam_facts(*of.problem.cam, of.units.speed, of.lang);
+    for (Fact& fact : contact_facts(of.problem, of.lang)) out.push_back(std::move(fact));
     return out;
 }
 
-// The facts of the subject that the others share, separated by commas.
-std::string shared(const Subject& of, const Varied& varied,
-                   std::vector<std::string> (*list)(const Subject&, const Varied&)) {
-    std::vector<std::string> out = list(of, varied);
-    for (const sim::Problem& other : varied.others) {
-        const std::vector<std::string> theirs = list({other, of.units, of.lang}, varied);
-        std::erase_if(out, [&](const std::string& fact) { return std::ranges::find(theirs, fact) == theirs.end(); });
-    }
+// The facts of the subject that the others share, or else briefly, separated by commas.
+std::string shared(const Subject& of, const Varied& varied, Facts (*list)(const Subject&, const Varied&)) {
+    std::vector<Facts> theirs;
+    for (const sim::Problem& other : varied.others) theirs.push_back(list({other, of.units, of.lang}, varied));
+    std::vector<std::string> out;
+    for (const Fact& fact : list(of, varied))
+        for (std::string Fact::*form : {&Fact::text, &Fact::brief})
+            if (!(fact.*form).empty() && std::ranges::all_of(theirs, [&](const Facts& facts) {
+                    return std::ranges::find(facts, fact.*form, form) != facts.end();
+                })) {
+                out.push_back(fact.*form);
+                break;
+            }
     return fmt::format("{}", fmt::join(out, phrase(of.lang, ", ", "，")));
 }
 

@@ -56,7 +56,8 @@ SweptPoints::SweptPoints(const Swept& swept, Lang how)
 }
 
 render::Scale SweptPoints::scale(std::size_t i) const {
-    return scene.sweep->over[i].logarithmic ? render::Scale::logarithmic : render::Scale::linear;
+    const bool logarithmic = scene.sweep->over[i].logarithmic && std::ranges::min(data.axes[i].values) > 0;
+    return logarithmic ? render::Scale::logarithmic : render::Scale::linear;
 }
 
 std::size_t SweptPoints::column(const std::string& name) const {

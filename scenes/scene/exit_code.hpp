@@ -28,7 +28,7 @@ inline constexpr ExitMeaning kExitCodes[] = {
     {kUsage, "usage"},
     {kBadScene, "scene"},
     {kSolverFailed, "solver"},
-    {kMissingPart, "missing renderer, codec or font"},
+    {kMissingPart, "missing renderer, codec, font or library"},
     {kInputOutput, "input/output"},
     {kDiffers, "differs"},
     {kInterrupted, "interrupted"},

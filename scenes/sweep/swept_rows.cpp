@@ -9,6 +9,7 @@
 
 #include "output/data/manifest.hpp"
 #include "output/data/tables.hpp"
+#include "scenes/figures/studies.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/problem/number_keys.hpp"
@@ -84,16 +85,19 @@ std::string differences_from_sweep(const sim::Problem& problem, const std::strin
     if (!record || record->origin.scene.empty()) return "";
     const std::optional<Scene> of_sweep = read_scene(Source{file, record->origin.scene}).scene;
     if (!of_sweep || !of_sweep->sweep) return "";
-    const auto plays_no_role = [&](const std::string& path) {
-        return path.starts_with("initial.") || path.starts_with("solver.") ||
-               std::ranges::find(of_sweep->sweep->over, path, &SweptKey::key) != of_sweep->sweep->over.end();
-    };
+    sim::Problem like = of_sweep->problem;
+    like.initial = problem.initial;
+    like.solver = problem.solver;
+    for (const SweptKey& over : of_sweep->sweep->over)
+        if (const auto here = sim::number_key(problem, over.key)) set_number(like, over.key, here->value);
+    if (Studies::key(like) == Studies::key(problem)) return "";
     std::vector<std::string> paths;
-    for (const sim::NumberKey& key : sim::number_keys(of_sweep->problem)) {
+    for (const sim::NumberKey& key : sim::number_keys(like)) {
         const auto here = sim::number_key(problem, key.path);
         const bool same = here && (here->value == key.value || (std::isnan(here->value) && std::isnan(key.value)));
-        if (!same && !plays_no_role(key.path)) paths.push_back(key.path);
+        if (!same) paths.push_back(key.path);
     }
+    if (paths.empty()) return "laws or models";
     return fmt::format("{}", fmt::join(paths, ", "));
 }
 

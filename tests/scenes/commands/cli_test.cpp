@@ -184,6 +184,12 @@ TEST(CommandLine, AFilmBetweenEventsInTheWrongOrderIsRejected) {
     EXPECT_THAT(finished.err, HasSubstr("a.mp4: no frame lies between 0.52"));
 }
 
+TEST(CommandLine, QuotesTheUsersWordsAsTheyAre) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json --at 0.3 --style speed -o a.png").err, HasSubstr("--style = \"speed\""));
+}
+
 TEST(CommandLine, AnUnreadableSceneIsSix) {
     const Folder folder;
     EXPECT_EQ(shell(folder, "$BEAMCAM check absent.json").code, 6);

@@ -160,6 +160,11 @@ TEST(OrbitsCommand, DrawsBranchesOverTheImpactsOfASweep) {
                                    "$BEAMCAM orbits s.json --over cam.speed=44.5:46.5 --impacts 1 --transient 0 "
                                    "--set beam.density=3000 --sweep r.csv -o d.svg");
     EXPECT_THAT(heavier.err, HasSubstr("warning: --sweep r.csv: of another scene, with other beam.density\n"));
+    EXPECT_THAT(shell(folder,
+                      "$BEAMCAM orbits s.json --over cam.speed=44.5:46.5 --impacts 1 --transient 0 "
+                      "--set contact.law=poisson --sweep r.csv -o d.svg")
+                    .err,
+                HasSubstr("of another scene, with other laws or models\n"));
     const Finished other = shell(folder, "$BEAMCAM orbits s.json --over gravity=0:1 --sweep r.csv -o c.svg");
     EXPECT_EQ(other.code, 2);
     EXPECT_THAT(other.err, HasSubstr("column gravity is missing"));

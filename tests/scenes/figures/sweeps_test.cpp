@@ -92,6 +92,11 @@ TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
     for (const char* fact : {"$e$ = 0", "$θ$(0)", "released at rest"}) EXPECT_THAT(caption, Not(HasSubstr(fact)));
     EXPECT_THAT(caption, HasSubstr("$R$ = 0.1 m"));
 
+    // What is left of a statement whose number varies.
+    const SweepGrid restitution = grid(R"({"over": [{"key": "contact.restitution", "values": [0.4, 0.6]}]})");
+    EXPECT_THAT(diagram("bifurcation", restitution, data(restitution, {rest}), "v_n_before").caption,
+                HasSubstr("lankarani-nikravesh, no friction"));
+
     const SweepGrid inertia = grid(R"({"over": [{"key": "hub.inertia", "from": 0.1, "to": 10, "count": 3,
         "spacing": "log"}], "sample": {"section": "theta", "at": 0.5}})");
     const render::figure::Figure figure = diagram("bifurcation", inertia, data(inertia, {rest}), "v_n_before");
@@ -102,6 +107,15 @@ TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
     EXPECT_THAT(figure.panels.back().cells.at(0).x,
                 ElementsAre(DoubleNear(std::pow(10, -1.5), 1e-15), DoubleNear(std::pow(10, -0.5), 1e-15),
                             DoubleNear(std::pow(10, 0.5), 1e-14), DoubleNear(std::pow(10, 1.5), 1e-13)));
+}
+
+TEST(Diagram, HasALinearAxisWhereALogarithmOfItsValuesIsMissing) {
+    using enum AttractorClass;
+    const SweepGrid swept = grid(R"({"over": [{"key": "gravity", "values": [0, 1, 10], "spacing": "log"}]})");
+    const render::figure::Figure figure = diagram("bifurcation", swept, data(swept, {rest}), "v_n_before");
+    EXPECT_EQ(figure.panels.back().x.scale, render::Scale::linear);
+    EXPECT_THAT(figure.panels.back().cells.at(0).x, ElementsAre(-0.5, 0.5, 5.5, 14.5));
+    EXPECT_THAT(figure.caption, Not(HasSubstr("logarithmic")));
 }
 
 TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
