@@ -103,15 +103,14 @@ void print_result(const TestArguments& args, const RegressionResult& result, con
     else
         print_text(to_text(result, rule, args.common.quiet));
     std::map<Verdict, std::size_t> counts;
-    std::size_t not_run = 0;
-    for (const EntryResult& entry : result.entries) ++(entry.exit_code == 0 ? counts[entry.verdict()] : not_run);
-    const std::size_t new_renderer = counts[Verdict::new_renderer];
+    for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
+    const std::size_t new_renderer = counts[Verdict::new_renderer], not_run = counts[Verdict::not_run];
     inform(
         args.common,
         fmt::format("{}: {} identical, {} equivalent, {}{} different, {} missing{}; {}, {}, {:.2f} s",
                     counted(result.entries.size(), "entry"), counts[Verdict::identical], counts[Verdict::equivalent],
                     new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "", counts[Verdict::different],
-                    counts[Verdict::missing], not_run > 0 ? fmt::format(", {} not run", not_run) : "",
+                    counts[Verdict::missing], not_run > 0 ? fmt::format(", {} not-run", not_run) : "",
                     counted(result.simulations, "simulation"), counted(result.pictures, "picture"), result.seconds));
     if (result.changed)
         inform(args.common,

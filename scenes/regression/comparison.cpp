@@ -22,7 +22,7 @@ std::string names_of(const std::vector<std::string>& all) {
 }  // namespace
 
 const char* name(Verdict verdict) {
-    constexpr const char* kNames[] = {"identical", "equivalent", "new-renderer", "different", "missing"};
+    constexpr const char* kNames[] = {"identical", "equivalent", "new-renderer", "different", "missing", "not-run"};
     return kNames[static_cast<std::size_t>(verdict)];
 }
 

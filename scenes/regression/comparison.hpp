@@ -15,7 +15,8 @@ enum class Verdict {  // the worse, the greater
     equivalent,    // not identical, but within the tolerance
     new_renderer,  // similar pictures of libraries or fonts of which no picture is accepted yet
     different,
-    missing  // one of the two does not exist
+    missing,  // nothing is accepted yet
+    not_run   // not compared, for example without its scene
 };
 const char* name(Verdict verdict);
 

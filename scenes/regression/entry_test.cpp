@@ -173,11 +173,11 @@ bool EntryTest::attempt(const std::function<void()>& work) {
     } catch (const render::PictureError& error) {  // such as an impact that does not occur any more
         fail(error.what());
     } catch (const SceneError& error) {  // such as a value that a sweep cannot give to a key
-        fail(error.what(), Verdict::missing, kBadScene);
+        fail(error.what(), Verdict::not_run, kBadScene);
     } catch (const output::IoError& error) {  // such as a damaged reference
-        fail(error.what(), Verdict::missing, kInputOutput);
+        fail(error.what(), Verdict::not_run, kInputOutput);
     } catch (const fs::filesystem_error& error) {
-        fail(output::io_error(error).what(), Verdict::missing, kInputOutput);
+        fail(output::io_error(error).what(), Verdict::not_run, kInputOutput);
     }
     return false;
 }

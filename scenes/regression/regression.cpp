@@ -82,7 +82,7 @@ class Regression {
     // The result of an entry that cannot be tested.
     static void reject(EntryResult& result, const std::string& problem, int exit_code) {
         output::print_message("{}", problem);
-        result.picture = Verdict::missing;
+        result.picture = Verdict::not_run;
         result.picture_lines = {problem.substr(0, problem.find('\n'))};
         result.exit_code = exit_code;
     }

@@ -32,7 +32,7 @@ section { border-top: 2px solid var(--line); padding: 1rem 0 1.6rem; }
 .soft { color: var(--soft); }
 .identical { color: var(--good); }
 .equivalent, .new-renderer { color: var(--near); }
-.different, .missing { color: var(--bad); font-weight: 600; }
+.different, .missing, .not-run { color: var(--bad); font-weight: 600; }
 input[type=radio] { position: absolute; opacity: 0; }
 label { display: inline-block; margin: .6rem .3rem .4rem 0; padding: .1rem .7rem; border: 1px solid var(--line); border-radius: 1rem; cursor: pointer; }
 input:checked + label { background: var(--ink); color: var(--paper); }

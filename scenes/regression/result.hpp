@@ -45,8 +45,8 @@ struct EntryResult {
     Verdict verdict() const {
         return std::max(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
     }
-    bool could_not_run() const { return exit_code != 0 && exit_code != kDiffers; }  // such as without its scene
-    bool differs() const { return verdict() >= Verdict::different; }  // or is missing: references must be replaced
+    bool could_not_run() const { return verdict() == Verdict::not_run; }
+    bool differs() const { return verdict() >= Verdict::different; }  // or was not compared
     std::vector<std::string> digests() const {                        // of all frames
         std::vector<std::string> all;
         for (const auto& [number, frame] : frames) all.push_back(frame.sha256);

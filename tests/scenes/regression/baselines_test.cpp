@@ -119,8 +119,11 @@ TEST(Baselines, AnEntryWithoutASceneIsAnErrorOfThatEntryAlone) {
     const Finished finished = shell(folder, "$BEAMCAM test b.json --junit j.xml");
     EXPECT_EQ(finished.code, 3);
     EXPECT_THAT(finished.err, HasSubstr("b.json:2:3: entries.a needs \"scene\", for example \"fall.json\""));
-    EXPECT_THAT(finished.err, HasSubstr("0 different, 1 missing, 2 not run; 1 simulation"));
+    EXPECT_THAT(finished.err, HasSubstr("0 different, 1 missing, 2 not-run; 1 simulation"));
+    EXPECT_THAT(finished.out, HasSubstr("not-run     a  picture not-run: b.json:2:3: "));
+    EXPECT_THAT(finished.out, HasSubstr("missing     c  motion missing: "));
     EXPECT_THAT(testing::slurp(folder / "j.xml"), HasSubstr("failures=\"1\" errors=\"2\""));
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --json").out, HasSubstr("\"verdict\": \"not-run\""));
 }
 
 TEST(Baselines, ReferencesMayBeBesideTheFile) {

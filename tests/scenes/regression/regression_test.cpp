@@ -350,7 +350,7 @@ TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
     folder.write("b/hit/motion.csv", "t,theta\n0,zero\n");
     const Finished damaged = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(damaged.code, 6) << damaged.out;
-    for (const char* line : {"identical   fall", "identical   fast", "missing     hit", "b/hit/motion.csv:2:3"})
+    for (const char* line : {"identical   fall", "identical   fast", "not-run     hit", "b/hit/motion.csv:2:3"})
         EXPECT_THAT(damaged.out, HasSubstr(line));
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit").code, 6);  // it was changed by hand
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit --force").code, 7);
@@ -358,7 +358,7 @@ TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
     const Finished gone = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(gone.code, 3) << gone.out;
     EXPECT_THAT(gone.err, HasSubstr(":25: entries.motion.scene: gone.json does not exist"));
-    for (const char* line : {"identical   fall", "identical   fast", "identical   hit", "missing     motion"})
+    for (const char* line : {"identical   fall", "identical   fast", "identical   hit", "not-run     motion"})
         EXPECT_THAT(gone.out, HasSubstr(line));
     folder.write("b.json", right);
     folder.swap("b.json", R"("at": "0.2 s")", R"("at": "impact:9")");
@@ -378,7 +378,7 @@ TEST(GlRegression, WantOfOpenGlCostsLitEntriesAlone) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
     const Finished finished = shell(folder, "export BEAMCAM_GL=none; $BEAMCAM test b.json");
     EXPECT_EQ(finished.code, 5) << finished.err;
-    EXPECT_THAT(finished.out, AllOf(HasSubstr("missing     lit   picture missing: "), HasSubstr("identical   flat")));
+    EXPECT_THAT(finished.out, AllOf(HasSubstr("not-run     lit   picture not-run: "), HasSubstr("identical   flat")));
 }
 
 // ---- what is no change -------------------------------------------------------------------------------

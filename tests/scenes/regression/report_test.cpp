@@ -53,7 +53,7 @@ TEST(Report, JUnitCallsAnEntryThatCannotRunAnError) {
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --junit j.xml").code, 3);
     const std::string xml = slurp(folder / "j.xml");
     EXPECT_THAT(xml, HasSubstr("failures=\"0\" errors=\"1\""));
-    EXPECT_THAT(xml, HasSubstr("<error type=\"missing\" message=\"missing: b.json:"));
+    EXPECT_THAT(xml, HasSubstr("<error type=\"not-run\" message=\"not-run: b.json:"));
     EXPECT_THAT(xml, Not(HasSubstr("<failure")));
 }
 
