@@ -151,12 +151,14 @@ class SeriesPanelMaker {
         if (sum.plus.size() > 1 && std::ranges::all_of(values, [](double v) { return v == 0; })) return;
         constexpr int kBlack = 6;
         const bool total = !sum.minus.empty();
-        panel_.series.push_back({.label = sum.label,
-                                 .x = plan_.abscissa.of(side.rows[i], first_.problem),
-                                 .y = values,
-                                 .look = total ? kBlack : curves_++,
-                                 .solid = total,
-                                 .weight = total ? 1 : weight_});
+        Series curve{.label = sum.label,
+                     .x = plan_.abscissa.of(side.rows[i], plan_.motions[side.curves[i].motion].problem),
+                     .y = values,
+                     .look = total ? kBlack : curves_++,
+                     .solid = total,
+                     .weight = total ? 1 : weight_};
+        plan_.abscissa.fold(curve);
+        panel_.series.push_back(std::move(curve));
     }
 
     // Paler where θ is not reproducible.

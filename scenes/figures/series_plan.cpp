@@ -35,13 +35,16 @@ std::vector<sim::Channel> channels_of(const SeriesPlan& plan) {
     return all;
 }
 
-std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const SeriesMotion& motion, Studies& studies) {
+// With the rows that `channel` needs, at least `rows`, and the channels `also` at the same rows.
+std::size_t table_of(const SeriesPlan& plan, sim::Channel channel, const std::vector<sim::Channel>& also, int rows,
+                     const SeriesMotion& motion, Studies& studies) {
     if (!plan.abscissa.is_frequency())
-        return studies.curve(motion.study, {plan.keys.from, plan.end, kRows},
-                             plan.abscissa.channel().value_or(sim::Channel{}), channel, {},
+        return studies.curve(motion.study, {plan.keys.from, plan.end, rows},
+                             plan.abscissa.channel().value_or(sim::Channel{}), channel, also,
                              plan.abscissa.drawn(motion.problem));
-    return studies.add_table(motion.study,
-                             {spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}});
+    sim::TableRequest table{spectrum_instants(motion.problem, plan.keys.from, plan.end), {sim::Channel{}, channel}};
+    table.channels.insert(table.channels.end(), also.begin(), also.end());
+    return studies.add_table(motion.study, std::move(table));
 }
 
 // One table for all sums of a panel, with the rows that the first of their channels needs.
@@ -55,8 +58,7 @@ void add_sums(const SeriesPlan& plan, const std::vector<SeriesSum>& sums, std::s
                 if (std::ranges::find(all, channel) == all.end()) all.push_back(channel);
     const sim::Channel first = all.front();
     all.erase(all.begin());
-    const std::size_t table = studies.curve(plan.motions[motion].study, {plan.keys.from, plan.end, kSumRows}, {}, first,
-                                            all, plan.abscissa.drawn(plan.motions[motion].problem));
+    const std::size_t table = table_of(plan, first, all, kSumRows, plan.motions[motion], studies);
     for (const SeriesSum& sum : sums) curves.push_back({first, motion, table, sum});
 }
 
@@ -66,7 +68,7 @@ PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std
     const auto add = [&](const std::vector<sim::Channel>& channels, std::vector<SeriesCurve>& curves) {
         for (const sim::Channel& channel : channels)
             for (const std::size_t motion : out.motions)
-                curves.push_back({channel, motion, table_of(plan, channel, plan.motions[motion], studies)});
+                curves.push_back({channel, motion, table_of(plan, channel, {}, kRows, plan.motions[motion], studies)});
     };
     if (keys.sums.empty()) add(keys.channels, out.left);
     for (const std::size_t motion : out.motions)
@@ -75,14 +77,17 @@ PlannedPanel planned(const SeriesPlan& plan, std::size_t number, std::vector<std
     return out;
 }
 
-sim::Table summed(const sim::Table& rows, const SeriesSum& sum) {
-    sim::Table out{{rows.channels[0], rows.channels[1]}, {rows.values[0], std::vector<double>(rows.rows(), 0)}};
+// After the first `kept` columns, the abscissae of the rows.
+sim::Table summed(const sim::Table& rows, const SeriesSum& sum, std::ptrdiff_t kept) {
+    sim::Table out{{rows.channels.begin(), rows.channels.begin() + kept + 1},
+                   {rows.values.begin(), rows.values.begin() + kept}};
+    out.values.emplace_back(rows.rows(), 0);
     const auto add = [&](const std::vector<sim::Channel>& channels, double sign) {
         for (const sim::Channel& channel : channels) {
             const auto at = std::ranges::find(rows.channels, channel) - rows.channels.begin();
             const std::vector<double>& values = rows.values.at(static_cast<std::size_t>(at));
             for (std::size_t i = 0; i < values.size(); ++i)
-                if (std::isfinite(values[i])) out.values[1][i] += sign * values[i];
+                if (std::isfinite(values[i])) out.values.back()[i] += sign * values[i];
         }
     };
     add(sum.plus, 1), add(sum.minus, -1);
@@ -92,8 +97,8 @@ sim::Table summed(const sim::Table& rows, const SeriesSum& sum) {
 }  // namespace
 
 sim::Table SeriesPlan::rows(const SeriesCurve& curve, const Results& results) const {
-    const sim::Table& rows = results[motions[curve.motion].study]->tables[curve.table];
-    if (curve.sum) return summed(rows, *curve.sum);
+    const sim::Table& table = results[motions[curve.motion].study]->tables[curve.table];
+    const sim::Table rows = curve.sum ? summed(table, *curve.sum, abscissa.channel() ? 2 : 1) : table;
     return abscissa.is_frequency() ? spectrum_table(rows, keys.x_high) : rows;
 }
 

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ranges>
 
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
@@ -198,6 +199,27 @@ TEST(Series, DrawsSumsOfChannels) {
                     {"channels": ["theta"], "sums": [{"label": "a", "plus": ["theta", "contact_force"]}]}]}]})")
                     .report(),
                 HasSubstr("an axis has one unit"));
+}
+
+TEST(Series, DrawsSumsAgainstAnyAbscissa) {
+    const auto of = [](const std::string& x) {
+        const std::string channel = R"("channels": ["energy_kinetic"])";
+        const auto drawn = [&](const std::string& sums) {
+            return figure_of("\"x\": \"" + x + "\", \"panels\": [{" + channel + sums + "}]").panels[0].series[0];
+        };
+        return std::pair(drawn(""), drawn(R"(, "sums": [{"label": "whole", "plus": ["energy_kinetic"]}])"));
+    };
+    for (const std::string x : {"theta", "energy_kinetic", "phase", "turns", "frequency"}) {
+        const auto [channel, sum] = of(x);
+        const auto defined = std::views::filter([](double v) { return !std::isnan(v); });
+        auto expected = channel.x | defined, found = sum.x | defined;
+        const auto [low, high] = std::ranges::minmax(expected);
+        const auto [from, to] = std::ranges::minmax(found);
+        EXPECT_NEAR(from, low, 1e-3 * (high - low)) << x;
+        EXPECT_NEAR(to, high, 1e-3 * (high - low)) << x;
+        for (std::size_t i = 0; x == "energy_kinetic" && i < sum.x.size(); ++i)
+            EXPECT_NEAR(sum.x[i] * largest(sum.y), sum.y[i] * largest(sum.x), 1e-9 * high * largest(sum.y));
+    }
 }
 
 TEST(Series, CountsPotentialEnergyFromItsLeast) {
