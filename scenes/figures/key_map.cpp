@@ -34,7 +34,8 @@ double map_value(const SweptPoints& points, const output::StoredPoint& p, const 
     const std::size_t column = points.column(value), width = points.data.columns.size();
     double sum = 0;
     for (std::size_t i = column; i < p.samples.size(); i += width) sum += drawn(points, column, p.samples[i]);
-    return p.samples.empty() ? sim::kNan : sum / static_cast<double>(p.samples.size() / width);
+    const std::size_t rows = p.samples.size() / width;
+    return rows == 0 ? sim::kNan : sum / static_cast<double>(rows);
 }
 
 std::string map_label(const SweptPoints& points, const std::string& value) {
