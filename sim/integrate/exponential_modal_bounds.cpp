@@ -168,6 +168,7 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
         mode.rate = speed[lane];
         mode.acceleration = acceleration[lane];
         mode.set_frequencies(third[lane], fourth[lane]);
+        mode.lag = lag_[g][lane];
         const Oscillator& oscillator = form_->oscillators[i];
         if (!(oscillator.omega > 0))
             mode.swings[0] = mode.swings[1] = {};

@@ -50,6 +50,7 @@ struct ModalBounds {
         double amplitude = 0, rate = 0, acceleration = 0;  // of |q|, |q̇|, |q̈|
         // |q̈| ≤ q_frequency² amplitude, so for q̇ and q̈ [rad/s]
         double q_frequency = 0, rate_frequency = 0, acceleration_frequency = 0;
+        double lag = 0;  // of its vibration behind the natural frequency [rad/s]
         // A free vibration or decay since the start of the step, which no polynomial through the nodes follows: bounds
         // of it and its derivatives there, and its frequency. After the time τ they are at most overshoot·e^(−fading τ)
         // times as large, and no larger.

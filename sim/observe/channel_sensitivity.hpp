@@ -90,9 +90,10 @@ void ChannelSensitivity::each_group(Channel channel, Visit&& visit) const {
             return visit_coordinate(static_cast<std::size_t>(channel.index) - 1, visit);
         case ChannelKind::theta:
             return visit_all(visit, [](const Group& of, const Vibrations&) { return Sensitivity{.q = of.h}; });
-        case ChannelKind::theta_dot:  // Θ̇ = p/(J + qᵀBq)
+        case ChannelKind::theta_dot:  // Θ̇ = p/(J + qᵀBq), or that of the drive
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
-                return Sensitivity{.rate = of.h, .mixed = turning(of, m) * (2 / basis_.J)};
+                const double share = system_.drive().prescribed() ? 0 : 2 / basis_.J;
+                return Sensitivity{.rate = of.h, .mixed = share * turning(of, m)};
             });
         case ChannelKind::tip_deflection:
         case ChannelKind::tip_rate:

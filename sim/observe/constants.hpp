@@ -27,7 +27,10 @@ inline constexpr std::size_t kMostPromising = 64;  // steps of a channel that ar
 inline constexpr int kMostParabolas = 8;
 inline constexpr double kParabolaMargin = 0.02;     // of the interval: new points keep this distance from its ends
 inline constexpr double kParabolaConverged = 1e-9;  // of the interval: √ of rounding, where the crest is flat
-inline constexpr double kSignRounding = 1e-14;      // of the sum of magnitudes: values below it have no sign
+// Of the amplitude: an error of the closed form of a mode, beyond which it is not used; between two crests it matters
+// in second order. And how many times as large as at the nodes it is taken.
+inline constexpr double kFormRounding = 1e-7, kFormMargin = 4;
+inline constexpr double kSignRounding = 1e-14;  // of the sum of magnitudes: values below it have no sign
 
 // ---- bounds within a step ----
 inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷

@@ -72,8 +72,11 @@ bool ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel cha
         if (++evaluations_ % kEvaluationsPerPoll == 0 && poll_) poll_();
         return f(t);
     };
-    for (std::size_t k = 0; k + 1 < samples.size(); ++k)
-        climb(polled, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
+    if (const auto mode = step_.undamped_mode(channel))
+        climb_crests(polled, variation, *mode, s.from, s.to, best);
+    else
+        for (std::size_t k = 0; k + 1 < samples.size(); ++k)
+            climb(polled, variation, {sample_time(s, k), samples[k]}, {sample_time(s, k + 1), samples[k + 1]}, best);
     halvings_left_ -= allowed - std::max(best.intervals, 0L);
     return best.intervals >= 0;
 }

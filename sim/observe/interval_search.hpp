@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "sim/observe/constants.hpp"
+#include "sim/observe/undamped_mode.hpp"
 #include "sim/observe/variation.hpp"
 
 namespace beamcam::sim {
@@ -69,6 +70,19 @@ void climb(const F& f, const Variation& variation, const TimedValue& a, const Ti
     if (left_first) climb(f, variation, a, m, best);
     climb(f, variation, m, b, best);
     if (!left_first) climb(f, variation, a, m, best);
+}
+
+// Where the function is an undamped mode, only the crests that exceed the best value are searched.
+template <class F>
+void climb_crests(const F& f, const Variation& variation, const UndampedMode& mode, double from, double to,
+                  BestValue& best) {
+    mode.each_crest(best.sign, from, to, [&](double a, double b, double high) {
+        if (!(high > best.to_beat())) return;
+        const TimedValue first{a, f(a)}, last{b, f(b)};
+        best.offer(first);
+        best.offer(last);
+        climb(f, variation, first, last, best);
+    });
 }
 
 // Calls found(a, b) for intervals, in order, in which f changes its sign once. Values below `rounding` have no sign.

@@ -84,6 +84,17 @@ ModalChannels::Range ModalChannels::mode_range(Channel channel) const {
     return {mode.low, mode.high};
 }
 
+std::optional<UndampedMode> ModalChannels::undamped_mode(Channel channel) const {
+    const PartBounds::Part& part = bounds_.part;
+    const std::size_t j = static_cast<std::size_t>(channel.index) - 1;
+    if (channel.kind != ChannelKind::q || part.modes->resolved || basis_.modes[j].damping != 0) return {};
+    double other = 0;
+    for (std::size_t i = 0; i < modes_.size(); ++i)
+        other += std::fabs(basis_.share(j, i) - (i == j ? 1 : 0)) * part.modes->modes[i].amplitude;
+    const UndampedMode mode(*part.modes, j, basis_.modes[j].omega, part.from - part.elapsed, other);
+    return mode.has_crests() ? std::optional(mode) : std::nullopt;
+}
+
 bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
     if (!bounds_.part.whole) return false;
     const ModalBounds& modes = *bounds_.part.modes;

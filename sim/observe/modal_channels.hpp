@@ -11,6 +11,7 @@
 #include "sim/observe/channels.hpp"
 #include "sim/observe/mode_basis.hpp"
 #include "sim/observe/part_bounds.hpp"
+#include "sim/observe/undamped_mode.hpp"
 #include "sim/observe/variation.hpp"
 
 namespace beamcam::sim {
@@ -62,6 +63,8 @@ class ModalChannels {
     double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
     // What rounding of the beam's place and of terms that cancel changes it by.
     double rounding(ChannelKind kind) const;
+    // The mode that q is, or almost is, if it is undamped and has crests.
+    std::optional<UndampedMode> undamped_mode(Channel channel) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 

@@ -294,6 +294,34 @@ TEST(Extrema, OfManyUndampedModesNeedFewSearches) {
     EXPECT_LE(searches_times_256(p, 0.5, channels), 40);
 }
 
+// The crests of an undamped mode are enumerated.
+TEST(Extrema, OfUndampedModesNeedNoEvaluationBetweenCrests) {
+    SKIP_UNDER_SANITIZERS();
+    std::vector<Channel> modes;
+    for (int k = 1; k <= 20; ++k) modes.push_back({ChannelKind::q, k});
+    Problem p = turning_cam(ModelKind::first_order, 20, 28.9);
+    p.contact.model = ContactModel::restitution;
+    p.contact.restitution = 0.2;
+    p.beam.length = 0.3445;
+    p.beam.youngs_modulus = 64.7e9;
+    p.cam->centre = {0.1523, 0.01285};
+    p.cam->radius = 0.02334;
+    p.cam->eccentricity = 0.00443;
+    p.cam->phase = 5.666;
+    p.initial.angle = 0.939;
+    EXPECT_LE(searches_times_256(p, 0.6, modes), 1500);
+}
+
+TEST(Extrema, OfFreeVibrationExceedEverySample) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order}) {
+        SCOPED_TRACE(name(kind));
+        Problem p = turning_cam(kind, 6);
+        p.cam.reset();
+        p.initial.q = {0.02, 0.01, 0.004, 0.002, 0.001, 0.0005};
+        expect_true_extrema(p, 0.4, 20'000);
+    }
+}
+
 // A beam that follows the cam without leaving it.
 Problem held_on_cam(ModelKind model, int modes, double speed) {
     Problem p = turning_cam(model, modes, speed);
