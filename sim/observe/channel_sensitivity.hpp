@@ -46,7 +46,12 @@ class ChannelSensitivity {
     }
     // Of the place of contact: a slope rotates the normal, which passes the disc's centre at the distance `away`.
     Lanes foot(const Group& of) const {
+        if (!part_.foot_moves()) return {};
         return kBentContactShift * (of.slope * part_.away + of.shape * part_.inclination);
+    }
+    // Displacement of the beam at the contact: from that of the root on it grows by its slopes.
+    Lanes displacement(const Group& of) const {
+        return smaller(of.shape, of.h * (basis_.reach - basis_.length) + of.slope * part_.farthest);
     }
     // Where tangents turn by δ, sin δ is δ but for ½δ²δ_i of each mode; against the hub they turn by twice the
     // inclination at most. The deflection of the tip changes by that over the length.
@@ -164,19 +169,19 @@ void ChannelSensitivity::visit_contact(ChannelKind kind, const Visit& visit) con
     };
     switch (kind) {
         case ChannelKind::gap:
-            return by_shape([](const Group& of) { return of.shape; });
+            return by_shape([&](const Group& of) { return displacement(of); });
         case ChannelKind::contact_x:
             return by_shape([&](const Group& of) { return foot(of); });
         case ChannelKind::contact_s:
-            return by_shape([&](const Group& of) { return cam_radius_ * of.slope + of.shape; });
+            return by_shape([&](const Group& of) { return cam_radius_ * of.slope + displacement(of); });
         case ChannelKind::energy_contact:
-            return by_shape([&](const Group& of) { return part_.force * of.shape; });
+            return by_shape([&](const Group& of) { return part_.force * displacement(of); });
         default: {
             const double share = kind == ChannelKind::contact_force ? 1 : friction_,
                          per_depth = share * part_.force_per_depth, per_rate = share * part_.force_per_rate;
             return visit_all(visit, [&](const Group& of, const Vibrations&) {
-                return Sensitivity{.q = per_depth * of.shape + (per_rate * part_.slide) * of.slope,
-                                   .rate = per_rate * of.shape,
+                return Sensitivity{.q = per_depth * displacement(of) + (per_rate * part_.slide) * of.slope,
+                                   .rate = per_rate * displacement(of),
                                    .shift = of.wave * part_.slide};
             });
         }

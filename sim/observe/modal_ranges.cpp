@@ -21,11 +21,11 @@ double ModalChannels::drift(ChannelKind kind) const {
         case ChannelKind::theta_dot:
             return acceleration;
         case ChannelKind::gap:
-            return theta_dot * basis_.reach + disc_speed_;
+            return theta_dot * bounds_.lever() + disc_speed_;
         case ChannelKind::contact_x:
             return bounds_.foot_speed;
         case ChannelKind::contact_s:
-            return sensitivity_.cam_radius() * (theta_dot + cam_speed_) + theta_dot * basis_.reach + disc_speed_;
+            return sensitivity_.cam_radius() * (theta_dot + cam_speed_) + theta_dot * bounds_.lever() + disc_speed_;
         case ChannelKind::energy_kinetic:
             return basis_.J * theta_dot * acceleration;
         case ChannelKind::energy_potential:

@@ -21,8 +21,11 @@ void PartBounds::set(const Part& of) {
     if (!system_.has_cam()) return;
     place_contact();
     const MotionBounds& motion = *part.motion;
-    foot_speed = kBentContactShift * (motion.theta_dot * (basis_.reach + away) + disc_speed_);
-    slide = foot_speed + kBentContactShift * (motion.slope_speed * away + motion.deflection_speed);
+    foot_speed = slide = 0;
+    if (foot_moves()) {
+        foot_speed = kBentContactShift * (motion.theta_dot * (basis_.reach + away) + disc_speed_);
+        slide = foot_speed + kBentContactShift * (motion.slope_speed * away + motion.deflection_speed);
+    }
     if (part.touch) bound_force();
 }
 
@@ -46,20 +49,25 @@ void PartBounds::sum_modes() {
     hub_acceleration = part.motion->theta_ddot + sum(accelerations);
 }
 
-// Distance of the disc's centre from the beam, and of the contact from the root: for a straight beam, plus bending.
+// Distance of the disc's centre from the beam, and of the contact from the root. At a foot where the tangent is
+// inclined by δ against the frame, x = foot − u + tan δ (across − v), 0 ≤ −u ≤ ½xs² + ½|a|α² and |tan δ| ≤ s/(1 − ½s²)
+// by (S7), (S13) and (S24), with the largest inclination s.
 void PartBounds::place_contact() {
     const MotionBounds& motion = *part.motion;
     const double angle = 0.5 * (motion.angle_low + motion.angle_high),
-                 turn = 0.5 * (motion.angle_high - motion.angle_low);
+                 turn = 0.5 * (motion.angle_high - motion.angle_low) - motion.ripple;  // of the frame
     const Vec2 disc = system_.cam(part.from).disc, along = unit(angle);
     const double root = system_.problem().hub.radius, foot = dot(disc, along),
                  on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * part.length();
     away = norm(disc - on_beam * along) + turn * basis_.reach + moved + deflection;
-    const double bent = kBentContactShift * (inclination * away + deflection * inclination);
-    const double shift = turn * norm(disc) + moved + bent;
+    const double turned = turn * norm(disc) + moved, across = std::fabs(dot(disc, perp(along))) + turned;
+    const double shortened = 1 - 0.5 * inclination * inclination;
+    const bool steep = !(inclination < 1);
+    const double shift =
+        turned + inclination / shortened * (across + deflection) + 0.5 * std::fabs(root) * alpha * alpha;
     const auto on = [&](double x) { return std::clamp(x, 0.0, basis_.length); };
-    nearest = on(foot - root - shift);
-    farthest = on(foot - root + shift);
+    nearest = steep ? 0 : on(foot - root - shift);
+    farthest = steep ? basis_.length : on((foot - root + shift) / shortened);
     arm = farthest > 0 ? farthest + deflection : 0;
 }
 

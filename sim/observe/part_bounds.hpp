@@ -2,6 +2,7 @@
 // channels have in common. MODEL.md §12, (S59).
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "sim/dynamics/system.hpp"
@@ -35,7 +36,9 @@ class PartBounds {
     // With a cam.
     double nearest = 0, farthest = 0;  // of the place of the contact, x_c
     double arm = 0;                    // of the contact's distance from the root
-    double away = 0;                   // of the distance from the disc's centre to the beam
+    double lever() const { return std::min(basis_.reach, basis_.reach - basis_.length + arm); }  // from the axis
+    double away = 0;                                        // of the distance from the disc's centre to the beam
+    bool foot_moves() const { return nearest < farthest; }  // else it stays at an end of the beam
     double foot_speed = 0, slide = 0;  // of the contact along a straight beam, and along the bent one
     // Of the normal force while they touch, and of its derivatives.
     double force = 0, force_per_depth = 0, force_per_rate = 0;

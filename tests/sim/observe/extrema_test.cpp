@@ -257,6 +257,28 @@ TEST(Extrema, OfAFootThatStaysAtAnEndNeedNoSearch) {
     EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::contact_x}, {ChannelKind::separation}}), 2);
 }
 
+// The same of a beam that bends much, and of the gap, in which bending matters no more than at the root.
+TEST(Extrema, OfAFootThatBendingCannotMoveFromAnEndNeedNoSearch) {
+    Problem p = turning_cam(ModelKind::first_order, 8, 0);
+    p.cam->centre = {0.25, 2};
+    p.initial.angle = -1;
+    p.initial.q = {0.02, 0.01, 0.004, 0.002, 0.001, 0.0005, 0.0003, 0.0002};
+    EXPECT_LE(searches_times_256(p, 0.1, {{ChannelKind::contact_x}, {ChannelKind::gap}, {ChannelKind::separation}}), 4);
+}
+
+TEST(Extrema, OfAFootAtEitherEndOfABentBeamExceedEverySample) {
+    for (const double behind : {0.3, -0.3}) {
+        SCOPED_TRACE(behind);
+        Problem p = turning_cam(ModelKind::first_order, 4, -5);
+        p.hub.radius = 0.05;
+        p.hub.inertia = 0.02;
+        p.cam->centre = {behind > 0 ? -behind : p.beam.length - behind, -0.2};
+        p.initial.angle = 0.3;
+        p.initial.q = {0.02, 0.01, 0.004};
+        expect_true_extrema(p, 0.1, 8'000);
+    }
+}
+
 // In sustained impulsive contact the gap is zero but for rounding.
 TEST(Extrema, OfRoundingAreNotSearched) {
     Problem p = turning_cam(ModelKind::first_order, 8, -4);

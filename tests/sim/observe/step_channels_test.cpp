@@ -82,6 +82,33 @@ TEST(StepChannels, EstimatesKeepTheirError) {
     }
 }
 
+// Also where the beam bends as far as its model holds, or reaches behind the axis.
+TEST(StepChannels, TheFootOfTheContactIsWithinItsBounds) {
+    constexpr int kInstants = 30;
+    constexpr double kEverywhere = 1e9, kRounding = 1e-12;
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order, ModelKind::exact})
+        for (const double radius : {0.1, -0.05}) {
+            SCOPED_TRACE(std::string(name(kind)) + " " + std::to_string(radius));
+            Problem p;
+            p.beam.model = kind;
+            p.beam.modes = 4;
+            p.hub.radius = radius;
+            p.hub.inertia = 0.01;
+            p.cam->speed = 10;
+            p.initial.q = {kind == ModelKind::exact ? 0.2 : 0.03, kind == ModelKind::exact ? -0.05 : 0.01};
+            visit_steps(p, 0.2, [&](const SegmentInterval& s, StepChannels& step) {
+                const ModalChannels::Range bounds =
+                    step.modes().within(ChannelKind::contact_x, {-kEverywhere, kEverywhere});
+                for (int k = 0; k <= kInstants; ++k) {
+                    const double t = s.from + (s.to - s.from) * k / kInstants,
+                                 foot = step.value(s, {ChannelKind::contact_x}, t);
+                    EXPECT_GE(foot, bounds.low - kRounding) << t;
+                    EXPECT_LE(foot, bounds.high + kRounding) << t;
+                }
+            });
+        }
+}
+
 // Where the state of a bristle ends, the end of a step is moved without solving the step again.
 TEST(StepChannels, SamplesOfAContactFollowItsLaw) {
     Problem p;
