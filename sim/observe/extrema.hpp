@@ -73,7 +73,8 @@ class ExtremaFinder {
     void search(const SegmentInterval& s, Channel channel, double sign, Extremum& e);
     bool estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e);
     template <class F>
-    bool climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples, BestValue& best);
+    bool climb_step(const F& f, const Variation& variation, const SegmentInterval& s, Channel channel,
+                    const Samples& samples, BestValue& best);
     template <class F>
     void offer_corners(const F& arc, const SegmentInterval& s, const Samples& feet, BestValue& best);
     void search_arc(const SegmentInterval& s, double sign, Extremum& e);

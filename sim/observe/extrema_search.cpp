@@ -34,7 +34,8 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     }
     BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
-    if (!climb_step([&](double t) { return step_.value(s, channel, t); }, s, channel, samples, best)) ++incomplete_;
+    const auto value = [&](double t) { return step_.value(s, channel, t); };
+    if (!climb_step(value, step_.variation(s, channel, samples), s, channel, samples, best)) ++incomplete_;
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
@@ -49,16 +50,17 @@ bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel
     if (!(aim > 0)) return false;
     best.value = aim - best.left_out;
     const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
-    const bool complete = climb_step(estimate, s, channel, step_.estimates(s, channel), best);
+    const Samples samples = step_.estimates(s, channel);
+    const bool complete =
+        climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best);
     if (complete && shared) proven = best.value;
     return complete && best.value <= most;
 }
 
 // Raises `best` to the largest value of f in the step; false if the search ended before.
 template <class F>
-bool ExtremaFinder::climb_step(const F& f, const SegmentInterval& s, Channel channel, const Samples& samples,
-                               BestValue& best) {
-    const Variation variation = step_.variation(s, channel, samples);
+bool ExtremaFinder::climb_step(const F& f, const Variation& variation, const SegmentInterval& s, Channel channel,
+                               const Samples& samples, BestValue& best) {
     best.left_out = std::max(best.left_out, step_.modes().rounding(channel.kind));
     for (std::size_t k = 0; k < samples.size(); ++k) best.offer({sample_time(s, k), samples[k]});
     const auto [low, high] = std::ranges::minmax(samples);
@@ -111,7 +113,7 @@ void ExtremaFinder::search_arc(const SegmentInterval& s, double sign, Extremum& 
     for (double& value : samples) value = unwrapped(value, first);
     BestValue best = best_so_far(kArc.kind, sign, e);
     const double before = best.value;
-    if (!climb_step(arc, s, kArc, samples, best)) ++incomplete_;
+    if (!climb_step(arc, step_.variation(s, kArc, samples), s, kArc, samples, best)) ++incomplete_;
     offer_corners(arc, s, feet, best);
     if (!(best.value > before)) return;
     const double value = sign * best.value;

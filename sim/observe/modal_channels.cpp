@@ -53,8 +53,9 @@ const ForcedAcceleration& ModalChannels::forced() const {
     const Collocation& gauss = Collocation::get();
     const ModalBounds& modes = *bounds_.part.modes;
     forced_.emplace();
-    Lanes& nodes = forced_->nodes;
-    for (std::size_t l = 0; l < kNodes; ++l) nodes += (modes.theta_dot[static_cast<int>(l)] / modes.h) * gauss.slope[l];
+    Lanes &frame = forced_->frame, &nodes = forced_->nodes;
+    for (std::size_t l = 0; l < kNodes; ++l) frame += (modes.theta_dot[static_cast<int>(l)] / modes.h) * gauss.slope[l];
+    nodes = frame;
     for (std::size_t i = 0; i < modes_.size(); ++i) nodes += modes_[i].turn * modes.force[i];
     for (std::size_t j = 0; j < kNodes; ++j) forced_->powers[j] = sum(gauss.monomial[j] * nodes);
     for (std::size_t j = kNodes - kMissedTerms; j < kNodes; ++j)

@@ -18,6 +18,7 @@ namespace beamcam::sim {
 
 // θ̈ in a step of the collocation without what stiffness and damping cause: a polynomial.
 struct ForcedAcceleration {
+    Lanes frame{};                        // values of Θ̈ at the nodes [rad/s²]
     Lanes nodes{};                        // values [rad/s²]
     std::array<double, kNodes> powers{};  // coefficients of (2s − 1)ʲ
     double error = 0;                     // estimate, by its last terms
@@ -65,6 +66,9 @@ class ModalChannels {
     double rounding(ChannelKind kind) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
+    // The variation of an estimate by all its modes and what is left, the frame's; false where its nodes bound it
+    // better.
+    bool vary_estimate(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 

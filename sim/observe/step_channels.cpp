@@ -306,6 +306,16 @@ Variation StepChannels::variation(const SegmentInterval& s, Channel channel, con
     return out;
 }
 
+// A polynomial through nodes also follows, much too steeply, vibrations that they do not resolve.
+Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    const Variation by_nodes = variation(s, channel, values);
+    Variation by_modes;
+    const double length = kWidestNodeGap * (s.to - s.from);
+    const bool closer =
+        modal_channels_.vary_estimate(channel, by_modes) && by_modes.strays(length) < by_nodes.strays(length);
+    return closer ? by_modes : by_nodes;
+}
+
 ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {
     const double first = value(s, channel, s.from), last = value(s, channel, s.to);
     return modal_channels_.range(channel, first, last);

@@ -279,6 +279,14 @@ TEST(Extrema, OfAFootAtEitherEndOfABentBeamExceedEverySample) {
     }
 }
 
+// A polynomial through the nodes of a step is steeper than vibration that they do not resolve.
+TEST(Extrema, OfAnEstimateAreBoundedByItsModes) {
+    Problem p = turning_cam(ModelKind::first_order, 8);
+    p.cam.reset();
+    p.initial.q = {0.02, 0.01, 0.004, 0.002, 0.001, 0.0005, 0.0003, 0.0002};
+    EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::tip_deflection}}), 250);
+}
+
 // In sustained impulsive contact the gap is zero but for rounding.
 TEST(Extrema, OfRoundingAreNotSearched) {
     Problem p = turning_cam(ModelKind::first_order, 8, -4);

@@ -76,6 +76,15 @@ TEST(StepChannels, EstimatesKeepTheirError) {
                 for (std::size_t k = 0; k < samples.size(); ++k)
                     EXPECT_NEAR(samples[k], step.estimate(s, c, sample_time(s, k)),
                                 1e-8 * (most + std::fabs(samples[k])));
+                const Variation variation = step.variation_of_estimate(s, c, samples);
+                for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+                    const double from = sample_time(s, k), length = sample_time(s, k + 1) - from;
+                    const double stray = kSlack * variation.strays(length) + 1e-8 * (most + std::fabs(samples[k]));
+                    for (const double share : {0.25, 0.5, 0.8})
+                        EXPECT_NEAR(step.estimate(s, c, from + share * length),
+                                    samples[k] + share * (samples[k + 1] - samples[k]), stray)
+                            << name << " at " << from;
+                }
             }
         });
         EXPECT_LT(error, 0.05 * largest);
