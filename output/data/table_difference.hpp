@@ -12,11 +12,11 @@ namespace beamcam::output {
 struct ColumnDifference {
     std::string name;
     double largest = 0;         // |b − a|, in the column's unit
-    double t = 0;               // its instant; without a column "t", the number of the row
+    double t = 0;               // its instant; without a column "t", the number of the row, from 0; NaN: "t" is empty
     double range = 0;           // of `a` over the rows compared: largest minus smallest value
     double share = 0;           // largest / range; with no range: largest / |a|, or 1 where `a` is 0
     std::size_t undefined = 0;  // rows where one of the two is empty and the other is not
-    std::size_t texts = 0;      // rows with different texts, or with a text in one of the two only
+    std::size_t texts = 0;      // rows with different texts or classes, or with a text in one of the two only
     bool identical = true;      // every bit, empty cells included
 };
 
@@ -29,7 +29,7 @@ struct TableDifference {
         return rows_a == rows_b && rows_compared == rows_a && only_in_a.empty() && only_in_b.empty();
     }
     bool identical() const;
-    // No value differs by more than `share` of its column's range, and no text.
+    // No value differs by more than `share` of its column's range, and no text or class at all.
     bool within(double share) const;
 };
 

@@ -109,7 +109,7 @@ class CsvParser {
             cells = count + 1;
             if (count >= table_.columns.size()) return;
             std::optional<double> value = cell.empty() ? kNothing : number(cell);
-            if (!value) value = class_number(cell);
+            if (!value && table_.columns[count].name == "class") value = class_number(cell);
             if (!value && texts_ == Texts::kept) {
                 std::vector<std::string>& texts = table_.columns[count].texts;
                 texts.resize(table_.columns[count].values.size());

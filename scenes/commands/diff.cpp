@@ -154,7 +154,7 @@ void add_diff(Grammar& grammar) {
                "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");
     app.option("--tolerance", &args.tolerance, "X",
                "Differences up to this count as equivalent: of pictures, a difference of a colour channel, 0 … 255; of "
-               "tables, a share of a column's range (texts have none)");
+               "tables, a share of a column's range (texts and classes have none)");
     app.option("--ssim", &args.ssim, "X",
                "Pictures with at least this structural similarity (0 … 1) count as equivalent")
         .range(0, 1);

@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "output/files/text_safety.hpp"
 #include "sim/base/counted.hpp"
@@ -73,10 +74,13 @@ std::string to_text(const output::TableDifference& d) {
             ++same;
             continue;
         }
-        if (c.texts > 0) text += fmt::format("{}: {} differ\n", output::one_line(c.name), counted(c.texts, "text"));
+        if (c.texts > 0)
+            text += fmt::format("{}: {} {}\n", output::one_line(c.name), counted(c.texts, "text"),
+                                c.texts == 1 ? "differs" : "differ");
         if (c.largest == 0 && c.undefined == 0 && c.texts > 0) continue;
-        text += fmt::format("{}: largest difference {:.3g} at t = {:.6g}, {:.3g} of its range {:.3g}{}\n",
-                            output::one_line(c.name), c.largest, c.t, c.share, c.range,
+        const std::string at = std::isnan(c.t) ? "" : fmt::format(" at t = {:.6g}", c.t);
+        text += fmt::format("{}: largest difference {:.3g}{}, {:.3g} of its range {:.3g}{}\n", output::one_line(c.name),
+                            c.largest, at, c.share, c.range,
                             c.undefined > 0 ? fmt::format(", {} cells empty in one table only", c.undefined) : "");
     }
     if (same > 0)

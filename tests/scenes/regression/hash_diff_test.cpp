@@ -102,6 +102,19 @@ TEST(Diff, ComparesTextsOfTables) {
     const Finished differs = shell(folder, "$BEAMCAM diff a.csv b.csv --tolerance 1");
     EXPECT_EQ(differs.code, 7);
     EXPECT_THAT(differs.out, HasSubstr("case: 2 texts differ\n1 of 2 columns identical in 3 rows\n"));
+    // Classes of motion are names too, in the column that sweeps write; elsewhere they are texts.
+    for (const char* column : {"class", "case"}) {
+        folder.write("periodic.csv", std::string("cam.speed,") + column + "\n1,periodic\n2,rest\n");
+        folder.write("chaotic.csv", std::string("cam.speed,") + column + "\n1,periodic\n2,chaotic\n");
+        const Finished classes = shell(folder, "$BEAMCAM diff periodic.csv chaotic.csv --tolerance 10");
+        EXPECT_EQ(classes.code, 7) << column;
+        EXPECT_THAT(classes.out, HasSubstr(std::string(column) + ": 1 text differs\n"));
+    }
+    // Instants that are texts.
+    folder.write("t.csv", "t,x\nfirst,1\nsecond,2\n");
+    folder.write("u.csv", "t,x\nfirst,1\nsecond,3\n");
+    EXPECT_THAT(shell(folder, "$BEAMCAM diff t.csv u.csv").out,
+                HasSubstr("x: largest difference 1, 1 of its range 1\n"));
     EXPECT_THAT(shell(folder, "$BEAMCAM info a.csv").out,
                 HasSubstr("a.csv: table with texts\n  columns        2\n  rows           3\n"));
 }
