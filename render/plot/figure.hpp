@@ -116,7 +116,8 @@ struct Shape {
     Vec2 shift = {};                // of the label, in sizes of its letters, y up
     HAlign align = HAlign::centre;
     VAlign valign = VAlign::middle;
-    bool small = false;  // label
+    bool small = false;    // label
+    bool if_room = false;  // label: left out where it would touch one before it
 };
 
 // Labels at the curves if they have room, else a box; a box, in the plot if it has room, else above; a box above the

@@ -1,6 +1,8 @@
 // Draws panels of shapes: schematics and stills.
+#include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <vector>
 
 #include "render/base/error.hpp"
 #include "render/plot/panel.hpp"
@@ -24,19 +26,31 @@ TextStyle lettering_of(const Shape& s, const PlotStyle& style) {
     return {.size = s.small ? style.numbers : style.letters, .color = s.color, .align = s.align, .valign = s.valign};
 }
 
+Vec2 place_of(const Shape& label, const TextStyle& l, const Camera& camera) {
+    return camera.to_pixels(label.points.at(0)) + Vec2{label.shift.x * l.size, -label.shift.y * l.size};
+}
+
+// The box that the text of a label takes.
+Box label_box(const Shape& label, const PlotStyle& style, const PageCanvas& sheet, const Camera& camera) {
+    const TextStyle l = lettering_of(label, style);
+    const Vec2 at = place_of(label, l, camera);
+    Box box = sheet.measure(label.markup, l);
+    box.x = at.x - (l.align == HAlign::centre ? box.w / 2 : l.align == HAlign::right ? box.w : 0);
+    if (l.valign == VAlign::top) box.y = 0;
+    if (l.valign == VAlign::middle) box.y += sheet.cap_height(l.size) / 2;
+    if (l.valign == VAlign::bottom) box.y = -box.h;
+    box.y += at.y;
+    return box;
+}
+
 // How far labels extend beyond the box to the left and to the right.
 Vec2 beyond(const std::vector<Shape>& shapes, const PlotStyle& style, PageCanvas& sheet, const Camera& camera,
             const Box& box) {
     Vec2 out{0, 0};
     for (const Shape& s : shapes) {
         if (s.kind != Shape::Kind::label) continue;
-        const TextStyle l = lettering_of(s, style);
-        const double w = sheet.measure(s.markup, l).w;
-        const double x = camera.to_pixels(s.points.at(0)).x + s.shift.x * l.size -
-                         (l.align == HAlign::centre  ? w / 2
-                          : l.align == HAlign::right ? w
-                                                     : 0);
-        out = {std::max(out.x, box.x - x), std::max(out.y, x + w - box.right())};
+        const Box label = label_box(s, style, sheet, camera);
+        out = {std::max(out.x, box.x - label.x), std::max(out.y, label.right() - box.right())};
     }
     return out;
 }
@@ -78,7 +92,7 @@ void draw_one(const Shape& s, const PlotStyle& style, PageCanvas& sheet, const C
             return sheet.arrow(points.at(0), points.at(1), pen, head);
         case Shape::Kind::label: {
             const TextStyle l = lettering_of(s, style);
-            sheet.text(points.at(0) + Vec2{s.shift.x * l.size, -s.shift.y * l.size}, s.markup, l);
+            sheet.text(place_of(s, l, camera), s.markup, l);
             return;
         }
     }
@@ -99,7 +113,16 @@ void draw_shapes(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, 
         room = {room.x + left, room.y, room.w - left - right, room.h};
         camera = fit(world, room.inset(margin));
     }
-    for (const Shape& s : panel.shapes) draw_one(s, style, sheet, camera);
+    const double gap = 0.15 * style.letters;
+    std::vector<Box> labels;
+    for (const Shape& s : panel.shapes) {
+        if (s.kind == Shape::Kind::label) {
+            const Box own = label_box(s, style, sheet, camera), around = own.inset(-gap);
+            if (s.if_room && std::ranges::any_of(labels, [&](const Box& b) { return b.overlaps(around); })) continue;
+            labels.push_back(own);
+        }
+        draw_one(s, style, sheet, camera);
+    }
 }
 
 }  // namespace beamcam::render::figure

@@ -58,7 +58,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
 }
 
 // Beyond the tip, where no other beam is drawn.
-void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
+void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketch& to) {
     const Vec2 along = sim::unit(pose.theta);
     const bool level = std::abs(along.x) > 0.5;
     using render::VAlign;
@@ -72,19 +72,20 @@ void add_instant(const sim::Pose& pose, std::string instant, Sketch& to) {
                                     : render::HAlign::right,
             .valign = level         ? VAlign::middle
                       : along.y > 0 ? VAlign::bottom
-                                    : VAlign::top});
+                                    : VAlign::top,
+            .if_room = if_room});
 }
 
 // First and last, in one label where two would overlap; then the others that have room.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    constexpr double kApart = 0.05;  // [rad]
+    constexpr double kApart = 0.05;  // about the height of a label [rad]; the drawing omits wider ones that touch
     std::vector<double> labelled;
     const auto has_room = [&](const sim::Pose& pose) {
         return std::ranges::all_of(labelled, [&](double theta) { return std::abs(pose.theta - theta) > kApart; });
     };
     const auto label = [&](const sim::Pose& pose, const std::string& text) {
+        add_instant(pose, text, !labelled.empty(), to);
         labelled.push_back(pose.theta);
-        add_instant(pose, text, to);
     };
     const auto text_of = [](const sim::Pose& pose) { return number(pose.t, 3) + " s"; };
     const sim::Pose &first = poses.front(), &last = poses.back();

@@ -6,9 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <ranges>
 #include <sstream>
 
 #include "output/data/tables.hpp"
+#include "render/draw/fonts.hpp"
+#include "render/plot/figure.hpp"
 #include "render/plot/ticks.hpp"
 #include "scenes/plan/plan.hpp"
 #include "sim/beam/modes.hpp"
@@ -280,6 +283,31 @@ TEST(Overviews, AStrobeNamesItsFirstAndItsLastInstantAndOthersWithRoom) {
     };
     EXPECT_THAT(labels(R"(, "to": 0.25)"), ::testing::IsSupersetOf({"0 s", "0.25 s", "0.125 s"}));
     EXPECT_THAT(labels(R"(, "to": 0.05)"), ::testing::ElementsAre("0 s, 0.05 s"));
+}
+
+// Near the top, labels side by side need more room than their height.
+TEST(Overviews, LabelsOfAStrobeKeepApart) {
+    for (const char* angle : {"0.3", "0.8", "1.4", "2.5", "-1.6"})
+        for (const char* column : {"nature", "elsevier", "slide"}) {
+            const render::figure::Figure figure = testing::simulated(
+                R"({"cam": null, "hub": {"drive": {"type": "prescribed", "law": "constant", "speed": 0.3}},
+                    "initial": {"angle": )" +
+                std::string(angle) +
+                R"(}, "time": {"end": 1.4}, "outputs": [{"type": "figure", "figure": "strobe"}]})");
+            const auto page = page_of(figure, *render::figure::column_named(column));
+            const render::Fonts fonts(false, render::Typefaces::print);
+            render::figure::PageCanvas sheet(
+                render::figure::Medium::png,
+                {render::figure::points(page.width), render::figure::points(page.height), 72}, fonts);
+            draw(figure, page, sheet);
+            const auto is_instant = [](const auto& text) { return text.markup.ends_with(" s"); };
+            std::vector<render::Box> labels;
+            for (const auto& text : sheet.written | std::views::filter(is_instant)) labels.push_back(text.box);
+            EXPECT_GE(labels.size(), 3u) << angle << ' ' << column;
+            for (std::size_t i = 0; i < labels.size(); ++i)
+                for (std::size_t k = 0; k < i; ++k)
+                    EXPECT_FALSE(labels[i].overlaps(labels[k])) << angle << ' ' << column << ' ' << i << ' ' << k;
+        }
 }
 
 TEST(Overviews, AStrobeShowsTheMechanismAtSeveralInstantsOrAtOne) {
