@@ -173,7 +173,7 @@ double PeriodicOrbit::slowest_impact() const {
 }
 
 std::optional<std::string> orbit_refusal(const Problem& problem) {
-    if (const auto refusal = tangent_refusal(problem)) return refusal;
+    if (auto refusal = tangent_refusal(problem)) return refusal;
     if (!problem.cam || problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
     if (!std::holds_alternative<FreeDrive>(problem.hub.drive) &&
         !std::holds_alternative<ConstantTorque>(problem.hub.drive))
