@@ -1,7 +1,8 @@
 // The HTML page of a regression test: a table of all entries, and the pictures of those that changed.
 #include <fmt/format.h>
 
-#include <ranges>
+#include <algorithm>
+#include <span>
 
 #include "output/files/atomic_file.hpp"
 #include "scenes/regression/entry_pictures.hpp"
@@ -94,7 +95,8 @@ std::string section_html(const EntryResult& entry, const char* classes) {
     if (!entry.new_digest.empty())
         out += fmt::format("<p class=\"soft\">expected <code>{}</code><br>actual <code>{}</code></p>\n",
                            entry.old_digest.empty() ? "none" : entry.old_digest, entry.new_digest);
-    for (const auto& [number, frame] : entry.changed_frames() | std::views::take(kMostShown))
+    const ChangedFrames frames = entry.changed_frames();
+    for (const auto& [number, frame] : std::span(frames).first(std::min(frames.size(), kMostShown)))
         out += frame_html(entry, number, *frame);
     return out + "</section>\n";
 }
