@@ -21,17 +21,6 @@ struct LyapunovArguments {
     int count = 0, blocks = 20;
 };
 
-// The first reason why no chaos is shown.
-const char* reason(const sim::Exponents& e) {
-    if (e.lambda.empty()) return "the hub's motion is prescribed and the beam rigid";
-    if (e.impacts == 0) return "there were no impacts";
-    if (!e.settled) return "the motion had not settled; a longer --transient may help";
-    if (!(e.lambda.front() > 0)) return "the largest exponent is not positive";
-    if (!(e.lambda.front() > 3 * e.error.front()))
-        return "the largest exponent does not exceed three times its error; a longer --duration may help";
-    return "differences grow by less than e³ in the second half";
-}
-
 std::string verdict(const sim::Exponents& e) {
     switch (e.chaos()) {
         case sim::Chaos::shown:
@@ -40,7 +29,7 @@ std::string verdict(const sim::Exponents& e) {
             return "it is doubtful whether the motion is chaotic: without the contribution of near-grazing impacts the "
                    "largest exponent does not exceed its error\n";
         case sim::Chaos::not_shown:
-            return fmt::format("no chaos is shown: {}\n", reason(e));
+            return fmt::format("no chaos is shown: {}\n", e.against_chaos());
     }
     return "";
 }

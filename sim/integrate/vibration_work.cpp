@@ -7,28 +7,6 @@
 
 namespace beamcam::sim {
 
-StepPolynomial StepPolynomial::through(const Lanes& nodal) {
-    StepPolynomial p;
-    for (std::size_t j = 0; j < kNodes; ++j) p.c[j] = sum(Collocation::get().monomial[j] * nodal);
-    return p;
-}
-
-double StepPolynomial::operator()(double z) const {
-    double value = 0;
-    for (std::size_t j = kNodes; j-- > 0;) value = value * z + c[j];
-    return value;
-}
-
-void StepPolynomial::add(double factor, const StepPolynomial& p) {
-    for (std::size_t j = 0; j < kNodes; ++j) c[j] += factor * p.c[j];
-}
-
-StepPolynomial StepPolynomial::derivative(double h) const {
-    StepPolynomial d;
-    for (std::size_t j = 0; j + 1 < kNodes; ++j) d.c[j] = static_cast<double>(j + 1) * c[j + 1] * (2 / h);
-    return d;
-}
-
 VibrationWork::ProductIntegral::ProductIntegral(const StepPolynomial& a, const StepPolynomial& b, double h) {
     for (std::size_t i = 0; i < kNodes; ++i)
         for (std::size_t j = 0; j < kNodes; ++j) c[i + j + 1] += a.c[i] * b.c[j];
@@ -54,12 +32,7 @@ VibrationWork::VibrationWork(const Oscillator& oscillator, const Lanes& g, const
         if (decays_of(oscillator).slow * h >= kResolvedRadians) add_decay(false, f, h, start);
         return;
     }
-    StepPolynomial steady, derived = StepPolynomial::through(f);
-    for (const double c : following(oscillator)) {
-        steady.add(c, derived);
-        derived = derived.derivative(h);
-    }
-    const StepPolynomial speed = steady.derivative(h);
+    const StepPolynomial steady = steady_motion(oscillator, f, h), speed = steady.derivative(h);
     vibration_ = Vibration{steady, speed, ProductIntegral(g_[0], speed, h)};
     vibration_->at_start = integral(*vibration_, -1, start);
 }
@@ -67,12 +40,9 @@ VibrationWork::VibrationWork(const Oscillator& oscillator, const Lanes& g, const
 void VibrationWork::add_decay(bool fast, const Lanes& f, double h, Position start) {
     const Decays d = decays_of(oscillator_);
     const double r = fast ? d.fast : d.slow, c = (fast ? -1 : 1) / d.apart();
-    StepPolynomial steady, derived = StepPolynomial::through(f);
-    double factor = c / r;
-    for (int k = 0; k < kNodes; ++k, factor /= -r) {
-        steady.add(factor, derived);
-        derived = derived.derivative(h);
-    }
+    std::array<double, kNodes> factors{c / r};
+    for (std::size_t k = 1; k < factors.size(); ++k) factors[k] = factors[k - 1] / -r;
+    const StepPolynomial steady = StepPolynomial::of_derivatives(StepPolynomial::through(f), factors, h);
     Decay decay{r, fast ? d.slow : d.fast, c, steady, ProductIntegral(g_[0], steady, h)};
     decay.at_start = integral(decay, -1, start);
     decays_.push_back(decay);

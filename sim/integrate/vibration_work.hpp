@@ -6,19 +6,9 @@
 #include <optional>
 #include <vector>
 
-#include "sim/integrate/oscillator.hpp"
+#include "sim/integrate/step_polynomial.hpp"
 
 namespace beamcam::sim {
-
-// Σ c_j zʲ with z = 2s − 1, so that dz/dt = 2/h.
-struct StepPolynomial {
-    std::array<double, kNodes> c{};
-
-    static StepPolynomial through(const Lanes& nodal);
-    double operator()(double z) const;
-    void add(double factor, const StepPolynomial& p);
-    StepPolynomial derivative(double h) const;
-};
 
 bool resolved(const Oscillator& oscillator, double h);  // by the nodes of a step of length h
 

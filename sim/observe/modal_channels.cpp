@@ -57,7 +57,7 @@ const ForcedAcceleration& ModalChannels::forced() const {
     for (std::size_t l = 0; l < kNodes; ++l) frame += (modes.theta_dot[static_cast<int>(l)] / modes.h) * gauss.slope[l];
     nodes = frame;
     for (std::size_t i = 0; i < modes_.size(); ++i) nodes += modes_[i].turn * modes.force[i];
-    for (std::size_t j = 0; j < kNodes; ++j) forced_->powers[j] = sum(gauss.monomial[j] * nodes);
+    forced_->polynomial = StepPolynomial::through(nodes);
     for (std::size_t j = kNodes - kMissedTerms; j < kNodes; ++j)
         forced_->error += 2 * std::fabs(sum(gauss.legendre[j] * nodes));
     return *forced_;
@@ -71,9 +71,7 @@ double ModalChannels::hub_acceleration(double t, const double* y) const {
     basis_.to_modes(z);
     basis_.to_modes(rate);
     const PartBounds::Part& part = bounds_.part;
-    const double place = 2 * (t - part.from + part.elapsed) / part.modes->h - 1;
-    double total = 0;
-    for (std::size_t j = kNodes; j-- > 0;) total = total * place + forced().powers[j];
+    double total = forced().polynomial(2 * (t - part.from + part.elapsed) / part.modes->h - 1);
     for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].turn * modes_[i].restored(z[1 + i], rate[1 + i]);
     return total;
 }

@@ -1,12 +1,12 @@
 // Bounds of the channels within one step, or a part of it, and their values at its nodes. MODEL.md §12, (S59).
 #pragma once
 
-#include <array>
 #include <optional>
 #include <vector>
 
 #include "sim/dynamics/system.hpp"
 #include "sim/integrate/integrator.hpp"
+#include "sim/integrate/step_polynomial.hpp"
 #include "sim/observe/channel_sensitivity.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/mode_basis.hpp"
@@ -18,10 +18,10 @@ namespace beamcam::sim {
 
 // θ̈ in a step of the collocation without what stiffness and damping cause: a polynomial.
 struct ForcedAcceleration {
-    Lanes frame{};                        // values of Θ̈ at the nodes [rad/s²]
-    Lanes nodes{};                        // values [rad/s²]
-    std::array<double, kNodes> powers{};  // coefficients of (2s − 1)ʲ
-    double error = 0;                     // estimate, by its last terms
+    Lanes frame{};  // values of Θ̈ at the nodes [rad/s²]
+    Lanes nodes{};  // values [rad/s²]
+    StepPolynomial polynomial;
+    double error = 0;  // estimate, by its last terms
 };
 
 class ModalChannels {

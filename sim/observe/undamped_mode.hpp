@@ -3,11 +3,11 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 
 #include "sim/integrate/integrator.hpp"
+#include "sim/integrate/step_polynomial.hpp"
 
 namespace beamcam::sim {
 
@@ -31,7 +31,7 @@ class UndampedMode {
     };
     Slope followed(double t) const;  // p, ṗ
 
-    std::array<double, kNodes> powers_{};  // of p: coefficients of (2s − 1)ʲ
+    StepPolynomial steady_, speed_;  // p, ṗ
     double t0_, h_, frequency_, amplitude_ = 0, phase_ = 0;
     double error_;  // of all this, in the channel
     bool has_crests_ = false;

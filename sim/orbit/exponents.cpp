@@ -199,6 +199,17 @@ GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration) 
     return out;
 }
 
+const char* Exponents::against_chaos() const {
+    if (lambda.empty()) return "the hub's motion is prescribed and the beam rigid";
+    if (impacts == 0) return "there were no impacts";
+    if (!settled) return "the motion had not settled; a longer transient may help";
+    if (!(lambda.front() > 0)) return "the largest exponent is not positive";
+    if (!(lambda.front() > 3 * error.front()))
+        return "the largest exponent does not exceed three times its error; a longer duration may help";
+    if (!(lambda.front() * duration / 2 > kLateGrowth)) return "differences grow by less than e³ in the second half";
+    return nullptr;
+}
+
 Exponents lyapunov_exponents(const Problem& problem, const ExponentsRequest& request, const Progress& progress) {
     require_tangents(problem);
     if (!(request.transient >= 0) || !(request.duration > 0) || request.blocks < 2 || request.count < 0)

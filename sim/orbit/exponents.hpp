@@ -45,11 +45,12 @@ struct Exponents {
     bool settled = true;
     std::vector<std::string> warnings;
 
-    bool grows_late() const { return settled && !lambda.empty() && lambda.front() * duration / 2 > kLateGrowth; }
-    // Shown: the largest exponent exceeds three standard errors plus the doubt. Without impacts a positive exponent is
-    // that of an unstable equilibrium or of a growing vibration.
+    // The first reason why no chaos is shown; null if there is none. Without impacts a positive exponent is that of an
+    // unstable equilibrium or of a growing vibration.
+    const char* against_chaos() const;
+    // Shown: the largest exponent exceeds three standard errors plus the doubt.
     Chaos chaos() const {
-        if (impacts == 0 || !grows_late() || !(lambda.front() > 3 * error.front())) return Chaos::not_shown;
+        if (against_chaos()) return Chaos::not_shown;
         return lambda.front() > 3 * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
     }
     bool chaotic() const { return chaos() == Chaos::shown; }

@@ -1,0 +1,44 @@
+#include "sim/integrate/step_polynomial.hpp"
+
+#include <cmath>
+
+namespace beamcam::sim {
+
+StepPolynomial StepPolynomial::through(const Lanes& nodal) {
+    StepPolynomial p;
+    for (std::size_t j = 0; j < kNodes; ++j) p.c[j] = sum(Collocation::get().monomial[j] * nodal);
+    return p;
+}
+
+StepPolynomial StepPolynomial::of_derivatives(StepPolynomial f, const std::array<double, kNodes>& factors, double h) {
+    StepPolynomial p;
+    for (const double factor : factors) {
+        for (std::size_t j = 0; j < kNodes; ++j) p.c[j] += factor * f.c[j];
+        f = f.derivative(h);
+    }
+    return p;
+}
+
+double StepPolynomial::operator()(double z) const {
+    double value = 0;
+    for (std::size_t j = kNodes; j-- > 0;) value = value * z + c[j];
+    return value;
+}
+
+StepPolynomial StepPolynomial::derivative(double h) const {
+    StepPolynomial d;
+    for (std::size_t j = 0; j + 1 < kNodes; ++j) d.c[j] = static_cast<double>(j + 1) * c[j + 1] * (2 / h);
+    return d;
+}
+
+double StepPolynomial::bound() const {
+    double total = 0;
+    for (const double each : c) total += std::fabs(each);
+    return total;
+}
+
+StepPolynomial steady_motion(const Oscillator& oscillator, const Lanes& f, double h) {
+    return StepPolynomial::of_derivatives(StepPolynomial::through(f), following(oscillator), h);
+}
+
+}  // namespace beamcam::sim
