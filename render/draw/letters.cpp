@@ -54,7 +54,7 @@ PangoWeight pango_weight(Weight weight) {
     return PANGO_WEIGHT_NORMAL;
 }
 
-constexpr guint16 kFaint = 14417;  // opacity of faint letters, 22 % of 65535
+constexpr guint16 kFaintOpacity = 14417;  // opacity of faint letters, 22 % of 65535
 
 PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, bool tabular) {
     PangoLayout* layout = pango_layout_new(context);
@@ -71,7 +71,7 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
     PangoAttrList* attributes = pango_attr_list_new();
     if (tabular) pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
     if (face.faint_to > 0) {
-        PangoAttribute* faint = pango_attr_foreground_alpha_new(kFaint);
+        PangoAttribute* faint = pango_attr_foreground_alpha_new(kFaintOpacity);
         faint->start_index = static_cast<guint>(face.faint_from), faint->end_index = static_cast<guint>(face.faint_to);
         pango_attr_list_insert(attributes, faint);
     }

@@ -8,16 +8,16 @@ namespace beamcam::render {
 namespace {
 
 using std::numbers::pi;
-constexpr int kPieces = 64;  // of a line, whose ends are tested
+constexpr int kTestedPieces = 64;  // of a line, whose ends are tested
 constexpr int kRimSides = 96;
 constexpr double kGrazing = 3;       // over or beside the rim [design px]
 constexpr double kInsidePlate = 10;  // distance of its start from the edges of the box [design px]
 
-Vec2 piece(Vec2 from, Vec2 to, int i) { return from + (to - from) * (static_cast<double>(i) / kPieces); }
+Vec2 piece(Vec2 from, Vec2 to, int i) { return from + (to - from) * (static_cast<double>(i) / kTestedPieces); }
 
 bool meets(const std::vector<Box>& labels, Vec2 from, Vec2 to, double u) {
     return std::ranges::any_of(labels, [&](const Box& label) {
-        for (int i = 0; i <= kPieces; ++i)
+        for (int i = 0; i <= kTestedPieces; ++i)
             if (const Vec2 at = piece(from, to, i); label.inset(-3 * u).overlaps({at.x, at.y, 1, 1})) return true;
         return false;
     });
@@ -32,7 +32,7 @@ std::vector<Vec2> rim_of(const MechanismScene& s, double more) {
 }
 
 bool crosses(const std::vector<Vec2>& disc, Vec2 from, Vec2 to) {
-    for (int i = 0; i <= kPieces && !disc.empty(); ++i) {
+    for (int i = 0; i <= kTestedPieces && !disc.empty(); ++i) {
         const Vec2 at = piece(from, to, i);
         bool inside = true;
         for (std::size_t k = 0; k < disc.size() && inside; ++k)

@@ -149,7 +149,7 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
 
 void SweepOutput::visit(SceneVisitor& v) {
     visit_file(v, file, {".nc", ".csv", ".npz"}, "-sweep.nc");
-    v.check([this](ObjectReader& r) {
+    v.check([](ObjectReader& r) {
         if (!r.context().scene.sweep && !r.diagnostics().any())
             r.reject_object("type", ": the scene has no key \"sweep\"; add it, or remove this output");
     });

@@ -73,7 +73,7 @@ void CamSurface::find_lifts(const std::vector<double>& pushes) {
         always_pulls_ = starts_pulled;
         return;
     }
-    if (starts_pulled) std::ranges::rotate(zeros, zeros.begin() + 1);
+    if (starts_pulled) std::rotate(zeros.begin(), zeros.begin() + 1, zeros.end());
     for (std::size_t i = 0; i + 1 < zeros.size(); i += 2) {
         const double from = zeros[i], to = zeros[i + 1];
         lifts_.push_back({from, to < from ? to + period_ : to});
