@@ -323,9 +323,9 @@ TEST(Film, WithoutAThreadForTheEncoderSaysSoAndClosesWhatIsOpen) {
     for (const auto& [file, codec] : kinds) {
         Scratch scratch;
         std::filesystem::permissions(scratch.path(), std::filesystem::perms::all);
-        const int code = exit_code_of([&] {
+        const int code = exit_code_of([&, name = file, kind = codec] {
             VideoOptions options = small_film();
-            options.codec = codec;
+            options.codec = kind;
             options.height = 64;
             video_library();
             const rlimit one = {1, 1};
@@ -334,7 +334,7 @@ TEST(Film, WithoutAThreadForTheEncoderSaysSoAndClosesWhatIsOpen) {
             if (render::can_start_threads(1)) return kNoLimit;
             const std::ptrdiff_t before = open_files();
             for (int times = 0; times < 3; ++times) try {
-                    VideoWriter film(scratch / file, options);
+                    VideoWriter film(scratch / name, options);
                     return 1;
                 } catch (const IoError& error) {
                     if (std::string(error.what()).find("no thread can be started") == std::string::npos) return 2;

@@ -40,7 +40,7 @@ TEST_P(AnySize, PartsStandWithinThePictureAndApart) {
     const std::vector<Box> all = parts(l);
     if (all.size() == 1) return;  // the mechanism alone may fill the picture
     for (std::size_t i = 0; i < all.size(); ++i) {
-        EXPECT_TRUE(Box(0, 0, w, h).contains(all[i], 1)) << i;
+        EXPECT_TRUE((Box{0, 0, 1.0 * w, 1.0 * h}.contains(all[i], 1))) << i;
         EXPECT_GT(all[i].w, 0);
         EXPECT_GT(all[i].h, 0);
         for (std::size_t j = 0; j < i; ++j)
@@ -68,7 +68,7 @@ TEST_P(AnySize, TextKeepsWithinThePictureAndApart) {
     for (int frame : {0, 18, 41}) {
         const std::vector<Box> texts = film.geometry(frame).texts;
         for (std::size_t i = 0; i < texts.size(); ++i) {
-            EXPECT_TRUE(Box(0, 0, GetParam().w, GetParam().h).contains(texts[i], 0.5)) << frame << ": " << i;
+            EXPECT_TRUE((Box{0, 0, 1.0 * GetParam().w, 1.0 * GetParam().h}.contains(texts[i], 0.5))) << frame << ": " << i;
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_FALSE(texts[i].overlaps(texts[j]))
                     << "frame " << frame << ": texts " << i << " and " << j << " at " << texts[i].x << "," << texts[i].y
@@ -226,7 +226,7 @@ TEST(Layout, PartsStandApartForAnyMotionAndSize) {
                 const Layout l = layout(w, h, kAll, members, extent);
                 const std::vector<Box> all = parts(l);
                 for (std::size_t i = 0; i < all.size(); ++i) {
-                    EXPECT_TRUE(Box(0, 0, w, h).contains(all[i], 1)) << w << "x" << h << ": " << i;
+                    EXPECT_TRUE((Box{0, 0, 1.0 * w, 1.0 * h}.contains(all[i], 1))) << w << "x" << h << ": " << i;
                     for (std::size_t j = 0; j < i; ++j)
                         EXPECT_FALSE(all[i].inset(1).overlaps(all[j].inset(1)))
                             << w << "x" << h << ", " << members << ": " << i << " and " << j;

@@ -49,7 +49,7 @@ TEST(Placement, TheFirstFreePlaceIsChosenElseTheLeastCovered) {
     EXPECT_EQ(room.choose(places), (Box{80, 0, 20, 10}));
     room.cover(Box{0, 0, 100, 100}, 1);
     EXPECT_EQ(room.choose(places), places.front());
-    for (const Box& place : places) EXPECT_TRUE(Box(0, 0, 100, 100).contains(place));
+    for (const Box& place : places) EXPECT_TRUE((Box{0, 0, 100, 100}.contains(place)));
 }
 
 TEST(Placement, ABoxGoesWhereNothingIs) {

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
-#include <ranges>
 #include <sstream>
 
 #include "output/data/tables.hpp"
@@ -302,7 +301,8 @@ TEST(Overviews, LabelsOfAStrobeKeepApart) {
             draw(figure, page, sheet);
             const auto is_instant = [](const auto& text) { return text.markup.ends_with(" s"); };
             std::vector<render::Box> labels;
-            for (const auto& text : sheet.written | std::views::filter(is_instant)) labels.push_back(text.box);
+            for (const auto& text : sheet.written)
+                if (is_instant(text)) labels.push_back(text.box);
             EXPECT_GE(labels.size(), 3u) << angle << ' ' << column;
             for (std::size_t i = 0; i < labels.size(); ++i)
                 for (std::size_t k = 0; k < i; ++k)

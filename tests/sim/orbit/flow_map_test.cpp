@@ -47,19 +47,19 @@ class FlowMap_ : public ::testing::TestWithParam<MapCase> {};
 
 // Each column, in the units of its rows: a finite difference in one coordinate against the exact tangent.
 TEST_P(FlowMap_, DerivativeIsTheLimitOfDifferences) {
-    const auto& [name, p, duration, tolerance] = GetParam();
-    const InitialState start = initial_state(p);
-    const FlowMap map = flow_map(p, start, duration, true);
+    const MapCase& c = GetParam();
+    const InitialState start = initial_state(c.problem);
+    const FlowMap map = flow_map(c.problem, start, c.duration, true);
     ASSERT_GE(map.touches.size(), 1u);
     const Matrix& exact = map.derivative;
     // Only the first column under a sanitizer, because the differences take long.
     for (Eigen::Index i = 0; i < (under_sanitizers() ? 1 : exact.cols()); ++i) {
         const double h = 1e-6 / std::max(1.0, exact.col(i).head(exact.rows() / 2).cwiseAbs().maxCoeff());
-        const Vector column = slope_at_zero([&](double s) { return end_state(p, shifted(start, i, s), duration); }, h);
+        const Vector column = slope_at_zero([&](double s) { return end_state(c.problem, shifted(start, i, s), c.duration); }, h);
         const Vector rows = exact.rowwise().norm();
         const double rounding = 20 * std::numeric_limits<double>::epsilon() / h;
         for (Eigen::Index r = 0; r < exact.rows(); ++r)
-            EXPECT_NEAR(column[r], exact(r, i), (tolerance + rounding) * rows[r]) << "row " << r << ", column " << i;
+            EXPECT_NEAR(column[r], exact(r, i), (c.tolerance + rounding) * rows[r]) << "row " << r << ", column " << i;
     }
 }
 
