@@ -4,7 +4,6 @@
 #include <pango/pangofc-fontmap.h>
 
 #include <array>
-#include <cstdint>
 #include <cstdlib>
 #include <filesystem>
 #include <map>

@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -15,7 +14,6 @@
 #include "render/film/mechanism_panel.hpp"
 #include "render/film/panel.hpp"
 #include "render/film/parameter_line.hpp"
-#include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 

@@ -8,7 +8,6 @@
 #include "render/film/label_visibility.hpp"
 #include "render/film/mechanism_marks.hpp"
 #include "render/film/swept_region.hpp"
-#include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 namespace {

@@ -1,12 +1,9 @@
 #include "render/film/mechanism_panel.hpp"
 
 #include <algorithm>
-#include <cmath>
 #include <numbers>
-#include <ranges>
 
 #include "render/film/offscreen.hpp"
-#include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 namespace {

@@ -1,7 +1,6 @@
 #include "render/film/mechanism_view.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace beamcam::render {
 MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)

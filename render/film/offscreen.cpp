@@ -1,6 +1,5 @@
 #include "render/film/offscreen.hpp"
 
-#include <algorithm>
 #include <cmath>
 
 namespace beamcam::render {

@@ -6,7 +6,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 
 #include "render/base/error.hpp"
 #include "render/film/impact_rings.hpp"

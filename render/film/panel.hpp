@@ -5,7 +5,6 @@
 // context, an accumulated layer) is its State, which may save time but never changes a pixel.
 #pragma once
 
-#include <limits>
 #include <memory>
 #include <vector>
 

@@ -1,14 +1,10 @@
 // The phase portrait: hub speed against hub angle, with the path so far and the current point.
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <cmath>
-
 #include "render/draw/accumulated.hpp"
 #include "render/draw/smooth_path.hpp"
 #include "render/film/chart_panel.hpp"
 #include "render/plot/channel_label.hpp"
-#include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 namespace {

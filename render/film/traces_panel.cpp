@@ -5,7 +5,6 @@
 #include <numbers>
 
 #include "render/film/panel.hpp"
-#include "render/plot/ticks.hpp"
 
 namespace beamcam::render {
 namespace {

@@ -1,7 +1,6 @@
 // Draws panels of shapes: schematics and stills.
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <vector>
 
 #include "render/base/error.hpp"

@@ -13,7 +13,6 @@
 #include "output/files/target.hpp"
 #include "scenes/regression/baselines.hpp"
 #include "scenes/regression/comparison.hpp"
-#include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
 

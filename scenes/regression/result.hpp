@@ -12,7 +12,6 @@
 
 #include "scenes/regression/baselines.hpp"
 #include "scenes/regression/comparison.hpp"
-#include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {
 

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <memory>
 #include <new>
-#include <string>
 
 #include "output/film/ffmpeg/library.hpp"
 
