@@ -85,12 +85,9 @@ void LitMechanism::draw(Canvas& canvas, const MechanismShape& shape, const Mecha
         const int width = static_cast<int>(within.w), height = static_cast<int>(within.h);
         const double before = renderer_->read_back;
         DirtyTiles now = lit_tiles(scene, {}, width, height), changed = now;
-        if (std::exchange(shape_, std::nullopt)) {
-            changed.add(tiles_);
-            renderer_->redraw(scene, changed, image_);
-        } else {
-            renderer_->draw(scene, image_);
-        }
+        const bool again = std::exchange(shape_, std::nullopt).has_value();
+        if (again) changed.add(tiles_);
+        renderer_->draw(scene, again ? &changed : nullptr, image_);
         tiles_ = std::move(now);
         shape_ = shape;
         at.context.counts->read_back += renderer_->read_back - before;

@@ -19,7 +19,7 @@
 
 namespace beamcam::render {
 
-enum class Finish { turned, plain, dome, dimple };
+enum class Finish { turned, plain, dome, dimple };  // the shaders know them by number
 
 struct LitRound {
     Vec2 centre;  // [px], as all lengths here
@@ -50,10 +50,9 @@ struct LitScene {
 class LitRenderer {
   public:
     virtual ~LitRenderer() = default;
-    // Draws premultiplied pixels on a transparent background, of the size given at creation.
-    virtual void draw(const LitScene& scene, Image& out) = 0;
-    // Draws only these tiles; `out` contains the last picture.
-    virtual void redraw(const LitScene& scene, const DirtyTiles& where, Image& out) = 0;
+    // Draws premultiplied pixels on a transparent background, of the size given at creation. `where` is null, or `out`
+    // contains the last picture, and only these tiles are drawn.
+    virtual void draw(const LitScene& scene, const DirtyTiles* where, Image& out) = 0;
     // Draws solid bodies in perspective, four samples per pixel, with soft shadows.
     virtual void draw(const SolidScene& scene, Image& out) = 0;
     virtual std::string name() const = 0;  // of the driver, for fingerprints

@@ -49,20 +49,6 @@ StripMesh strip_mesh(const LitStrip& strip, double margin) {
     return mesh;
 }
 
-int finish_code(Finish finish) {
-    switch (finish) {
-        case Finish::turned:
-            return 0;
-        case Finish::plain:
-            return 1;
-        case Finish::dome:
-            return 2;
-        case Finish::dimple:
-            return 3;
-    }
-    return 1;
-}
-
 }  // namespace
 
 LitPainter::LitPainter(int width, int height) : width_(width), height_(height) {
@@ -129,7 +115,7 @@ void LitPainter::draw_round(const LitRound& r, Vec2 shift, float soft, float opa
     set(program, "hole_radius", float(r.hole_radius));
     set(program, "soft", soft);
     set(program, "opacity", opacity);
-    glUniform1i(glGetUniformLocation(program, "finish"), finish_code(r.finish));
+    glUniform1i(glGetUniformLocation(program, "finish"), static_cast<int>(r.finish));
     glUniform3f(glGetUniformLocation(program, "paint"), float(r.color.r), float(r.color.g), float(r.color.b));
     glBindVertexArray(no_vertices_);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);

@@ -36,12 +36,12 @@ class Renderer final : public LitRenderer {
 
     std::string name() const override { return name_; }
 
-    void draw(const LitScene& scene, Image& out) override {
-        out = Image(width_, height_);
-        draw(scene, nullptr, out);
+    void draw(const LitScene& scene, const DirtyTiles* where, Image& out) override {
+        if (!where) out = Image(width_, height_);
+        context_->make_current();
+        if (!lit_) lit_ = std::make_unique<LitPainter>(width_, height_);
+        read_back += lit_->draw(scene, where, out);
     }
-
-    void redraw(const LitScene& scene, const DirtyTiles& where, Image& out) override { draw(scene, &where, out); }
 
     void draw(const SolidScene& scene, Image& out) override {
         if (out.width != width_ || out.height != height_) out = Image(width_, height_);
@@ -51,12 +51,6 @@ class Renderer final : public LitRenderer {
     }
 
   private:
-    void draw(const LitScene& scene, const DirtyTiles* where, Image& out) {
-        context_->make_current();
-        if (!lit_) lit_ = std::make_unique<LitPainter>(width_, height_);
-        read_back += lit_->draw(scene, where, out);
-    }
-
     int width_, height_;
     std::unique_ptr<GlContext> context_;
     std::unique_ptr<LitPainter> lit_;

@@ -294,7 +294,7 @@ TEST(LitFilm, ShapesKeepClearOfTheGround) {
     scene.strip.face = {{20, 60}, {80, 60}}, scene.strip.back = {{20, 50}, {80, 50}};
     scene.strip.colors = {rgb(0x808080), rgb(0x808080)};
     Image image;
-    renderer->draw(scene, image);
+    renderer->draw(scene, nullptr, image);
     for (int y = 0; y < 77; ++y)
         for (int x = 0; x < 101; ++x) {
             const std::uint32_t alpha = image.pixels[std::size_t(y) * 101 + std::size_t(x)] >> 24;
