@@ -18,9 +18,8 @@ std::size_t place(double share, std::size_t places) {
     return static_cast<std::size_t>(std::clamp(at, 0.0, static_cast<double>(places - 1)));
 }
 
-}  // namespace
-
-std::vector<TraceSample> contact_samples(const sim::Table& table) {
+// In contact, with defined places.
+std::vector<TraceSample> sampled_contacts(const sim::Table& table) {
     using Kind = sim::ChannelKind;
     const auto *t = column(table, Kind::t), *x = column(table, Kind::contact_x), *s = column(table, Kind::contact_s),
                *force = column(table, Kind::contact_force);
@@ -32,8 +31,6 @@ std::vector<TraceSample> contact_samples(const sim::Table& table) {
     std::ranges::stable_sort(out, {}, &TraceSample::t);
     return out;
 }
-
-namespace {
 
 // Arc position on the disc at which a nearly straight beam touches at arc position x: its direction is at the angle φ
 // from the ray O→B with cos φ = (x + r)/|OB|. A slope of 1e-3 changes the result by a thousandth of the radius.
@@ -52,7 +49,7 @@ double touched_arc(const sim::Problem& problem, const sim::Impact& impact) {
 
 std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
                                          std::span<const sim::Impact> impacts) {
-    std::vector<TraceSample> out = contact_samples(table);
+    std::vector<TraceSample> out = sampled_contacts(table);
     if (!problem.cam) return out;
     const auto* t = column(table, sim::ChannelKind::t);
     if (!t || t->empty()) return out;

@@ -17,9 +17,8 @@ namespace beamcam::render {
 struct TraceSample {
     double t = 0, x = 0, s = 0, force = 0;  // [s], on the beam [m], on the disc from its mark [m], [N]
 };
-// The rows of the table in contact (force > 0, defined places), sorted by time. Missing columns give no samples.
-std::vector<TraceSample> contact_samples(const sim::Table& table);
-// Adds a sample for each impact that falls between the rows of the table: its place at touch and its peak force.
+// The rows of the table in contact (force > 0, defined places), sorted by time, and a sample for each impact that falls
+// between them: its place at touch and its peak force. Missing columns give no samples.
 std::vector<TraceSample> contact_samples(const sim::Table& table, const sim::Problem& problem,
                                          std::span<const sim::Impact> impacts);
 
