@@ -40,20 +40,6 @@ const Typography& typography(Typefaces typefaces) {
                                            : kSerifLetters;
 }
 
-PangoWeight pango_weight(Weight weight) {
-    switch (weight) {
-        case Weight::regular:
-            return PANGO_WEIGHT_NORMAL;
-        case Weight::medium:
-            return PANGO_WEIGHT_MEDIUM;
-        case Weight::semibold:
-            return PANGO_WEIGHT_SEMIBOLD;
-        case Weight::bold:
-            return PANGO_WEIGHT_BOLD;
-    }
-    return PANGO_WEIGHT_NORMAL;
-}
-
 constexpr guint16 kFaintOpacity = 14417;  // opacity of faint letters, 22 % of 65535
 
 PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, bool tabular) {
@@ -61,7 +47,7 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family_static(font, face.family);
     pango_font_description_set_style(font, face.italic ? PANGO_STYLE_ITALIC : PANGO_STYLE_NORMAL);
-    pango_font_description_set_weight(font, pango_weight(face.weight));
+    pango_font_description_set_weight(font, static_cast<PangoWeight>(face.weight));
     pango_font_description_set_absolute_size(font, face.size * PANGO_SCALE);
     pango_layout_set_font_description(layout, font);
     pango_font_description_free(font);

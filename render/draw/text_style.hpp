@@ -8,7 +8,7 @@
 
 namespace beamcam::render {
 
-enum class Weight { regular, medium, semibold, bold };
+enum class Weight { regular = 400, medium = 500, semibold = 600, bold = 700 };  // as in Pango
 enum class HAlign { left, centre, right };
 enum class VAlign {
     baseline,

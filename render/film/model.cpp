@@ -113,10 +113,9 @@ class Model {
 
     std::string materials() const {
         const auto one = [](const char* name, const Color& c, double metal) {
-            const auto linear = [](double v) { return v <= 0.04045 ? v / 12.92 : std::pow((v + 0.055) / 1.055, 2.4); };
             return fmt::format(
                 R"({{"name":"{}","pbrMetallicRoughness":{{"baseColorFactor":[{:.4f},{:.4f},{:.4f},1],"metallicFactor":{},"roughnessFactor":0.45}}}})",
-                name, linear(c.r), linear(c.g), linear(c.b), metal);
+                name, linear_light(c.r), linear_light(c.g), linear_light(c.b), metal);
         };
         const Palette& p = *context_.palette;
         return one("steel", p.steel, 0.6) + "," + one("pin", p.pin, 0.3) + "," + one("beam", p.motion, 0.1);
