@@ -147,24 +147,6 @@ ColumnTable impacts_table(const sim::Result& result) {
     return table;
 }
 
-}  // namespace
-
-std::string impacts_json(const sim::Result& result) {
-    Node out = object_node();
-    add(out, "impacts", array_of(result.impacts));
-    add(out, "collisions", array_of(result.collisions));
-    return to_text(out);
-}
-
-void write_impacts(const Target& file, const sim::Result& result) {
-    const std::string ending = file.path.extension().string();
-    if (ending == ".json") return write_file(file, impacts_json(result));
-    if (ending == ".csv") return write_table(file, impacts_table(result));
-    throw UnsupportedOption("cannot write " + file.path.string() + ": impacts end in .json or .csv");
-}
-
-namespace {
-
 void add_part(const Agreement::Part& part, Node& out) {
     add(out, "rows", part.rows);
     if (part.rows == 0) return;
@@ -194,6 +176,20 @@ Node agreement_node(const Agreement& each, const char* unit) {
 }
 
 }  // namespace
+
+std::string impacts_json(const sim::Result& result) {
+    Node out = object_node();
+    add(out, "impacts", array_of(result.impacts));
+    add(out, "collisions", array_of(result.collisions));
+    return to_text(out);
+}
+
+void write_impacts(const Target& file, const sim::Result& result) {
+    const std::string ending = file.path.extension().string();
+    if (ending == ".json") return write_file(file, impacts_json(result));
+    if (ending == ".csv") return write_table(file, impacts_table(result));
+    throw UnsupportedOption("cannot write " + file.path.string() + ": impacts end in .json or .csv");
+}
 
 std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                          const std::vector<sim::Channel>& extrema, const Work* work,

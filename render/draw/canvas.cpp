@@ -31,6 +31,15 @@ constexpr double kHalo = 0.30, kOutline = 0.14;
 constexpr std::array kGlow{0.48, 0.30};
 constexpr double kGlowOpacity = 0.4;
 
+// Rounded outwards to whole pixels within the source.
+Box whole_part(const Image& source, const Box& part) {
+    const double x0 = std::clamp(std::floor(part.x), 0.0, double(source.width));
+    const double y0 = std::clamp(std::floor(part.y), 0.0, double(source.height));
+    const double x1 = std::clamp(std::ceil(part.right()), x0, double(source.width));
+    const double y1 = std::clamp(std::ceil(part.bottom()), y0, double(source.height));
+    return {x0, y0, x1 - x0, y1 - y0};
+}
+
 }  // namespace
 
 Canvas::Canvas(Image& image, const Fonts& fonts) : Painter(fonts), image_(image) {
@@ -55,17 +64,6 @@ void Canvas::paint(Color c) {
     cairo_paint(cr_);
     if (touched) touched->add_all();
 }
-
-namespace {
-// Rounded outwards to whole pixels within the source.
-Box whole_part(const Image& source, const Box& part) {
-    const double x0 = std::clamp(std::floor(part.x), 0.0, double(source.width));
-    const double y0 = std::clamp(std::floor(part.y), 0.0, double(source.height));
-    const double x1 = std::clamp(std::ceil(part.right()), x0, double(source.width));
-    const double y1 = std::clamp(std::ceil(part.bottom()), y0, double(source.height));
-    return {x0, y0, x1 - x0, y1 - y0};
-}
-}  // namespace
 
 void Canvas::image_part(const Image& source, int x, int y, const Box& part) {
     const Box b = whole_part(source, part), there{b.x + x, b.y + y, b.w, b.h};

@@ -56,6 +56,21 @@ const Palette kPrint{.paper = rgb(0xFFFFFF),
                      .force = {rgb(0xF6C9A4), rgb(0xE3721C), rgb(0x9C2F00)},
                      .shadow = 0.22};
 
+// Distance from one colour to another, for shares of a mixture of both.
+double distance(const Color& a, const Color& b) {
+    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
+}
+// The share of `whole` in a colour that is `whole` diluted on the paper.
+double share_of(const Palette& p, const Color& pale, const Color& whole) {
+    const double all = distance(whole, p.paper);
+    return all > 0 ? std::min(1.0, distance(pale, p.paper) / all) : 1;
+}
+
+// Relative luminance and contrast of sRGB colours (WCAG 2.1).
+double luminance(const Color& c) {
+    return kLumaRed * linear_light(c.r) + kLumaGreen * linear_light(c.g) + kLumaBlue * linear_light(c.b);
+}
+
 }  // namespace
 
 double linear_light(double channel) {
@@ -67,29 +82,7 @@ std::string hex(Color color) {
     return fmt::format("#{:02x}{:02x}{:02x}", level(color.r), level(color.g), level(color.b));
 }
 
-const Palette& palette(Theme theme) {
-    switch (theme) {
-        case Theme::light:
-            return kLight;
-        case Theme::dark:
-            return kDark;
-        case Theme::print:
-            return kPrint;
-    }
-    return kLight;
-}
-
-namespace {
-// Distance from one colour to another, for shares of a mixture of both.
-double distance(const Color& a, const Color& b) {
-    return std::abs(a.r - b.r) + std::abs(a.g - b.g) + std::abs(a.b - b.b);
-}
-// The share of `whole` in a colour that is `whole` diluted on the paper.
-double share_of(const Palette& p, const Color& pale, const Color& whole) {
-    const double all = distance(whole, p.paper);
-    return all > 0 ? std::min(1.0, distance(pale, p.paper) / all) : 1;
-}
-}  // namespace
+const Palette& palette(Theme theme) { return theme == Theme::light ? kLight : theme == Theme::dark ? kDark : kPrint; }
 
 Palette on_paper(Palette p, Color paper) {
     constexpr double kSmallText = 4.5;  // smallest contrast
@@ -124,13 +117,6 @@ Palette recolored(Palette p, const OwnColors& own) {
     if (own.steel) p.steel = rgb(*own.steel), p.steel_edge = mix(p.steel, p.ink, 0.85);
     return p;
 }
-
-namespace {
-// Relative luminance and contrast of sRGB colours (WCAG 2.1).
-double luminance(const Color& c) {
-    return kLumaRed * linear_light(c.r) + kLumaGreen * linear_light(c.g) + kLumaBlue * linear_light(c.b);
-}
-}  // namespace
 
 double contrast(const Color& a, const Color& b) {
     const double x = luminance(a), y = luminance(b);

@@ -118,6 +118,27 @@ void draw_hub(Canvas& canvas, const MechanismShape& s, double unit, const Palett
     canvas.fill(p.steel_edge);
 }
 
+// The corners of the beam's root would be visible outside a wide hub: extends the section inwards until both corners
+// are inside the hub.
+void continue_into_hub(MechanismShape& s) {
+    if (s.face.size() < 2) return;
+    const Vec2 along = s.face[0] - s.face[1], inwards = along * (1 / std::max(norm(along), 1e-300));
+    const double radius = s.hub - 1;
+    double by = 0;
+    for (Vec2 corner : {s.face[0], s.back[0]}) {
+        const Vec2 from = corner - s.hinge;
+        const double outside = dot(from, from) - radius * radius, middle = -dot(from, inwards);
+        if (outside <= 0) continue;
+        if (middle <= 0 || middle * middle < outside)
+            return;  // the beam passes beside the hub, or begins beyond its centre
+        by = std::max(by, middle - std::sqrt(middle * middle - outside));
+    }
+    if (by == 0) return;
+    s.face.insert(s.face.begin(), s.face[0] + inwards * by);
+    s.back.insert(s.back.begin(), s.back[0] + inwards * by);
+    s.colors.insert(s.colors.begin(), s.colors[0]);
+}
+
 }  // namespace
 
 double mark_unit(double beam_length, double unit) {
@@ -166,31 +187,6 @@ void draw_support(Canvas& canvas, Vec2 o, double hub, double u, double line, con
     canvas.stroke({p.muted, 1.5 * pen});
     canvas.line({o.x - wide, o.y + foot}, {o.x + wide, o.y + foot}, {p.steel_edge, 2.4 * pen});
 }
-
-namespace {
-
-// The corners of the beam's root would be visible outside a wide hub: extends the section inwards until both corners
-// are inside the hub.
-void continue_into_hub(MechanismShape& s) {
-    if (s.face.size() < 2) return;
-    const Vec2 along = s.face[0] - s.face[1], inwards = along * (1 / std::max(norm(along), 1e-300));
-    const double radius = s.hub - 1;
-    double by = 0;
-    for (Vec2 corner : {s.face[0], s.back[0]}) {
-        const Vec2 from = corner - s.hinge;
-        const double outside = dot(from, from) - radius * radius, middle = -dot(from, inwards);
-        if (outside <= 0) continue;
-        if (middle <= 0 || middle * middle < outside)
-            return;  // the beam passes beside the hub, or begins beyond its centre
-        by = std::max(by, middle - std::sqrt(middle * middle - outside));
-    }
-    if (by == 0) return;
-    s.face.insert(s.face.begin(), s.face[0] + inwards * by);
-    s.back.insert(s.back.begin(), s.back[0] + inwards * by);
-    s.colors.insert(s.colors.begin(), s.colors[0]);
-}
-
-}  // namespace
 
 MechanismShape mechanism_shape(const sim::Problem& problem, const sim::Pose& pose, const DrawnBeam& beam,
                                const MechanismLook& look, const Palette& p) {
