@@ -140,7 +140,6 @@ struct VideoWriter::Impl {
         failure = error;
     }
 
-    // Encodes the waiting pictures and completes the file.
     void finish() {
         stop(false);
         std::unique_lock lock(mutex);
