@@ -1,5 +1,5 @@
-// Products, linear systems and eigenproblems of dense matrices by Eigen, compiled in one file because each takes
-// seconds.
+// Products, linear systems and eigenproblems of dense matrices by Eigen, in few files because each takes seconds to
+// compile.
 #pragma once
 
 #include <Eigen/Core>
