@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "sim/beam/constants.hpp"
-#include "sim/beam/linearization.hpp"
 
 namespace beamcam::sim {
 

@@ -5,7 +5,6 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/beam/constants.hpp"
 #include "sim/beam/exact_model.hpp"
-#include "sim/beam/linearization.hpp"
 #include "sim/beam/modal_model.hpp"
 #include "sim/beam/second_order_model.hpp"
 

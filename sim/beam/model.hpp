@@ -8,6 +8,7 @@
 // `clone` for others.
 #pragma once
 
+#include <Eigen/Core>
 #include <memory>
 
 #include "sim/base/vec2.hpp"
@@ -33,7 +34,12 @@ struct Energies {
     double elastic = 0;  // bending [J]
 };
 
-struct Linearization;
+// The linear equations of motion about the straight beam at rest, without gravity: inertia and stiffness of ξ, and the
+// centrifugal stiffness per Ω² of a beam that rotates at Ω. MODEL.md §13.
+struct Linearization {
+    Eigen::MatrixXd mass, stiffness, centrifugal;
+    explicit Linearization(Eigen::Index size) { mass = stiffness = centrifugal = Eigen::MatrixXd::Zero(size, size); }
+};
 
 class Model {
   public:
@@ -78,7 +84,7 @@ class Model {
     double hub_rate() const;                            // θ̇
     const double* hub_row() const { return hub_row_; }  // ∂θ/∂ξ
 
-    virtual Linearization linearize() const = 0;  // linearization.hpp
+    virtual Linearization linearize() const = 0;
     // Angular frequency that belongs to q_i, i from 0 [rad/s]. Bounds of step sizes are derived from it.
     virtual double frequency(int i) const = 0;
 

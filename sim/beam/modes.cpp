@@ -7,7 +7,6 @@
 
 #include "sim/base/linear_algebra.hpp"
 #include "sim/beam/constants.hpp"
-#include "sim/beam/linearization.hpp"
 #include "sim/beam/model.hpp"
 
 namespace beamcam::sim {

@@ -6,7 +6,6 @@
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/ode.hpp"
 #include "sim/beam/constants.hpp"
-#include "sim/beam/linearization.hpp"
 
 namespace beamcam::sim {
 

@@ -16,7 +16,6 @@
 #include <sstream>
 #include <string>
 
-#include "sim/beam/linearization.hpp"
 #include "sim/beam/model.hpp"
 #include "sim/beam/shapes.hpp"
 #include "sim/contact/impulse.hpp"

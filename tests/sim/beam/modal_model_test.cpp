@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "sim/base/linear_algebra.hpp"
-#include "sim/beam/linearization.hpp"
 #include "tests/sim/support.hpp"
 
 namespace beamcam::sim::testing {

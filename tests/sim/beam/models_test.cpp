@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "sim/base/linear_algebra.hpp"
-#include "sim/beam/linearization.hpp"
 #include "sim/beam/model.hpp"
 #include "tests/sim/support.hpp"
 

@@ -11,7 +11,6 @@
 #include <string>
 
 #include "sim/base/numerics.hpp"
-#include "sim/beam/linearization.hpp"
 #include "sim/integrate/gap_probe.hpp"
 #include "sim/integrate/inertia_forces.hpp"
 #include "sim/integrate/lane_kernels.hpp"
