@@ -12,7 +12,7 @@
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
 #include "sim/problem/constants.hpp"
-#include "sim/problem/range_check.hpp"
+#include "sim/problem/keys.hpp"
 
 namespace beamcam::sim {
 namespace {

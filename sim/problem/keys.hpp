@@ -163,6 +163,9 @@ Alternative alternative(std::variant<Shapes...>& value, std::vector<std::pair<co
 
 void visit(Visitor& v, Problem& problem);
 
+// Reports each number of the problem outside the range of its key.
+void check_ranges(const Problem& problem, std::vector<Issue>& out);
+
 // Visits the numbers that a value has, in the shapes of its objects; `path` is that of a key.
 class NumberVisitor : public Visitor {
   public:

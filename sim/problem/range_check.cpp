@@ -1,5 +1,4 @@
-#include "sim/problem/range_check.hpp"
-
+// Checks each number of a problem against the range of its key.
 #include <fmt/format.h>
 
 #include <algorithm>
