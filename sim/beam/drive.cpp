@@ -41,6 +41,10 @@ bool is_prescribed(const Drive& drive) {
            std::holds_alternative<AngleTable>(drive);
 }
 
+bool is_independent_of_time(const Drive& drive) {
+    return std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive);
+}
+
 DriveLaw::DriveLaw(const Drive& drive, double start_angle)
     : drive_(drive), start_(start_angle), prescribed_(is_prescribed(drive)) {
     has_torque_ = !prescribed_ && !std::holds_alternative<FreeDrive>(drive);

@@ -175,8 +175,7 @@ double PeriodicOrbit::slowest_impact() const {
 std::optional<std::string> orbit_refusal(const Problem& problem) {
     if (auto refusal = tangent_refusal(problem)) return refusal;
     if (!problem.cam || problem.cam->speed == 0) return "periodic orbits need a cam that turns: set cam.speed";
-    if (!std::holds_alternative<FreeDrive>(problem.hub.drive) &&
-        !std::holds_alternative<ConstantTorque>(problem.hub.drive))
+    if (!is_independent_of_time(problem.hub.drive))
         return "periodic orbits need a hub.drive that does not depend on time: free, or a constant torque";
     return std::nullopt;
 }

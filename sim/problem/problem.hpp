@@ -42,6 +42,8 @@ using Drive = std::variant<FreeDrive, ConstantTorque, HarmonicTorque, TorqueTabl
 
 // Whether the drive prescribes θ(t), so that only the beam is integrated.
 bool is_prescribed(const Drive& drive);
+// Free, or driven by a constant torque.
+bool is_independent_of_time(const Drive& drive);
 
 struct Hub {
     double radius = 0;   // a [m]; may be negative (root beyond the axis), a > −length

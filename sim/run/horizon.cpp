@@ -28,8 +28,7 @@ double fastest_rate(const System& system) {
 
 // True if only the cam's rotation changes with time and lasting contact has no internal events.
 bool repeats_in_contact(const Problem& problem) {
-    const Drive& drive = problem.hub.drive;
-    return problem.cam && (std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive)) &&
+    return problem.cam && is_independent_of_time(problem.hub.drive) &&
            !std::holds_alternative<StickSlipFriction>(problem.contact.friction);
 }
 
@@ -115,10 +114,6 @@ double other_needed_until(const Problem& problem, const Request& angle, const Re
     for (std::size_t i = 0; i < times.size() && times[i] <= until; ++i)
         if (!agree(problem, plain, tighter, i)) return times[i];
     return until;
-}
-
-void replace_first_rows(const Result& first, Result& whole) {
-    std::ranges::copy(first.tables[0].values[0], whole.tables[0].values[0].begin());
 }
 
 void report_reproducibility(const Problem& problem, const Request& angle, const Result& plain, const Result& other,

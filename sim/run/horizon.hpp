@@ -37,8 +37,6 @@ Comparison tighter_comparison(const Problem& problem);
 // is then needed only until the motion differs from that run, or for a short time after the last touch [s].
 bool tighter_is_cheap(const Problem& problem);
 double other_needed_until(const Problem& problem, const Request& angle, const Result& plain, const Result& tighter);
-// Replaces the first rows of `whole` by those of `first`.
-void replace_first_rows(const Result& first, Result& whole);
 
 // Sets the reproducibility fields of `result`. `angle` is the `horizon_request`, possibly cut; `plain` and `other` are
 // its results by the run and by the comparison. Instants that `other` did not reach count as not reproducible.

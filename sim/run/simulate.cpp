@@ -59,7 +59,7 @@ Result cheap_comparison_run(const Problem& problem, const Request& angle, const 
         const Result first = comparison_run(problem, cut(angle, until), progress, effort, compared);
         if (!compared.same_method) {
             compared.until = until;
-            replace_first_rows(first, all);
+            std::ranges::copy(first.tables[0].values[0], all.tables[0].values[0].begin());
         }
     }
     return all;

@@ -11,10 +11,7 @@
 namespace beamcam::sim {
 
 CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
-    : centre_(cam.centre),
-      eccentricity_(cam.eccentricity),
-      phase_(cam.phase),
-      speed_(cam.speed),
+    : cam_(cam),
       reach_(reach),
       k_(k),
       alpha_(alpha),
@@ -38,16 +35,16 @@ CamSurface::CamSurface(const Cam& cam, double reach, double k, double alpha)
 // With B = C + e(cos ψ, sin ψ), ρ = |B|, ℓ² = ρ² − R'²:                                                      (S81)
 //   θ_c = atan2(B_y, B_x) + asin(R'/ρ),   θ_c′ = B×B′/ρ² − R' B·B′/(ρ²ℓ),
 //   θ_c″ = (B×B″ − 2 (B×B′)(B·B′)/ρ²)/ρ² − R' [(B′·B′ + B·B″)/(ρ²ℓ) − (B·B′)²(2ℓ² + ρ²)/(ρ⁴ℓ³)]
-SurfaceAngle CamSurface::at_angle(double psi) const {
-    const Vec2 arm = eccentricity_ * unit(psi), b = centre_ + arm, b1 = perp(arm);
+SurfaceAngle CamSurface::at(double s) const {
+    const Vec2 arm = cam_.eccentricity * unit(cam_.phase - cam_.speed * s), b = cam_.centre + arm, b1 = perp(arm);
     const double rho2 = dot(b, b), lever2 = rho2 - reach_ * reach_, lever = std::sqrt(lever2);
     const double turn = cross(b, b1), away = dot(b, b1), outward = dot(b, arm);
     SurfaceAngle c;
     c.lever = lever;
     c.angle = std::atan2(b.y * lever + b.x * reach_, b.x * lever - b.y * reach_);  // the sum of the two
     c.slope = (turn - reach_ * away / lever) / rho2;
-    const double spread =
-        (eccentricity_ * eccentricity_ - outward) / lever - away * away * (2 * lever2 + rho2) / (rho2 * lever2 * lever);
+    const double spread = (cam_.eccentricity * cam_.eccentricity - outward) / lever -
+                          away * away * (2 * lever2 + rho2) / (rho2 * lever2 * lever);
     c.bend = (cross(arm, b) - 2 * turn * away / rho2 - reach_ * spread) / rho2;
     return c;
 }
@@ -56,7 +53,7 @@ double CamSurface::push(const SurfaceAngle& c) const { return acceleration(c) + 
 
 void CamSurface::find_lifts(const std::vector<double>& pushes) {
     const bool starts_pulled = pushes.front() < 0;
-    if (speed_ == 0 || eccentricity_ == 0) {
+    if (cam_.speed == 0 || cam_.eccentricity == 0) {
         always_pulls_ = starts_pulled;
         return;
     }

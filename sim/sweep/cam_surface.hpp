@@ -19,10 +19,9 @@ class CamSurface {
     // `reach` = R + d. The beam's own acceleration is α − k cos θ.
     CamSurface(const Cam& cam, double reach, double k, double alpha);
 
-    SurfaceAngle at_angle(double psi) const;
-    SurfaceAngle at(double s) const { return at_angle(phase_ - speed_ * s); }  // s: time within the turn [s]
-    double rate(const SurfaceAngle& c) const { return -speed_ * c.slope; }     // θ̇_c [rad/s]
-    double acceleration(const SurfaceAngle& c) const { return speed_ * speed_ * c.bend; }  // θ̈_c [rad/s²]
+    SurfaceAngle at(double s) const;                                            // s: time within the turn [s]
+    double rate(const SurfaceAngle& c) const { return -cam_.speed * c.slope; }  // θ̇_c [rad/s]
+    double acceleration(const SurfaceAngle& c) const { return cam_.speed * cam_.speed * c.bend; }  // θ̈_c [rad/s²]
     // f = θ̈_c + k cos θ_c − α [rad/s²], positive where a beam that follows the cam needs a contact force.
     double push(const SurfaceAngle& c) const;
 
@@ -40,8 +39,8 @@ class CamSurface {
   private:
     void find_lifts(const std::vector<double>& pushes);  // f at equal intervals around the turn
 
-    Vec2 centre_;
-    double eccentricity_, phase_, speed_, reach_, k_, alpha_, period_;
+    Cam cam_;
+    double reach_, k_, alpha_, period_;
     double highest_ = 0, lowest_ = 0;
     std::vector<Lift> lifts_;
     bool always_pulls_ = false;  // f < 0 at every angle: no beam follows this cam

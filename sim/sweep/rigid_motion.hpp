@@ -42,7 +42,6 @@ class RigidMotion {
     static InitialState start_of(const Problem& problem, const InitialState* start);
     static Mirrored mirrored(const Problem& problem, double theta);
 
-    void begin(const InitialState& start);
     void fly();
     void stay_in_contact();
     SurfaceAngle surface_at(double s);  // caches the last result
@@ -75,7 +74,6 @@ class RigidMotion {
     Mirrored mirrored_;
     CamSurface surface_;
     FlightSeries series_;
-    double reach_;
     double centre_direction_;  // of the cam's axis as seen from the hub, mirrored [rad]
     double cached_at_ = kNan;
     SurfaceAngle cached_;

@@ -63,7 +63,7 @@ void RigidMotion::end_lasting_sample() {
 // v_t (S27).
 double RigidMotion::slip(const SurfaceAngle& c, double rate) const {
     const CamPose pose = cam_pose(mirrored_.cam, s_);
-    const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * reach_;
+    const double along = -dot(unit(c.angle), pose.velocity) - mirrored_.cam.speed * mirrored_.cam.radius;
     return mirrored_.side * (along + contact_offset(problem_) * rate);
 }
 

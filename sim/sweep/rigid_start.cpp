@@ -5,19 +5,12 @@
 #include "sim/sweep/rigid_motion.hpp"
 
 namespace beamcam::sim {
-namespace {
-
-bool frictionless(const Friction& friction) { return std::holds_alternative<NoFriction>(friction); }
-
-}  // namespace
 
 bool RigidMotion::applies(const Problem& p, const Sampling& sampling) {
-    const bool steady =
-        std::holds_alternative<FreeDrive>(p.hub.drive) || std::holds_alternative<ConstantTorque>(p.hub.drive);
     const bool sampled = sampling.kind == SampleKind::impacts || sampling.kind == SampleKind::section;
-    if (p.beam.model != ModelKind::rigid || !p.cam || p.contact.model != ContactModel::restitution || !steady ||
-        !frictionless(p.contact.friction) || p.solver.method != Method::automatic || !sampled ||
-        std::isfinite(sampling.end_time))
+    if (p.beam.model != ModelKind::rigid || !p.cam || p.contact.model != ContactModel::restitution ||
+        !is_independent_of_time(p.hub.drive) || !std::holds_alternative<NoFriction>(p.contact.friction) ||
+        p.solver.method != Method::automatic || !sampled || std::isfinite(sampling.end_time))
         return false;
     const double away = norm(p.cam->centre), reach = p.cam->radius + contact_offset(p),
                  margin = kInsideBeam * p.beam.length;
@@ -60,18 +53,13 @@ RigidMotion::RigidMotion(const Problem& problem, const Sampling& sampling, const
       mirrored_(mirrored(problem, start_.y[0])),
       surface_(mirrored_.cam, problem.cam->radius + contact_offset(problem), mirrored_.k, mirrored_.alpha),
       series_(mirrored_.k, mirrored_.alpha),
-      reach_(problem.cam->radius),
       centre_direction_(std::atan2(mirrored_.cam.centre.y, mirrored_.cam.centre.x)),
       section_phase_(section_phase(problem, sampling.level)) {
     motion_.accuracy = kRigidAccuracy;
-    begin(start_);
-}
-
-void RigidMotion::begin(const InitialState& start) {
-    state_.theta = mirrored_.side * start.y[0];
-    state_.rate = mirrored_.side * start.y[1];
+    state_.theta = mirrored_.side * start_.y[0];
+    state_.rate = mirrored_.side * start_.y[1];
     const SurfaceAngle c = surface_.at(0);
-    if (start.phase.touching) {
+    if (start_.phase.touching) {
         rest_on(c);
     } else if (state_.theta < c.angle) {
         state_.theta = c.angle;

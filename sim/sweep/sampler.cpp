@@ -23,11 +23,8 @@ Sampler::Sampler(const System& system, const Sampling& sampling)
       next_strobe_(span_.from),
       next_section_(span_.from) {
     motion_.accuracy = kSettledTolerances * system_.problem().solver.rtol;
-    if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings)
-        step_ = std::make_unique<StepChannels>(system);
+    if (sampling.kind == SampleKind::apexes || sampling.kind == SampleKind::crossings) step_.emplace(system);
 }
-
-Sampler::~Sampler() = default;
 
 void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
     phase_ = phase;

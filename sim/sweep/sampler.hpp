@@ -3,17 +3,15 @@
 
 #include <optional>
 
+#include "sim/observe/step_channels.hpp"
 #include "sim/run/run.hpp"
 #include "sim/sweep/sampling.hpp"
 
 namespace beamcam::sim {
 
-class StepChannels;
-
 class Sampler final : public MotionObserver {
   public:
     Sampler(const System& system, const Sampling& sampling);
-    ~Sampler() override;
 
     double end() const override { return std::min(span_.t_to(), sampling_.end_time); }
     void resume(double t, const std::vector<double>& y, const Phase& phase) override;
@@ -37,7 +35,7 @@ class Sampler final : public MotionObserver {
     const Sampling& sampling_;
     SampleSpan span_;
     System system_;
-    std::unique_ptr<StepChannels> step_;  // for samples at apexes or crossings
+    std::optional<StepChannels> step_;  // for samples at apexes or crossings
     SampledMotion motion_;
     std::vector<double> y_;
     Phase phase_;

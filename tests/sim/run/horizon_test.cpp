@@ -169,12 +169,6 @@ TEST(Horizon, NeedsTheOtherMethodOnlyWhereItMayTellMore) {
     EXPECT_NEAR(other_needed_until(p, angle, plain, tighter), 7 + 0.25 * 2 * std::numbers::pi / p.cam->speed, 1e-12);
     tighter.tables[0].values[0][3000] += 2e-6;
     EXPECT_EQ(other_needed_until(p, angle, plain, tighter), 3);
-    // The rows of the other replace the first ones.
-    Result first;
-    first.tables.push_back({{}, {{1, 2}}});
-    replace_first_rows(first, tighter);
-    EXPECT_EQ(tighter.tables[0].values[0][1], 2);
-    EXPECT_EQ(tighter.tables[0].values[0][2], 0.5);
 }
 
 TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
