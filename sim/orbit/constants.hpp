@@ -44,11 +44,12 @@ inline constexpr double kAtTip =
 // Relative uncertainty of the parameter at which an interval of sustained contact vanishes: the impacts before it are
 // too slow to be separated.
 inline constexpr double kRestUncertainty = 3e-5;
-inline constexpr double kMovedSection = 0.01;       // [rad] smaller changes of the section are ignored
-inline constexpr double kNearSection = 0.1;         // of its flight: an impact so close to the section moves it
-inline constexpr double kAtRangeEnd = 1e-12;        // of the range: rounding
-inline constexpr double kDoubledShift = 0.02;       // of the orbit's size: first step onto the doubled branch
-inline constexpr double kLeastDoubledShift = 1e-4;  // of that step: smallest one tried
+inline constexpr double kMovedSection = 0.01;  // [rad] smaller changes of the section are ignored
+inline constexpr double kNearSection = 0.1;    // of its flight: an impact so close to the section moves it
+inline constexpr double kAtRangeEnd = 1e-12;   // of the range: rounding
+// Of the orbit's size: first step onto the doubled branch, and how often it is halved until there is a point on it.
+inline constexpr double kDoubledShift = 0.02;
+inline constexpr int kDoubledHalvings = 13;
 
 // ---- exponents ----
 inline constexpr double kMaxDecay = 5;   // logarithm of the decay of a damped mode between two orthonormalizations

@@ -218,14 +218,13 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
 }
 
 // A point on the period-doubled branch, along the eigenvector of the multiplier −1.                             (S77)
-std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, const SpecialPoint& special,
-                                double size) {
+std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, const SpecialPoint& special) {
     const Eigen::MatrixXd derivative = once.derivative_at(special.at);
     const Eigen::VectorXd z = twice.place(special.at);
     Eigen::VectorXd direction(derivative.rows() + 1);
     direction << eigenvector_nearest(derivative, -1.0).real().normalized(), 0;
-    for (double shift = size; shift > kLeastDoubledShift * size; shift *= 0.5) {
-        auto point = twice.correct(z + shift * direction, direction);
+    for (int halvings = 0; halvings <= kDoubledHalvings; ++halvings) {
+        auto point = twice.correct(z + std::ldexp(kDoubledShift, -halvings) * direction, direction);
         if (!point || point->orbit.impacts.size() != 2 * special.at.orbit.impacts.size()) continue;
         if (point->tangent.dot(direction) < 0) point->tangent *= -1;
         return point;
@@ -264,7 +263,7 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
             if (point.change != OrbitChange::period_doubling) continue;
             const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale, progress);
             const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale, progress);
-            if (auto at = doubled(once, twice, point, kDoubledShift)) run(twice, *at, false, branches.emplace_back());
+            if (auto at = doubled(once, twice, point)) run(twice, *at, false, branches.emplace_back());
         }
     }
     return branches;

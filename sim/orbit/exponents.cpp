@@ -87,8 +87,7 @@ class Stretching {
         for (const Eigen::Index i : order) {
             e.lambda.push_back(sum_[i] / duration);
             const Eigen::ArrayXd rates = block_.row(i).array() * (blocks / duration);
-            const double spread = std::isfinite(sum_[i]) ? (rates - rates.mean()).square().sum() : 0;
-            e.error.push_back(std::sqrt(spread / (blocks * (blocks - 1))));
+            e.error.push_back(std::isfinite(sum_[i]) ? standard_error(rates, rates.mean()) : 0);
             std::vector<double>& history = e.history.emplace_back();
             for (const Eigen::VectorXd& row : history_) history.push_back(row[i]);
         }
@@ -104,8 +103,7 @@ class Stretching {
         const Eigen::Index half = block_.cols() / 2;
         if (half < 2 || !std::isfinite(sum_[i])) return true;
         const Eigen::ArrayXd first = block_.row(i).head(half), second = block_.row(i).tail(half);
-        const double squares = (first - first.mean()).square().sum() + (second - second.mean()).square().sum();
-        const double error = std::sqrt(squares / static_cast<double>(half * (half - 1)));
+        const double error = std::hypot(standard_error(first, first.mean()), standard_error(second, second.mean()));
         return std::fabs(first.mean() - second.mean()) <= kUnsettled * error + kUnsettledRounding * std::fabs(sum_[i]);
     }
     void advance() {
@@ -185,6 +183,11 @@ void judge_impacts(const std::vector<TangentTouch>& touches, Exponents& e) {
 }
 
 }  // namespace
+
+double standard_error(const Eigen::ArrayXd& blocks, double mean) {
+    const auto n = static_cast<double>(blocks.size());
+    return std::sqrt((blocks - mean).square().sum() / (n * (n - 1)));
+}
 
 GrazingDoubt grazing_doubt(std::span<const double> approaches, double duration) {
     double squares = 0;

@@ -4,6 +4,7 @@
 // intervals (Benettin et al. 1980). The mean logarithmic growth of their lengths gives the exponents.
 #pragma once
 
+#include <Eigen/Core>
 #include <optional>
 #include <span>
 #include <string>
@@ -55,6 +56,9 @@ struct Exponents {
     }
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
+
+// The standard error of the mean of several blocks.
+double standard_error(const Eigen::ArrayXd& blocks, double mean);
 
 // Near-grazing impacts, slower than kGrazing of the root mean square speed, and the amount by which they may make the
 // largest exponent too large, from the approach speeds of all impacts in this time [s].                          (S74)

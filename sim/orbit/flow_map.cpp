@@ -69,7 +69,6 @@ FlowMap flow_map(const Problem& problem, const InitialState& start, double durat
     map.inertia_share = tangents->inertia_share();
     map.holds = tangents->holds();
     map.lifts = tangents->lifts();
-    map.steps = run.counters().steps;
     map.units = tangents->units().head(2 * (tangents->units().size() / 2 - 1));
     if (derivative) {
         const Eigen::Index n = tangents->tangents().cols();

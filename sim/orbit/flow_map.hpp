@@ -21,7 +21,6 @@ struct FlowMap {
     Eigen::VectorXd units;     // of ξ and ξ̇ (TangentIntegrator::units)
     std::vector<TangentTouch> touches;
     long holds = 0, lifts = 0;  // impacts followed by sustained contact; ends of sustained contact
-    long steps = 0;
 };
 
 // For a start in sustained contact: neighbouring initial states may leave the cam (free), or remain on it (kept).

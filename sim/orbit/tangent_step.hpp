@@ -26,9 +26,6 @@ class TangentStep {
     void advance(const Segment& motion, double t0, double t1, Eigen::MatrixXd& tangents);
 
   private:
-    // Derivative of the forcing at one node: a row for each forced component, columns as the rows of tangents.
-    using NodalDerivative = Eigen::MatrixXd;
-
     const StepTable& table(int level, double rest);
     void differentiate(const Segment& motion, double t0, double h);
     void couple(const StepTable& table);
@@ -50,7 +47,8 @@ class TangentStep {
 
     std::vector<Jet> acceleration_;
     Eigen::VectorXd y_;
-    NodalDerivative derivative_[kNodes];
+    // Of the forcing at each node: a row for each forced component, columns as the rows of tangents.
+    Eigen::MatrixXd derivative_[kNodes];
     Eigen::MatrixXd unforced_, matrix_, forcing_;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
 };

@@ -75,23 +75,21 @@ LargestExponent exponent_of(const Problem& problem, Strobes s) {
     for (const Strobe& strobe : s.subspan(1)) growth.push_back(strobe.growth);
     LargestExponent out;
     if (growth.size() < kExponentBlocks || std::isnan(growth.back())) return out;
+    const std::size_t turns = growth.size();
     const auto sum = [&](std::size_t from, std::size_t to) {
         return std::accumulate(growth.begin() + static_cast<std::ptrdiff_t>(from),
                                growth.begin() + static_cast<std::ptrdiff_t>(to), 0.0);
     };
-    const auto turns = static_cast<double>(growth.size());
-    const double per_turn = sum(0, growth.size()) / turns;
+    const auto mean = [&](std::size_t from, std::size_t to) { return sum(from, to) / static_cast<double>(to - from); };
+    const double per_turn = mean(0, turns);
     out.value = per_turn / cam_period(problem);
     out.error = 0;
     if (!std::isfinite(per_turn)) return out;
-    double squares = 0;
-    for (std::size_t b = 0; b < kExponentBlocks; ++b) {
-        const std::size_t from = b * growth.size() / kExponentBlocks, to = (b + 1) * growth.size() / kExponentBlocks;
-        const double off = sum(from, to) / static_cast<double>(to - from) - per_turn;
-        squares += off * off;
-    }
-    out.error = std::sqrt(squares / (kExponentBlocks * (kExponentBlocks - 1))) / cam_period(problem);
-    out.late_growth = sum(growth.size() / 2, growth.size());
+    Eigen::ArrayXd blocks(kExponentBlocks);
+    for (std::size_t b = 0; b < kExponentBlocks; ++b)
+        blocks[static_cast<Eigen::Index>(b)] = mean(b * turns / kExponentBlocks, (b + 1) * turns / kExponentBlocks);
+    out.error = standard_error(blocks, per_turn) / cam_period(problem);
+    out.late_growth = sum(turns / 2, turns);
     return out;
 }
 
