@@ -65,7 +65,9 @@ std::optional<double> TouchSearch::by_pieces(const Segment& segment, double end,
 // accelerates away from the cam. After a lift the gap grows like t³, at first more slowly than the error.
 bool TouchSearch::opens(const Segment& segment, double t) {
     const ContactState c = probe_.contact(segment, t, false);
-    if (c.gap_rate < -problem().contact.approach_floor.value || c.gap < -gap_error()) return false;
+    const Solver& solver = problem().solver;
+    const double step_error = kGapErrors * (solver.rtol * reach() + solver.atol);  // at most, of the gap
+    if (c.gap_rate < -problem().contact.approach_floor.value || c.gap < -step_error) return false;
     const double pull = probe_.system.free_gap_acceleration(t, probe_.state());
     return pull > 0 && (c.gap_rate > 0 || c.gap_rate * c.gap_rate < 2 * pull * probe_.gap_rounding());
 }
@@ -181,12 +183,6 @@ std::optional<double> TouchSearch::falling(const Segment& segment, double t, Con
         t = next;
     }
     return t;
-}
-
-// Largest integration error of the gap in one step.
-double TouchSearch::gap_error() const {
-    const Solver& solver = problem().solver;
-    return kGapErrors * (solver.rtol * reach() + solver.atol);
 }
 
 }  // namespace beamcam::sim

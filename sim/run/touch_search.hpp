@@ -28,7 +28,6 @@ class TouchSearch {
     bool opens(const Segment& segment, double t);
     double gap_acceleration_bound(const MotionBounds& bounds, double far) const;
     double reach() const { return std::fabs(problem().hub.radius) + problem().beam.length; }
-    double gap_error() const;
     double lower_bound(double t, double h, const double* xi, const double* spread) const;
     const Problem& problem() const { return probe_.system.problem(); }
 
