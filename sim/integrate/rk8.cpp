@@ -150,11 +150,10 @@ class Rk8 final : public Integrator, private Segment {
     void stage(int index, double h) {
         const TableauRow& row = kRows[static_cast<std::size_t>(index)];
         work_ = y_;
-        for (int e = 0; e < row.count; ++e) {
-            const TableauEntry& entry = row.entries[static_cast<std::size_t>(e)];
-            const double a = h * entry.a;
-            const double* k = k_[static_cast<std::size_t>(entry.stage)].data();
-            for (std::size_t i = 0; i < n_; ++i) work_[i] += a * k[i];
+        for (std::size_t j = 0; j < row.a.size(); ++j) {
+            if (row.a[j] == 0) continue;
+            const double a = h * row.a[j];
+            for (std::size_t i = 0; i < n_; ++i) work_[i] += a * k_[j][i];
         }
         evaluate(t0 + row.c * h, work_.data(), k_[static_cast<std::size_t>(index)].data());
     }
