@@ -38,8 +38,7 @@ Collocation::Collocation() {
         for (std::size_t n = 0; n < kNodes; ++n) monomial[j] += (middle[j][n] / factorial) * legendre[n];
     }
     for (int k = 0; k < kNodes; ++k) {
-        Lanes w;
-        weights_to(c[k], w);
+        const Lanes w = weights_to(c[k]);
         slope_at[static_cast<std::size_t>(k)] = derive[static_cast<std::size_t>(k) + 1][1];
         for (std::size_t l = 0; l < kNodes; ++l) {
             integrate[l][k] = w[static_cast<int>(l)];
@@ -53,12 +52,13 @@ Collocation::Collocation() {
 }
 
 // ∫₀ˢ P_j(2u − 1) du = [P_{j+1} − P_{j−1}](2s − 1)/(2(2j+1)), and s for j = 0.
-void Collocation::weights_to(double s, Lanes& w) const {
+Lanes Collocation::weights_to(double s) const {
     double p[kNodes + 1];
     sim::legendre(2 * s - 1, kNodes + 1, p);
-    w = s * legendre[0];
+    Lanes w = s * legendre[0];
     for (std::size_t j = 1; j < kNodes; ++j)
         w += ((p[j + 1] - p[j - 1]) / (2.0 * (2 * static_cast<int>(j) + 1))) * legendre[j];
+    return w;
 }
 
 Lanes at_nodes(double start, double h, const Lanes& rate) {

@@ -27,8 +27,7 @@ struct Collocation {
     // monomial[j][l]: nodal values to the coefficient of (2s − 1)ʲ.
     std::array<Lanes, kNodes> monomial;
 
-    // w[l] = ∫₀ˢ ℓ_l, for any s.
-    void weights_to(double s, Lanes& w) const;
+    Lanes weights_to(double s) const;  // [l]: ∫₀ˢ ℓ_l, for any s
 
   private:
     Collocation();

@@ -178,7 +178,7 @@ ForceAndSlopes ContactStep::normal_residual(int k) const {
 bool ContactStep::linearize(const StepTable& table) {
     const double h = table.h;
     const auto compliance = [&](double hub, const std::vector<double>& a, const std::vector<double>& b) {
-        return NodalCompliance(table, form_.mass, form_.prescribed ? 0 : hub / form_.J, a, b);
+        return nodal_compliance(table, form_.mass, form_.prescribed ? 0 : hub / form_.J, a, b);
     };
     compliance_ = compliance(start.hub * start.hub, row, row);
     double mobility2 = 0, kick2 = 0;

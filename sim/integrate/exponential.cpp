@@ -1,5 +1,6 @@
-#include "sim/integrate/exponential.hpp"
-
+// Exponential Gauss collocation: the oscillators of the beam are propagated exactly for a forcing that is the
+// interpolation polynomial through eight nodal values, so a step spans many periods of vibration.
+// MODEL.md §12. Phases that it does not cover are integrated by Runge–Kutta (rk8.cpp) or BDF.
 #include <algorithm>
 #include <cmath>
 #include <optional>
@@ -8,6 +9,7 @@
 #include "sim/base/assert.hpp"
 #include "sim/integrate/constants.hpp"
 #include "sim/integrate/contact_step_end.hpp"
+#include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -20,10 +22,8 @@ bool sharp_friction(System& system) {
 }
 
 Method fallback_method(System& system) {
-    const Beam& beam = system.problem().beam;
-    double ratio = 0.5 * beam.kelvin_voigt.value_or(0) * system.highest_frequency();
-    for (const double z : beam.damping_ratio) ratio = std::max(ratio, z);
-    const bool stiff = (beam.model != ModelKind::rigid && ratio > kStiffDamping) || sharp_friction(system);
+    const bool vibrates = system.problem().beam.model != ModelKind::rigid;
+    const bool stiff = (vibrates && system.damping_ratio() > kStiffDamping) || sharp_friction(system);
     return stiff ? Method::cvode_bdf : Method::rk8;
 }
 
@@ -58,38 +58,27 @@ int levels_down(double error, int order, int most) {
                                 : most;
 }
 
-// The parts of the method.
-struct ModalMethod {
-    ModalMethod(System& system, double rtol, double atol, long& evaluations)
-        : step(system, ModalForm::of(system), rtol, atol, evaluations),
-          tables(step.form->oscillators, step.form->groups) {
-        if (!system.has_cam()) return;
-        contact.emplace(step);
-        contact_end.emplace(step, *contact);
-    }
-    NodalStep step;
-    StepTables tables;
-    std::optional<ContactStep> contact;
-    std::optional<ContactStepEnd> contact_end;
-};
-
 class Exponential final : public Integrator {
   public:
     Exponential(System& system, double rtol, double atol)
         : system_(system),
-          method_(system, rtol, atol, counters.rhs),
+          step_(system, ModalForm::of(system), rtol, atol, counters.rhs),
+          tables_(step_.form->oscillators, step_.form->groups),
           fallback_(make_fallback(fallback_method(system), system, rtol, atol)),
           sharp_(sharp_friction(system)) {
         counters.fallback = fallback_method(system);
+        if (!system.has_cam()) return;
+        contact_.emplace(step_);
+        contact_end_.emplace(step_, *contact_);
     }
 
     void start(double t, const double* y) override {
         const Phase& phase = system_.phase();
-        if (method_.contact_end && !(touching_ && t == t_)) method_.contact_end->reset_side();
+        if (contact_end_ && !(touching_ && t == t_)) contact_end_->reset_side();
         touching_ = phase.touching;
         // A rigid beam in sustained contact follows the cam: no vibration limits the steps of the fallback. At
         // tolerances near rounding, as in the search of orbits, this method would take shorter ones.
-        falling_back_ = phase.held && method_.step.n == 0;
+        falling_back_ = phase.held && step_.n == 0;
         if (!falling_back_ && touching_ && !begin_touch(t, y)) {
             falling_back_ = true;
             ++counters.handed_over;
@@ -140,7 +129,7 @@ class Exponential final : public Integrator {
     }
 
   private:
-    ExponentialSegment& segment() { return method_.step.segment; }
+    ExponentialSegment& segment() { return step_.segment; }
 
     // The fallback continues from (t, y), with a first step of at most `first`.
     void hand_over(double t, const double* y, double first) {
@@ -171,13 +160,13 @@ class Exponential final : public Integrator {
         const double level = step_length(flight_level_);
         const double h = std::min(level, std::max(first_step_, kLeastStep * std::fabs(t_)));
         last = t_ + kRestLevel * h >= stop_;
-        if (last) return method_.tables.length(stop_ - t_);
-        return h < level ? method_.tables.length(h) : method_.tables.level(flight_level_);
+        if (last) return tables_.length(stop_ - t_);
+        return h < level ? tables_.length(h) : tables_.level(flight_level_);
     }
 
     // Where the modes are coupled so strongly that this method has to resolve their vibration, the fallback is cheaper.
     bool too_short(double h) const {
-        const ModalForm& form = *method_.step.form;
+        const ModalForm& form = *step_.form;
         return !form.by_arrays() && h * form.oscillators.back().omega < kLeastTurns;
     }
 
@@ -185,14 +174,14 @@ class Exponential final : public Integrator {
     bool flight() {
         ExponentialSegment& s = segment();
         s.touching = false;
-        method_.step.begin(t_);
+        step_.begin(t_);
         for (bool rejected = false;; rejected = true) {
             if (rejected && too_short(step_length(flight_level_))) return false;
             bool last = false;
             const StepTable& table = flight_table(last);
-            const double error = solve_flight(method_.step, table);
+            const double error = solve_flight(step_, table);
             if (error <= 1) {
-                if (method_.tables.on_ladder(table) && !rejected && error < kLongerFlight)
+                if (tables_.on_ladder(table) && !rejected && error < kLongerFlight)
                     flight_level_ = std::min(flight_level_ + (error < kMuchLongerFlight ? 2 : 1), kHighestLevel);
                 s.t1 = last ? stop_ : t_ + table.h;
                 first_step_ = std::numeric_limits<double>::infinity();
@@ -205,7 +194,7 @@ class Exponential final : public Integrator {
                 throw StepFailure(step_failure_reason(std::isfinite(error)));
         }
         ++counters.steps;
-        method_.step.finish(nullptr);
+        step_.finish(nullptr);
         t_ = s.t1;
         return true;
     }
@@ -213,25 +202,25 @@ class Exponential final : public Integrator {
     bool begin_touch(double t, const double* y) {
         const ContactState c = system_.contact(t, y, true);
         if (c.at_end) return false;
-        method_.contact->begin_touch(c);
+        contact_->begin_touch(c);
         crawls_ = 0;
-        if (sharp_) crawl_ = kCrawl * system_.touch_time(t, y, c, method_.contact->approach);
+        if (sharp_) crawl_ = kCrawl * system_.touch_time(t, y, c, contact_->approach);
         return true;
     }
 
     // One step; false when this method cannot take the contact (the state is then that of the start).
     bool touch_step() {
         if (sharp_ && crawls_ > kMostCrawls) return false;
-        method_.step.begin(t_);
-        method_.contact->begin();
+        step_.begin(t_);
+        contact_->begin();
         for (bool rejected = false;; rejected = true) {
             const bool last = t_ + kRestLevel * step_length(touch_level_) >= stop_;
-            const StepTable& table = last ? method_.tables.length(stop_ - t_) : method_.tables.level(touch_level_);
-            double error = method_.contact->solve(table), length = table.h;
+            const StepTable& table = last ? tables_.length(stop_ - t_) : tables_.level(touch_level_);
+            double error = contact_->solve(table), length = table.h;
             if (std::isfinite(error)) {
-                if (method_.contact->deep()) return false;
+                if (contact_->deep()) return false;
                 TouchSamples::Ending ending = TouchSamples::Ending::open;
-                if (!system_.phase().held) error = method_.contact_end->cut(error, ending);
+                if (!system_.phase().held) error = contact_end_->cut(error, ending);
                 if (error <= 1) {
                     if (ending == TouchSamples::Ending::open && !last && !rejected && error < kLongerTouch)
                         touch_level_ = std::min(touch_level_ + (error < kMuchLongerTouch ? 2 : 1), kHighestLevel);
@@ -258,22 +247,22 @@ class Exponential final : public Integrator {
     void accept_touch(TouchSamples::Ending ending) {
         ExponentialSegment& s = segment();
         ++counters.steps;
-        method_.contact_end->accept(ending);
+        contact_end_->accept(ending);
         s.touching = true;
         s.t1 = s.t0 + s.h;
         first_step_ = s.h;
         if (s.h < crawl_) ++crawls_;
-        method_.step.finish(&method_.contact->load);
-        method_.contact->hold_end();
+        step_.finish(&contact_->load);
+        contact_->hold_end();
         s.samples.ending = ending;
-        s.samples.friction_over = method_.contact_end->friction_over();
+        s.samples.friction_over = contact_end_->friction_over();
         t_ = s.t1;
-        const double carry = std::exchange(method_.contact_end->carry, 0.0);
+        const double carry = std::exchange(contact_end_->carry, 0.0);
         if (carry != 0) {
             carry_to(t_ + carry);
-            method_.contact->evaluate(t_, s.end.data(), method_.contact->end);
+            contact_->evaluate(t_, s.end.data(), contact_->end);
         }
-        method_.contact->fill(s.samples);
+        contact_->fill(s.samples);
         if (carry != 0 && ending == TouchSamples::Ending::release) {
             constexpr int kLast = TouchSamples::kCount - 1;
             s.samples.gap[kLast] = s.samples.force[kLast] = s.samples.friction[kLast] = 0;
@@ -282,7 +271,7 @@ class Exponential final : public Integrator {
 
     // Ends the step at `at` by solving it again.
     void solve_up_to(double at) {
-        if (!std::isfinite(method_.contact->solve(method_.tables.length(at - segment().t0))))
+        if (!std::isfinite(contact_->solve(tables_.length(at - segment().t0))))
             throw StepFailure("the contact force could not be solved for");
         accept_touch(TouchSamples::Ending::open);
     }
@@ -298,7 +287,10 @@ class Exponential final : public Integrator {
     }
 
     System& system_;
-    ModalMethod method_;
+    NodalStep step_;
+    StepTables tables_;
+    std::optional<ContactStep> contact_;
+    std::optional<ContactStepEnd> contact_end_;
     std::unique_ptr<Integrator> fallback_;
     IntegratorCounters seen_;
     const bool sharp_;

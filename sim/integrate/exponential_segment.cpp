@@ -105,22 +105,6 @@ double ExponentialSegment::theta_dot_at(double p, const double* x) const {
     return p / (form_->J + quadratic);
 }
 
-// ∫₀ˢ of the polynomial with these nodal values, in powers of z = 2s − 1.
-void ExponentialSegment::integrate(const Lanes& nodal, Integral& out) {
-    out[0] = 0;
-    for (std::size_t j = 0; j < kNodes; ++j) {
-        out[j + 1] = sum(Collocation::get().monomial[j] * nodal) / (2 * (static_cast<double>(j) + 1));
-        out[0] += j % 2 ? -out[j + 1] : out[j + 1];
-    }
-}
-
-double ExponentialSegment::integral(const Integral& of, double s) {
-    const double z = 2 * s - 1;
-    double value = of[kNodes];
-    for (std::size_t j = kNodes; j-- > 0;) value = value * z + of[j];
-    return value;
-}
-
 void ExponentialSegment::transpose() const {
     if (transposed_) return;
     transposed_ = true;
@@ -221,11 +205,6 @@ void ExponentialSegment::coordinates(double t, double* y) const {
     y[0] = frame_angle(t);
 }
 
-void ExponentialSegment::beam(double t, double* y) const {
-    if (!form_->by_arrays() || t == t1) return value_without_vibration_work(t, y);
-    evolve_all(t, (t - t0) / h, y);
-}
-
 void ExponentialSegment::evolve_all(double t, double s, double* y) const {
     double* rates = y + 1 + n_;
     for (std::size_t g = 0; g < form_->groups.size(); ++g) {
@@ -254,12 +233,12 @@ void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) cons
         y[0] = motion.angle;
         rates[0] = motion.rate;
     } else {
-        y[0] = theta0 + h * integral(hub().turn, s);
-        rates[0] = theta_dot_at(p0 + h * integral(hub().momentum, s), y + 1);
+        y[0] = theta0 + h * hub().turn(2 * s - 1);
+        rates[0] = theta_dot_at(p0 + h * hub().momentum(2 * s - 1), y + 1);
     }
     const bool ledger = ledger_changes && (touching || vibration_work);  // else it is that at the start
-    Lanes weights;
-    if (ledger || (touching && has_bristle())) Collocation::get().weights_to(s, weights);
+    const bool integrates = ledger || (touching && has_bristle());
+    const Lanes weights = integrates ? Collocation::get().weights_to(s) : Lanes{};
     if (has_bristle()) y[2 * (n_ + 1)] = touching ? bristle0 + h * sum(weights * bristle_rate) : end[2 * (n_ + 1)];
     if (ledger)
         set_ledger(weights, y);
@@ -270,14 +249,14 @@ void ExponentialSegment::evaluate(double t, bool vibration_work, double* y) cons
 }
 
 double ExponentialSegment::frame_angle(double t) const {
-    return form_->prescribed ? drive_.motion(t).angle : theta0 + h * integral(hub().turn, (t - t0) / h);
+    return form_->prescribed ? drive_.motion(t).angle : theta0 + h * hub().turn(2 * ((t - t0) / h) - 1);
 }
 
 const ExponentialSegment::Hub& ExponentialSegment::hub() const {
     if (!hub_known_) {
         hub_known_ = true;
-        integrate(theta_dot, hub_.turn);
-        integrate(p_dot, hub_.momentum);
+        hub_.turn = StepPolynomial::through(theta_dot).integral();
+        hub_.momentum = StepPolynomial::through(p_dot).integral();
     }
     return hub_;
 }

@@ -3,7 +3,6 @@
 // MODEL.md §12.
 #pragma once
 
-#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -25,7 +24,6 @@ class ExponentialSegment final : public StoredSegment {
     void value_without_vibration_work(double t, double* y) const override;
     double coordinate(double t, std::size_t index, double* y) const override;
     void coordinates(double t, double* y) const override;
-    void beam(double t, double* y) const override;
     const MotionBounds* bounds() const override;
     const ModalBounds* modal_bounds() const override;
     const TouchSamples* touch() const override { return touching ? &samples : nullptr; }
@@ -80,11 +78,8 @@ class ExponentialSegment final : public StoredSegment {
     // Calls visit(std::span<double>) on all numbers that determine `value`, `bounds` and `touch`, besides t0 and t1.
     template <class Visit>
     void each_number(Visit&& visit);
-    using Integral = std::array<double, kNodes + 1>;
-    static void integrate(const Lanes& nodal, Integral& out);
-    static double integral(const Integral& of, double s);
     struct Hub {
-        Integral turn, momentum;  // of Θ̇ and ṗ
+        StepPowers<kNodes + 1> turn, momentum;  // integrals of Θ̇ and ṗ
     };
     const Hub& hub() const;
     double frame_angle(double t) const;  // t != t1

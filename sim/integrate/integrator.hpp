@@ -87,10 +87,8 @@ class Segment {
         value_without_vibration_work(t, y);
         return y[index];
     }
-    // All of the coordinates, the first components: the same bits. Others are undefined.
+    // All of the coordinates, the first components, and the rates of the beam's: the same bits. Others are undefined.
     virtual void coordinates(double t, double* y) const { value_without_vibration_work(t, y); }
-    // All that belongs to the beam, its coordinates and rates without the hub's: the same bits. Others are undefined.
-    virtual void beam(double t, double* y) const { value_without_vibration_work(t, y); }
     // Appends the numbers that determine `value`, besides t0 and t1, to `out`; `none`: the segment cannot be stored.
     virtual SegmentKind numbers([[maybe_unused]] std::vector<double>& out) const { return SegmentKind::none; }
     // Null for steps in which each component is a polynomial of degree `kDegree` at most.
@@ -113,9 +111,7 @@ class StoredSegment : public Segment {
 // Throws std::invalid_argument for `none` and unknown kinds.
 std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const System& system);
 std::unique_ptr<StoredSegment> make_stored_rk8(int size);
-std::unique_ptr<StoredSegment> make_stored_taylor(int size);
-// Of CVODE. `numbers`: the instant of expansion, and the coefficients from the constant on, `size` numbers each.
-void evaluate_taylor(std::span<const double> numbers, std::size_t size, double t, double* y);
+std::unique_ptr<StoredSegment> make_stored_taylor(int size);  // of CVODE
 std::unique_ptr<StoredSegment> make_stored_exponential(const System& system);
 
 // Why no step was accepted; `finite`: its error could be estimated.
@@ -160,7 +156,8 @@ class Integrator {
     double stop_ = std::numeric_limits<double>::infinity();
 };
 
-// `method` names one; `automatic` is resolved by the caller.
+// Reads the phase of the system at every `start`.
+std::unique_ptr<Integrator> make_exponential(System& system, double rtol, double atol);
 std::unique_ptr<Integrator> make_rk8(Ode& ode, double rtol, double atol);
 // cvode-adams, cvode-bdf or arkode-erk.
 std::unique_ptr<Integrator> make_sundials(Method method, Ode& ode, double rtol, double atol);

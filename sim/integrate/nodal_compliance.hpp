@@ -10,13 +10,10 @@ namespace beamcam::sim {
 
 struct NodalCompliance {
     NodalMatrix value, rate;
-
-    NodalCompliance() = default;
-    NodalCompliance(const NodalMatrix& of_value, const NodalMatrix& of_rate) : value(of_value), rate(of_rate) {}
-    // Of the displacement in a direction with the rows a of the modes to forces in that with the rows b, or the other
-    // way round. `hub`: the product of both rows of the hub over its inertia.
-    NodalCompliance(const StepTable& table, double mass, double hub, const std::vector<double>& a,
-                    const std::vector<double>& b);
 };
+// Of the displacement in a direction with the rows a of the modes to forces in that with the rows b, or the other way
+// round. `hub`: the product of both rows of the hub over its inertia.
+NodalCompliance nodal_compliance(const StepTable& table, double mass, double hub, const std::vector<double>& a,
+                                 const std::vector<double>& b);
 
 }  // namespace beamcam::sim

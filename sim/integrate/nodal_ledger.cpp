@@ -27,10 +27,8 @@ void NodalStep::finish_ledger(const ContactLoad* load) {
         s.rate[kImpulseN] = load->force;
         s.rate[kImpulseT] = load->friction;
     }
-    Lanes weights;
     const double share = (s.t1 - s.t0) / s.h;
-    Collocation::get().weights_to(share, weights);
-    s.set_ledger(weights, s.end.data());
+    s.set_ledger(Collocation::get().weights_to(share), s.end.data());
     s.add_vibration_work(s.t1, share, s.end.data());
 }
 

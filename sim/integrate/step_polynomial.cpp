@@ -19,16 +19,19 @@ StepPolynomial StepPolynomial::of_derivatives(StepPolynomial f, const std::array
     return p;
 }
 
-double StepPolynomial::operator()(double z) const {
-    double value = 0;
-    for (std::size_t j = kNodes; j-- > 0;) value = value * z + c[j];
-    return value;
-}
-
 StepPolynomial StepPolynomial::derivative(double h) const {
     StepPolynomial d;
     for (std::size_t j = 0; j + 1 < kNodes; ++j) d.c[j] = static_cast<double>(j + 1) * c[j + 1] * (2 / h);
     return d;
+}
+
+StepPowers<kNodes + 1> StepPolynomial::integral() const {
+    StepPowers<kNodes + 1> p;
+    for (std::size_t j = 0; j < kNodes; ++j) {
+        p.c[j + 1] = c[j] / (2 * (static_cast<double>(j) + 1));
+        p.c[0] += j % 2 ? -p.c[j + 1] : p.c[j + 1];
+    }
+    return p;
 }
 
 double StepPolynomial::bound() const {

@@ -7,16 +7,13 @@
 
 namespace beamcam::sim {
 
-VibrationWork::ProductIntegral::ProductIntegral(const StepPolynomial& a, const StepPolynomial& b, double h) {
+VibrationWork::ProductIntegral VibrationWork::integral_of_product(const StepPolynomial& a, const StepPolynomial& b,
+                                                                  double h) {
+    ProductIntegral p;
     for (std::size_t i = 0; i < kNodes; ++i)
-        for (std::size_t j = 0; j < kNodes; ++j) c[i + j + 1] += a.c[i] * b.c[j];
-    for (std::size_t k = 1; k < c.size(); ++k) c[k] *= 0.5 * h / static_cast<double>(k);
-}
-
-double VibrationWork::ProductIntegral::operator()(double z) const {
-    double value = 0;
-    for (std::size_t k = c.size(); k-- > 0;) value = value * z + c[k];
-    return value;
+        for (std::size_t j = 0; j < kNodes; ++j) p.c[i + j + 1] += a.c[i] * b.c[j];
+    for (std::size_t k = 1; k < p.c.size(); ++k) p.c[k] *= 0.5 * h / static_cast<double>(k);
+    return p;
 }
 
 bool resolved(const Oscillator& o, double h) {
@@ -33,7 +30,7 @@ VibrationWork::VibrationWork(const Oscillator& oscillator, const Lanes& g, const
         return;
     }
     const StepPolynomial steady = steady_motion(oscillator, f, h), speed = steady.derivative(h);
-    vibration_ = Vibration{steady, speed, ProductIntegral(g_[0], speed, h)};
+    vibration_ = Vibration{steady, speed, integral_of_product(g_[0], speed, h)};
     vibration_->at_start = integral(*vibration_, -1, start);
 }
 
@@ -43,7 +40,7 @@ void VibrationWork::add_decay(bool fast, const Lanes& f, double h, Position star
     std::array<double, kNodes> factors{c / r};
     for (std::size_t k = 1; k < factors.size(); ++k) factors[k] = factors[k - 1] / -r;
     const StepPolynomial steady = StepPolynomial::of_derivatives(StepPolynomial::through(f), factors, h);
-    Decay decay{r, fast ? d.slow : d.fast, c, steady, ProductIntegral(g_[0], steady, h)};
+    Decay decay{r, fast ? d.slow : d.fast, c, steady, integral_of_product(g_[0], steady, h)};
     decay.at_start = integral(decay, -1, start);
     decays_.push_back(decay);
 }

@@ -25,11 +25,8 @@ class VibrationWork {
     double deflection(double z, double q) const { return q - vibration_->steady(z); }
 
   private:
-    struct ProductIntegral {  // ∫ a b dt, from z = 0 on
-        std::array<double, 2 * kNodes> c{};
-        ProductIntegral(const StepPolynomial& a, const StepPolynomial& b, double h);
-        double operator()(double z) const;
-    };
+    using ProductIntegral = StepPowers<2 * kNodes>;  // ∫ a b dt, from z = 0 on
+    static ProductIntegral integral_of_product(const StepPolynomial& a, const StepPolynomial& b, double h);
     struct Vibration {
         StepPolynomial steady, speed;  // the motion that follows the forcing without vibration, and its rate
         ProductIntegral on_steady;

@@ -172,7 +172,7 @@ StepChannels::Instant& StepChannels::at(const SegmentInterval& s, double t) {
 // The state of the beam without the hub's. Where the modes are the coordinates it costs little.
 const double* StepChannels::beam(const SegmentInterval& s, double t) {
     if (!basis_.are_coordinates()) return at(s, t).y.data();
-    s.segment->beam(t, y_.data());
+    s.segment->coordinates(t, y_.data());
     return y_.data();
 }
 

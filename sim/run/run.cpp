@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "sim/base/assert.hpp"
-#include "sim/integrate/exponential.hpp"
+#include "sim/integrate/integrator.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -30,11 +30,6 @@ std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynami
     return make_sundials(solver.method, dynamics, rtol, atol);
 }
 
-std::unique_ptr<Integrator> make_integrator(const Solver& solver, System& dynamics, const RunOptions& options) {
-    std::unique_ptr<Integrator> made = make_integrator(solver, dynamics);
-    return options.around ? options.around(dynamics, std::move(made)) : std::move(made);
-}
-
 }  // namespace
 
 Run::Run(const Problem& problem, std::span<const Request> requests, const Progress& progress, const RunOptions& options)
@@ -46,7 +41,8 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       output_(
           dynamics_, requests, options.keep, options.observer, [this] { return statistics(); },
           [this](double t) { report(t); }),
-      integrator_(make_integrator(problem.solver, dynamics_, options)),
+      integrator_(options.around ? options.around(dynamics_, make_integrator(problem.solver, dynamics_))
+                                 : make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
       contact_guards_(probe_, state_),
       transitions_(dynamics_, probe_.system, *integrator_, state_, output_),

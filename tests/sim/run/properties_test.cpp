@@ -12,7 +12,7 @@
 #include <optional>
 
 #include "sim/dynamics/initial.hpp"
-#include "sim/integrate/exponential.hpp"
+#include "sim/integrate/integrator.hpp"
 #include "sim/problem/problem.hpp"
 #include "tests/sim/support.hpp"
 
