@@ -153,7 +153,8 @@ class Rk8 final : public Integrator, private Segment {
         for (std::size_t j = 0; j < row.a.size(); ++j) {
             if (row.a[j] == 0) continue;
             const double a = h * row.a[j];
-            for (std::size_t i = 0; i < n_; ++i) work_[i] += a * k_[j][i];
+            const double* k = k_[j].data();
+            for (std::size_t i = 0; i < n_; ++i) work_[i] += a * k[i];
         }
         evaluate(t0 + row.c * h, work_.data(), k_[static_cast<std::size_t>(index)].data());
     }
