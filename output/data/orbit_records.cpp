@@ -57,7 +57,6 @@ Node branch_node(const sim::Branch& branch) {
 }
 
 void add_rows(ColumnTable& table, double branch, double index, double value, const sim::PeriodicOrbit& orbit) {
-    const double largest = orbit.multipliers.empty() ? 0 : std::abs(orbit.multipliers.front());
     const sim::Initial& at = orbit.initial;
     for (std::size_t i = 0; i < std::max<std::size_t>(1, orbit.impacts.size()); ++i) {
         const bool impact = i < orbit.impacts.size();
@@ -66,7 +65,7 @@ void add_rows(ColumnTable& table, double branch, double index, double value, con
                                    value,
                                    static_cast<double>(orbit.turns),
                                    orbit.stable() ? 1.0 : 0.0,
-                                   largest,
+                                   orbit.largest_multiplier(),
                                    impact ? static_cast<double>(i + 1) : kUndefined,
                                    impact ? orbit.impacts[i].cam_angle : kUndefined,
                                    impact ? orbit.impacts[i].approach : kUndefined,

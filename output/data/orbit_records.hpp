@@ -15,8 +15,9 @@ std::string exponents_json(const sim::Exponents& exponents);
 
 // Periodic orbits of a scene, and the branches that start from them.
 struct BranchTable {
-    std::string key, unit;  // the varied key of the scene; empty: no branches
-    double start = 0;       // its value for `orbits`
+    std::string key, unit;    // the varied key of the scene; empty: no branches
+    double start = 0;         // its value for `orbits`
+    double from = 0, to = 0;  // its range for `branches`
     std::vector<sim::PeriodicOrbit> orbits;
     std::vector<sim::Branch> branches;
 };

@@ -94,11 +94,19 @@ void read_manifest(const std::string& file, Provenance& p) {
     p.facts["changed_since"] = record->unchanged ? "no" : "yes";
 }
 
+std::string lower_ending(const std::string& file) {
+    std::string ending = fs::path(file).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(),
+                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
+}
+
 void read_table(const std::string& file, Provenance& p) {
     read_manifest(file, p);
     const output::ColumnTable table = output::read_table(file, output::Texts::kept);
     const bool texts = std::ranges::any_of(table.columns, [](const auto& column) { return !column.texts.empty(); });
-    p.kind = texts ? "table with texts" : "table";  // such as the data of a figure
+    const bool netcdf = lower_ending(file) == ".nc";
+    p.kind = texts ? "table with texts" : netcdf ? "NetCDF table" : "table";  // texts: such as the data of a figure
     p.facts["rows"] = std::to_string(table.rows());
     p.facts["columns"] = std::to_string(table.columns.size());
 }
@@ -107,15 +115,8 @@ void read_table(const std::string& file, Provenance& p) {
 constexpr std::pair<const char*, const char*> kListedKinds[] = {
     {".eps", "EPS figure"}, {".tif", "TIFF figure"}, {".tiff", "TIFF figure"}, {".json", "record"},
     {".webp", "film"},  // FFmpeg does not read animated ones
-    {".html", "page"},      {".glb", "model"},       {".nc", "NetCDF table"},  {".tex", "caption"},
-    {".txt", "caption"},    {".md", "caption"},      {".srt", "subtitles"},    {".vtt", "subtitles"}};
-
-std::string lower_ending(const std::string& file) {
-    std::string ending = fs::path(file).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
+    {".html", "page"},      {".glb", "model"},       {".tex", "caption"},      {".txt", "caption"},
+    {".md", "caption"},     {".srt", "subtitles"},   {".vtt", "subtitles"}};
 
 Provenance provenance_of(const std::string& file) {
     std::error_code error;
@@ -133,7 +134,7 @@ Provenance provenance_of(const std::string& file) {
     } else if (ending == ".pdf") {
         p.kind = "PDF figure";
         read_document(output::read_pdf_metadata(file), p);
-    } else if (ending == ".csv" || ending == ".npz") {
+    } else if (ending == ".csv" || ending == ".npz" || ending == ".nc") {
         read_table(file, p);
     } else if (listed != std::end(kListedKinds)) {
         p.kind = listed->second;

@@ -83,7 +83,10 @@ void add_lyapunov(Grammar& grammar) {
     const auto [app, args] = grammar.command<LyapunovArguments>(
         "lyapunov", "Compute the Lyapunov exponents of a motion, which show chaos", act);
     app.examples = {"lyapunov pressed.json --set cam.speed=54.3 --transient 200 --duration '60 s' -o convergence.pdf"};
-    app.footer = "`beamcam init --from pressed` writes the scene of the example.";
+    app.footer =
+        "`beamcam init --from pressed` writes the scene of the example. In JSON, which has no infinities, an exponent "
+        "of −∞ is null, "
+        "as where lasting contact removes every difference; \"chaotic\" is null if it is doubtful.";
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");

@@ -79,12 +79,17 @@ std::string to_text(const output::BranchTable& table) {
     return text + branches_text(table);
 }
 
-std::string nothing_found(int turns) {
-    std::string text = "no periodic orbit was found";
-    if (turns > 1)
-        text +=
-            fmt::format(" with a shortest period of {} turns (one of fewer turns that repeats is not counted)", turns);
-    return text + "; try another initial state, --turns, --impacts or --transient";
+std::string nothing_found(const sim::OrbitRequest& request) {
+    const std::string periods =
+        request.turns > 1
+            ? fmt::format("a shortest period of {} turns (one of fewer turns that repeats is not counted)",
+                          request.turns)
+            : fmt::format("a period of {}{}", request.turns == 0 ? "up to " : "",
+                          counted(request.turns == 0 ? request.most_turns : 1, "turn"));
+    return fmt::format(
+        "no periodic orbit was found with {}{}: neither near the motion after a transient of {:.6g} s, nor from throws "
+        "of the beam off the cam; try another initial state, --turns, --impacts or --transient",
+        periods, request.impacts ? " and " + counted(*request.impacts, "impact") : "", request.transient);
 }
 
 }  // namespace beamcam::scenes

@@ -192,19 +192,23 @@ sim::Progress search_progress(Progress& progress, double transient) {
 }
 
 // The orbits of the scene; with a range, the orbits at its start value and their branches.
-output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range) {
+output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range,
+                            sim::OrbitRequest& request) {
     sim::Family family;
     output::BranchTable table;
     if (range) {
         // A branch begins on an orbit, wherever the initial state is.
         family = [problem, key = range->key.path](double value) { return problem_with(problem, key, value, true); };
         for (const double end : {range->from, range->to}) family(end);  // throws if the end is impossible
-        table = {range->key.path, si_unit(range->key.dimension), start_value(args, *range), {}, {}};
+        table.key = range->key.path;
+        table.unit = si_unit(range->key.dimension);
+        table.start = start_value(args, *range);
+        table.from = range->from, table.to = range->to;
         need_narrow(*range, table.start);
         problem = problem_with(problem, range->key.path, table.start);
     }
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
-    const sim::OrbitRequest request = request_of(args, problem);
+    request = request_of(args, problem);
     Progress progress(run_options(args.common, "").progress);
     table.orbits = sim::find_orbits(problem, request, search_progress(progress, request.transient));
     if (range) {
@@ -238,7 +242,8 @@ int act(const OrbitsArguments& args) {
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
 
     // 2. The orbits and their branches.
-    const output::BranchTable table = compute(args, scene.problem, range);
+    sim::OrbitRequest request;
+    const output::BranchTable table = compute(args, scene.problem, range, request);
 
     // 3. The result and its files.
     write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table); },
@@ -246,13 +251,13 @@ int act(const OrbitsArguments& args) {
                   [&] { return output::orbit_columns(table, attributes_of(scene)); }},
                  args.files, scene, args.common, manifest);
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
-    if (table.orbits.empty()) inform(args.common, nothing_found(args.turns));
-    const bool followed = !range || table.orbits.empty() || !table.branches.empty();
-    if (!followed)
+    if (table.orbits.empty()) inform(args.common, nothing_found(request));
+    const bool followed = !range || !table.branches.empty();
+    if (!followed && !table.orbits.empty())
         inform(args.common, fmt::format("the orbits that were found could not be followed: Newton's method did not "
                                         "converge at {} = {:.10g}; try another start (--at)",
                                         table.key, table.start));
-    return written && followed ? kDone : kSolverFailed;
+    return written && followed && !table.orbits.empty() ? kDone : kSolverFailed;
 }
 
 }  // namespace
@@ -262,7 +267,10 @@ void add_orbits(Grammar& grammar) {
         "orbits", "Find periodic orbits and their stability, and follow them over a parameter", act);
     app.examples = {"orbits pressed.json --turns 1",
                     "orbits pressed.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
-    app.footer = "`beamcam init --from pressed` writes the scene of the examples.";
+    app.footer =
+        "`beamcam init --from pressed` writes the scene of the examples. The exit code is 4 if no orbit is found, or "
+        "if none "
+        "can be followed.";
     add_scene(app, args.scene, args.common);
     add_result_options(
         app, args.files, args.common,
@@ -272,7 +280,7 @@ void add_orbits(Grammar& grammar) {
                "too, the first orbit that rests on the cam for a part of its period");
     app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
-    app.option("--turns", &args.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
+    app.option("--turns", &args.turns, "N", "Shortest period of the orbit in turns of the cam (default: any)")
         .range(1, 1000);
     app.option("--most-turns", &args.most_turns, "N", "Longest period to try without --turns (default: 8)")
         .range(1, 1000);

@@ -16,24 +16,31 @@ bool same_events(const FlowMap& a, const FlowMap& b) {
 
 }  // namespace
 
-// The map at a parameter nearby; nothing where there is no problem or no motion.
-std::optional<SectionMap::Value> BranchArc::beside(const Eigen::VectorXd& z, double shift) const try {
+// The map at a point; nothing where there is no problem or no motion.
+std::optional<SectionMap::Value> BranchArc::image(const Eigen::VectorXd& z) const try {
     const Eigen::Index n = z.size() - 1;
-    return map(z[n] + shift).at(z.head(n), false);
+    return map(z[n]).at(z.head(n), false);
 } catch (const SolverError&) {
     return std::nullopt;
 } catch (const StepFailure&) {
     return std::nullopt;
 }
 
-// ∂P/∂p by finite differences; one-sided where only one side has the same events, or exists.
-Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const {
-    const auto before = beside(z, -kArcDifference), after = beside(z, kArcDifference);
+// ∂P/∂p by finite differences along the tangent, on which the image of an unstable orbit remains as near as the orbit:
+// dP = P_y dy + P_p dp. At folds with y constant. One-sided where only one side has the same events, or exists.
+Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const Eigen::VectorXd& tangent,
+                                 const SectionMap::Value& here) const {
+    const Eigen::Index n = z.size() - 1;
+    Eigen::VectorXd along = Eigen::VectorXd::Unit(n + 1, n);
+    if (std::fabs(tangent[n]) > kSteep) along = tangent / tangent[n];
+    const auto before = image(z - kArcDifference * along), after = image(z + kArcDifference * along);
     if (!before && !after) throw StepFailure("the parameter cannot be varied");
     const bool back = before && (!after || same_events(before->map, here.map));
     const bool forth = after && (!before || same_events(after->map, here.map));
-    if (before && after && back == forth) return (after->image - before->image) / (2 * kArcDifference);
-    return (back ? here.image - before->image : after->image - here.image) / kArcDifference;
+    const bool both = before && after && back == forth;
+    const Eigen::VectorXd low = both || back ? before->image : here.image,
+                          high = both || !back ? after->image : here.image;
+    return (high - low) / (both ? 2 * kArcDifference : kArcDifference) - here.derivative * along.head(n);
 }
 
 // The ends of the range may be the last values with a problem: rounding must not pass them.
@@ -73,26 +80,28 @@ Eigen::MatrixXd BranchArc::derivative_at(const BranchPoint& point) const {
 std::optional<ArcPoint> BranchArc::correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const try {
     const Eigen::Index n = z.size() - 1;
     const Eigen::VectorXd predicted = z;
-    Eigen::VectorXd by_parameter;
     double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < kMaxArcNewton; ++i) {
         const Eigen::VectorXd y = z.head(n);
         const SectionMap section = map(z[n]);
         const SectionMap::Value value = section.at(y, true);
-        if (i == 0) by_parameter = slope(z, value);
+        const Eigen::VectorXd by_parameter = slope(z, tangent, value);
         Eigen::MatrixXd bordered(n + 1, n + 1);
         bordered << value.derivative - Eigen::MatrixXd::Identity(n, n), by_parameter, tangent.transpose();
         Eigen::VectorXd residual(n + 1);
         residual << value.image - y, tangent.dot(z - predicted);
         const double size = residual.norm();
         if (!std::isfinite(size)) return std::nullopt;
-        if (size < kArcConverged || (size < kArcAcceptable && size > 0.5 * last)) {
+        const Eigen::VectorXd step = solve(bordered, residual);
+        // An unstable orbit amplifies rounding in the residual, not in z.
+        const bool rounding = size > 0.5 * last && (size < kArcAcceptable || step.norm() < kArcConverged);
+        if (size < kArcConverged || rounding) {
             return ArcPoint{z, solve(bordered, Eigen::VectorXd::Unit(n + 1, n)).normalized(), value.derivative,
                             section.orbit(y, value)};
         }
         if (size > 2 * last) return std::nullopt;
         last = size;
-        z -= solve(bordered, residual);
+        z -= step;
     }
     return std::nullopt;
 } catch (const SolverError&) {

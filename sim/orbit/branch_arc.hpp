@@ -44,8 +44,9 @@ class BranchArc {
     double parameter(double share) const;
     SectionMap map(double share) const;
     Progress poll(double parameter) const;
-    std::optional<SectionMap::Value> beside(const Eigen::VectorXd& z, double shift) const;
-    Eigen::VectorXd slope(const Eigen::VectorXd& z, const SectionMap::Value& here) const;
+    std::optional<SectionMap::Value> image(const Eigen::VectorXd& z) const;
+    Eigen::VectorXd slope(const Eigen::VectorXd& z, const Eigen::VectorXd& tangent,
+                          const SectionMap::Value& here) const;
 
     Family family_;
     ContinuationRequest request_;

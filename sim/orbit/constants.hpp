@@ -31,8 +31,9 @@ inline constexpr double kSameOrbit = 1e-6;   // relative difference of impact sp
 inline constexpr int kMaxArcNewton = 8;  // iterations; if a prediction needs more, the step is shortened
 // Residual of the corrector over the orbit's size: converged; acceptable if rounding allows no further decrease.
 inline constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
-// Of the range: finite difference for ∂P/∂p, which affects only the convergence of the corrector.
+// Of the range: finite difference for ∂P/∂p, which affects the tangent and the convergence of the corrector.
 inline constexpr double kArcDifference = 1e-6;
+inline constexpr double kSteep = 0.1;  // of the unit tangent: its part along the parameter, if smaller, is a fold's
 inline constexpr double kSmallestArc = 1e-9;                 // of the range: smallest step, located end of a branch
 inline constexpr double kFirstArc = 0.1;                     // of the longest step
 inline constexpr double kArcShrink = 0.3, kArcGrowth = 1.4;  // step factors after failure and success
@@ -44,10 +45,12 @@ inline constexpr double kAtTip =
 // Relative uncertainty of the parameter at which an interval of sustained contact vanishes: the impacts before it are
 // too slow to be separated.
 inline constexpr double kRestUncertainty = 3e-5;
+// Largest multiplier: times the rounding of the section map it is the residual that is still acceptable.
+inline constexpr double kMostUnstable = 1e6;
 inline constexpr double kMovedSection = 0.01;  // [rad] smaller changes of the section are ignored
 inline constexpr double kNearSection = 0.1;    // of its flight: an impact so close to the section moves it
 inline constexpr double kAtRangeEnd = 1e-12;   // of the range: rounding
-// Of the orbit's size: first step onto the doubled branch, and how often it is halved until there is a point on it.
+// Of the orbit's size over its turns: first step onto the doubled branch, and how often it is halved until there is a point on it.
 inline constexpr double kDoubledShift = 0.02;
 inline constexpr int kDoubledHalvings = 13;
 

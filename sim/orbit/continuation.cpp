@@ -59,6 +59,17 @@ bool leaves_range(const ArcPoint& p) {
     return fold_test(p) < 0 ? share < kAtRangeEnd : share > 1 - kAtRangeEnd;
 }
 
+// The cubic polynomial through two points of a curve with their tangents, at the distance s from `a` along its tangent;
+// the straight line if there is a corner between them.
+Eigen::VectorXd cubic(const ArcPoint& a, const ArcPoint& b, double s) {
+    const Eigen::VectorXd chord = b.z - a.z;
+    const double length = a.tangent.dot(chord), u = s / length, cosine = a.tangent.dot(b.tangent);
+    if (cosine < kLeastCosine) return a.z + u * chord;
+    const Eigen::VectorXd slope = b.tangent / cosine;
+    return a.z + s * a.tangent +
+           u * u * ((3 - 2 * u) * (chord - length * a.tangent) + length * (u - 1) * (slope - a.tangent));
+}
+
 class Continuation {
   public:
     Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
@@ -69,8 +80,8 @@ class Continuation {
 
   private:
     using Test = std::function<double(const ArcPoint&)>;
-    std::optional<ArcPoint> root(const ArcPoint& a, double step, const Test& test) const;
-    void locate(const ArcPoint& a, double step, OrbitChange change, const Test& test, Branch& branch) const;
+    std::optional<ArcPoint> root(const ArcPoint& a, const ArcPoint& b, const Test& test) const;
+    void locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test, Branch& branch) const;
     void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
     std::optional<ArcPoint> recentre(const ArcPoint& at);
     bool end_at_range(const ArcPoint& last, const Eigen::VectorXd& beyond, Branch& branch) const;
@@ -82,20 +93,20 @@ class Continuation {
     const Progress& progress_;
 };
 
-std::optional<ArcPoint> Continuation::root(const ArcPoint& a, double step, const Test& test) const {
+std::optional<ArcPoint> Continuation::root(const ArcPoint& a, const ArcPoint& b, const Test& test) const {
+    const auto point = [&](double s) { return arc_.correct(cubic(a, b, s), a.tangent); };
     const auto value = [&](double s) {
-        if (s == 0) return test(a);
-        const auto point = arc_.correct(a.z + s * a.tangent, a.tangent);
-        return point ? test(*point) : std::numeric_limits<double>::quiet_NaN();
+        const auto at = point(s);
+        return at ? test(*at) : std::numeric_limits<double>::quiet_NaN();
     };
-    const double low = value(0), high = value(step);
+    const double low = test(a), high = test(b);
     if (!std::isfinite(low * high) || std::signbit(low) == std::signbit(high)) return std::nullopt;
-    const double at = find_root(value, 0.0, step, low, high);
-    return arc_.correct(a.z + at * a.tangent, a.tangent);
+    return point(find_root(value, 0.0, a.tangent.dot(b.z - a.z), low, high));
 }
 
-void Continuation::locate(const ArcPoint& a, double step, OrbitChange change, const Test& test, Branch& branch) const {
-    const auto point = root(a, step, test);
+void Continuation::locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test,
+                          Branch& branch) const {
+    const auto point = root(a, b, test);
     if (!point) return;
     if (change == OrbitChange::neimark_sacker && !circle_of(*point).complex) return;  // a saddle with μ_iμ_j = 1
     const double range = std::fabs(request_.to - request_.from);
@@ -104,7 +115,6 @@ void Continuation::locate(const ArcPoint& a, double step, OrbitChange change, co
 }
 
 void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
-    const double step = a.tangent.dot(b.z - a.z);
     const auto changes = [&](auto test) { return std::signbit(test(a)) != std::signbit(test(b)); };
     const std::size_t count = a.orbit.impacts.size();
     if (count == b.orbit.impacts.size())
@@ -113,13 +123,13 @@ void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
                 return p.orbit.impacts.size() == count ? p.orbit.impacts[i].overhang
                                                        : std::numeric_limits<double>::quiet_NaN();
             };
-            if (changes(overhang)) locate(a, step, OrbitChange::corner, overhang, branch);
+            if (changes(overhang)) locate(a, b, OrbitChange::corner, overhang, branch);
         }
     const bool folds = changes(fold_test);
-    if (folds) locate(a, step, OrbitChange::fold, fold_test, branch);
-    if (changes(doubling_test)) locate(a, step, OrbitChange::period_doubling, doubling_test, branch);
-    if (!folds && changes(branching_test)) locate(a, step, OrbitChange::branching, branching_test, branch);
-    if (crosses_circle(a, b)) locate(a, step, OrbitChange::neimark_sacker, circle_test, branch);
+    if (folds) locate(a, b, OrbitChange::fold, fold_test, branch);
+    if (changes(doubling_test)) locate(a, b, OrbitChange::period_doubling, doubling_test, branch);
+    if (!folds && changes(branching_test)) locate(a, b, OrbitChange::branching, branching_test, branch);
+    if (crosses_circle(a, b)) locate(a, b, OrbitChange::neimark_sacker, circle_test, branch);
 }
 
 // Classifies the change within `step`, which is too short to be divided. True if the branch continues beyond it.
@@ -176,12 +186,18 @@ bool Continuation::end_at_range(const ArcPoint& last, const Eigen::VectorXd& bey
 void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
     const double first_step = kFirstArc * request_.step;
     double step = first_step;
-    bool moved = false;  // the section, since the last point
+    bool moved = false;              // the section, since the last point
+    std::optional<ArcPoint> before;  // the point before `from`, with the same section
     for (int count = 0; count < request_.most_points;) {
         if (progress_ && !progress_(arc_.parameter(from.z))) throw Interrupted();
         end = "the range ends";
         if (leaves_range(from)) return;
-        const Eigen::VectorXd predicted = from.z + step * from.tangent;
+        if (const double largest = from.orbit.largest_multiplier(); largest > kMostUnstable) {
+            end = fmt::format("the orbit is so unstable that rounding hides it: its largest multiplier is {:.1e}",
+                              largest);
+            return;
+        }
+        const Eigen::VectorXd predicted = before ? cubic(from, *before, step) : from.z + step * from.tangent;
         auto next = arc_.correct(predicted, from.tangent);
         const bool same = next && same_pattern(from.orbit, next->orbit);
         if (!same || next->tangent.dot(from.tangent) < kLeastCosine) {
@@ -194,6 +210,7 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
             const bool corner = next && same;
             if (auto centred = corner || moved ? std::nullopt : recentre(from)) {
                 from = std::move(*centred);
+                before.reset();
                 step = first_step;
                 moved = true;
                 continue;
@@ -208,13 +225,15 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
         if (beyond_range(next->z)) return;
         branch.points.push_back(arc_.branch_point(*next));
         ++count;
-        from = std::move(*next);
+        before = std::exchange(from, std::move(*next));
         moved = false;
-        if (near_section(from.orbit))
-            if (auto centred = recentre(from)) from = std::move(*centred);
+        if (auto centred = near_section(from.orbit) ? recentre(from) : std::nullopt) {
+            from = std::move(*centred);
+            before.reset();
+        }
         step = std::min(kArcGrowth * step, request_.step);
     }
-    end = "the largest number of points is reached";
+    end = fmt::format("the largest number of points, {}, is reached; --most-points takes more", request_.most_points);
 }
 
 // A point on the period-doubled branch, along the eigenvector of the multiplier −1.                             (S77)
@@ -223,8 +242,9 @@ std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, c
     const Eigen::VectorXd z = twice.place(special.at);
     Eigen::VectorXd direction(derivative.rows() + 1);
     direction << eigenvector_nearest(derivative, -1.0).real().normalized(), 0;
+    const double first = kDoubledShift / special.at.orbit.turns;
     for (int halvings = 0; halvings <= kDoubledHalvings; ++halvings) {
-        auto point = twice.correct(z + std::ldexp(kDoubledShift, -halvings) * direction, direction);
+        auto point = twice.correct(z + std::ldexp(first, -halvings) * direction, direction);
         if (!point || point->orbit.impacts.size() != 2 * special.at.orbit.impacts.size()) continue;
         if (point->tangent.dot(direction) < 0) point->tangent *= -1;
         return point;

@@ -33,7 +33,8 @@ struct PeriodicOrbit {
     long holds = 0, lifts = 0;  // impulsive contact: starts and ends of sustained contact
 
     bool chatters() const { return holds > 0; }  // chatter ends in sustained contact during each period
-    bool stable() const { return multipliers.empty() || std::abs(multipliers.front()) < 1; }
+    double largest_multiplier() const { return multipliers.empty() ? 0 : std::abs(multipliers.front()); }
+    bool stable() const { return largest_multiplier() < 1; }
     bool always_touching() const { return impacts.empty() && start.phase.touching; }
     double slowest_impact() const;  // [m/s]; 0 without impacts
 };

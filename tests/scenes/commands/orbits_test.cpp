@@ -1,4 +1,5 @@
 // beamcam lyapunov and beamcam orbits as scripts see them.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -27,7 +28,9 @@ TEST(OrbitsCommand, ReportsTheShortestPeriod) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const Finished three = shell(folder, "$BEAMCAM orbits s.json --turns 3 --transient 0");
+    EXPECT_EQ(three.code, 4);
     EXPECT_THAT(three.err, HasSubstr("no periodic orbit was found with a shortest period of 3 turns"));
+    EXPECT_THAT(three.err, HasSubstr("neither near the motion after a transient of 0 s, nor from throws"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --turns 1 --transient 0").out, StartsWith("period 1 turn"));
 }
 
@@ -138,6 +141,8 @@ TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     for (std::size_t c = 0; c < csv.columns.size(); ++c)
         EXPECT_EQ(csv.columns[c].values, npz.columns[c].values) << csv.columns[c].name;
     for (std::size_t i = 0; i < csv.rows(); ++i) EXPECT_EQ((*csv.find("value"))[i], points[i]["value"]);
+    EXPECT_THAT(shell(folder, "$BEAMCAM info b.nc").out,
+                ::testing::AllOf(HasSubstr("NetCDF table"), HasSubstr(fmt::format("rows           {}\n", csv.rows()))));
     const Finished dump = shell(folder, "ncdump -h b.nc");
     if (dump.code != 127) {
         EXPECT_THAT(dump.out, HasSubstr("double approach(row)"));
@@ -220,6 +225,24 @@ TEST(OrbitsCommand, FollowsAMotionThatRestsOnTheCamBesideOneThatDoesNot) {
     }
     EXPECT_NEAR(released, 52.317, 2e-3);
     EXPECT_NEAR(doubled, 50.86885, 1e-4);
+}
+
+// Its multipliers grow beyond 10⁶; before, each step was shorter than the one before it.
+TEST(OrbitsCommand, AVeryUnstableBranchIsFollowedInLongStepsAndSaysWhyItEnds) {
+    const Folder folder;
+    const Finished done =
+        shell(folder,
+              "$BEAMCAM init --from bifurcation -q && $BEAMCAM orbits bifurcation.json --over cam.speed=46:60 "
+              "--impacts 1 --doublings 4 -q --json");
+    ASSERT_EQ(done.code, 0) << done.err;
+    const nlohmann::json table = nlohmann::json::parse(done.out);
+    for (const nlohmann::json& branch : table["branches"])
+        if (branch["period"] == 16) {
+            EXPECT_LT(branch["points"].size(), 150u);
+            EXPECT_THAT(std::string(branch["ends"][1]), StartsWith("the orbit is so unstable that rounding hides it"));
+            return;
+        }
+    FAIL() << "no branch of 16 turns";
 }
 
 // Below the fold there is no orbit to begin with.
@@ -328,6 +351,17 @@ TEST(LyapunovCommand, NamesTheReasonWhyItShowsNoChaos) {
     EXPECT_THAT(said("--set initial.angle=1.5 --set hub.drive='{\"type\": \"free\"}' --set gravity=0"),
                 HasSubstr("no chaos is shown: there were no impacts\n"));
     EXPECT_THAT(said("--transient '20 s'"), HasSubstr("no chaos is shown: the largest exponent is not positive"));
+}
+
+// Rest on the cam removes every difference.
+TEST(LyapunovCommand, AnExponentOfMinusInfinityIsNullInJson) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM lyapunov s.json -q --transient '10 s' --duration '2 s' --json --set cam.speed=5");
+    ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_TRUE(nlohmann::json::parse(done.out)["exponents"][0]["value"].is_null());
+    EXPECT_THAT(shell(folder, "$BEAMCAM lyapunov --help").out, HasSubstr("an exponent of −∞ is null"));
 }
 
 TEST(OrbitsCommand, RejectsOptionsThatWouldDoNothing) {
