@@ -59,22 +59,16 @@ std::string add_special(const output::BranchTable& table, double factor, double 
     return text;
 }
 
-// Stable and unstable pieces of all branches, and the range of the parameter.
+// Stable and unstable pieces of all branches.
 struct BranchCurves {
     Series stable, unstable;
-    double low = std::numeric_limits<double>::infinity(), high = -low;
 };
 BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lang) {
     BranchCurves out{{.label = phrase(lang, "stable", "稳定"), .solid = true},
                      {.label = phrase(lang, "unstable", "不稳定"), .look = 1}};
     for (const sim::Branch& branch : table.branches) {
-        if (branch.points.empty()) continue;
         add_impacts(branch, true, factor, out.stable);
         add_impacts(branch, false, factor, out.unstable);
-        for (const sim::BranchPoint& point : branch.points) {
-            out.low = std::min(out.low, factor * point.parameter);
-            out.high = std::max(out.high, factor * point.parameter);
-        }
     }
     return out;
 }
@@ -110,7 +104,10 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     const auto key = sim::number_key(scene.problem, table.key);
     const Measure shown = measure_in(scene.units, key ? sim::si_unit(key->dimension) : "");
     BranchCurves curves = curves_of(table, shown.factor, lang);
-    Panel panel{.x = {.label = axis_label(symbol_of(table.key), shown.unit)},
+    Panel panel{.x = {.label = axis_label(symbol_of(table.key), shown.unit),
+                      .from = shown.factor * table.from,
+                      .to = shown.factor * table.to,
+                      .tight = true},
                 .y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")},
                 .legend = render::figure::Legend::box,
                 .name = "branches"};
@@ -118,7 +115,7 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
     if (with_sweep)
         panel.clouds.push_back({phrase(lang, "sweep", "扫描"), {}, swept.approach, render::rgb(kSweptColor)});
     for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
-    const std::string special = add_special(table, shown.factor, curves.high - curves.low, panel);
+    const std::string special = add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
     for (Series* series : {&curves.stable, &curves.unstable})
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
     if (panel.series.empty())

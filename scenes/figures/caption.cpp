@@ -27,11 +27,11 @@ std::string shapes_name(sim::Basis basis, Lang lang) {
 
 namespace {
 
-// A statement of a caption. `brief`: the same without its numbers, for figures that vary one of them.
+// A statement of a caption. `parts`: the same in pieces, for figures that vary one of its numbers.
 struct Fact {
-    Fact(std::string what) : text(std::move(what)) {}
-    Fact(std::string what, std::string without_numbers) : text(std::move(what)), brief(std::move(without_numbers)) {}
-    std::string text, brief;
+    Fact(std::string what, std::vector<std::string> pieces = {}) : text(std::move(what)), parts(std::move(pieces)) {}
+    std::string text;
+    std::vector<std::string> parts;
 };
 using Facts = std::vector<Fact>;
 
@@ -70,13 +70,13 @@ Fact drive_fact(const sim::Drive& drive, render::SpeedUnit unit, Lang lang) {
         Fact operator()(const sim::FreeDrive&) const { return phrase(lang, "hub turns freely", "轮毂自由转动"); }
         Fact operator()(const sim::ConstantTorque& d) const {
             return {phrase(lang, "hub torque $τ$ = {} N m", "轮毂力矩 $τ$ = {} N m", number(d.value, 4)),
-                    phrase(lang, "constant hub torque", "恒定轮毂力矩")};
+                    {phrase(lang, "constant hub torque", "恒定轮毂力矩")}};
         }
         Fact operator()(const sim::HarmonicTorque& d) const {
             return {phrase(lang, "hub torque $τ$ = {} N m sin(2π $t$ {} Hz + {})",
                            "轮毂力矩 $τ$ = {} N m sin(2π $t$ {} Hz + {})", number(d.amplitude, 4),
                            number(d.frequency, 4), degrees(d.phase, 4)),
-                    phrase(lang, "sinusoidal hub torque", "正弦轮毂力矩")};
+                    {phrase(lang, "sinusoidal hub torque", "正弦轮毂力矩")}};
         }
         Fact operator()(const sim::TorqueTable& d) const {
             return phrase(lang, "hub torque from a table of {} instants", "轮毂力矩由 {} 个时刻的表给定", d.t.size());
@@ -85,12 +85,12 @@ Fact drive_fact(const sim::Drive& drive, render::SpeedUnit unit, Lang lang) {
             if (d.speed == 0) return phrase(lang, "hub held", "轮毂固定");
             return {phrase(lang, "hub driven at $\\dot{{θ}}$ = {}", "轮毂以 $\\dot{{θ}}$ = {} 转动",
                            angular_speed_text(d.speed, unit)),
-                    phrase(lang, "hub driven at constant speed", "轮毂匀速转动")};
+                    {phrase(lang, "hub driven at constant speed", "轮毂匀速转动")}};
         }
         Fact operator()(const sim::SpinUp& d) const {
             return {phrase(lang, "hub spun up to {} within {} s", "轮毂在 {1} s 内加速至 {0}",
                            angular_speed_text(d.speed, unit), number(d.duration, 4)),
-                    phrase(lang, "hub spun up", "轮毂加速转动")};
+                    {phrase(lang, "hub spun up", "轮毂加速转动")}};
         }
         Fact operator()(const sim::AngleTable& d) const {
             return phrase(lang, "hub angle from a table of {} instants", "轮毂转角由 {} 个时刻的表给定", d.t.size());
@@ -121,9 +121,12 @@ Facts start_facts(const sim::Problem& p, render::SpeedUnit unit, Lang lang) {
 }
 
 Facts cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang) {
-    Facts out{fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
-              fmt::format("$R$ = {} m", number(c.radius, 4)), fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
-              fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
+    Facts out{
+        {fmt::format("$C$ = ({}, {}) m", number(c.centre.x, 4), number(c.centre.y, 4)),
+         {fmt::format("$C_x$ = {} m", number(c.centre.x, 4)), fmt::format("$C_y$ = {} m", number(c.centre.y, 4))}},
+        fmt::format("$R$ = {} m", number(c.radius, 4)),
+        fmt::format("$e$ = {} m", number(c.eccentricity, 4)),
+        fmt::format("$ψ_{{0}}$ = {}", degrees(c.phase, 4))};
     if (c.speed == 0)
         out.push_back(phrase(lang, "cam at rest", "凸轮静止"));
     else
@@ -136,10 +139,10 @@ Facts cam_facts(const sim::Cam& c, render::SpeedUnit unit, Lang lang) {
 
 Fact friction_fact(const sim::Friction& friction, Lang lang) {
     if (const auto* c = std::get_if<sim::CoulombFriction>(&friction))
-        return {fmt::format("$μ$ = {}", number(c->coefficient, 3)), phrase(lang, "Coulomb friction", "库仑摩擦")};
+        return {fmt::format("$μ$ = {}", number(c->coefficient, 3)), {phrase(lang, "Coulomb friction", "库仑摩擦")}};
     if (const auto* s = std::get_if<sim::StickSlipFriction>(&friction))
         return {fmt::format("$μ$ = {} ({})", number(s->coefficient, 3), phrase(lang, "stick–slip", "黏滑")),
-                phrase(lang, "stick–slip friction", "黏滑摩擦")};
+                {phrase(lang, "stick–slip friction", "黏滑摩擦")}};
     return phrase(lang, "no friction", "无摩擦");
 }
 
@@ -147,13 +150,14 @@ Facts contact_facts(const sim::Problem& p, Lang lang) {
     Facts out;
     const std::string restitution = number(p.contact.restitution, 3);
     if (p.contact.model == sim::ContactModel::compliant) {
-        out.push_back(
-            fmt::format("$K$ = {} N m^{{−{}}}", number(contact_stiffness(p), 4), number(p.contact.exponent, 3)));
+        const std::string stiffness = number(contact_stiffness(p), 4), exponent = number(p.contact.exponent, 3);
+        out.push_back({fmt::format("$K$ = {} N m^{{−{}}}", stiffness, exponent),
+                       {fmt::format("$K$ = {} N m^{{−$n$}}", stiffness), fmt::format("$n$ = {}", exponent)}});
         if (p.contact.damping == sim::DampingLaw::none)
             out.push_back(phrase(lang, "no dissipation in the contact", "接触无耗散"));
         else
             out.push_back({fmt::format("{} $c_{{\\r{{r}}}}$ = {}", name(p.contact.damping), restitution),
-                           name(p.contact.damping)});
+                           {name(p.contact.damping), fmt::format("$c_{{\\r{{r}}}}$ = {}", restitution)}});
     } else {
         out.push_back(phrase(lang, "impulsive contact ({})", "冲量接触（{}）", name(p.contact.law)));
         out.push_back(fmt::format("$c_{{\\r{{r}}}}$ = {}", restitution));
@@ -190,19 +194,23 @@ Facts cam_list(const Subject& of, const Varied&) {
     return out;
 }
 
-// The facts of the subject that the others share, or else briefly, separated by commas.
+// The facts of the subject, or the parts of them, that the others share, separated by commas.
 std::string shared(const Subject& of, const Varied& varied, Facts (*list)(const Subject&, const Varied&)) {
     std::vector<Facts> theirs;
     for (const sim::Problem& other : varied.others) theirs.push_back(list({other, of.units, of.lang}, varied));
     std::vector<std::string> out;
-    for (const Fact& fact : list(of, varied))
-        for (std::string Fact::*form : {&Fact::text, &Fact::brief})
-            if (!(fact.*form).empty() && std::ranges::all_of(theirs, [&](const Facts& facts) {
-                    return std::ranges::find(facts, fact.*form, form) != facts.end();
-                })) {
-                out.push_back(fact.*form);
-                break;
-            }
+    for (const Fact& fact : list(of, varied)) {
+        const auto all_have = [&](auto&& is_in) {
+            return std::ranges::all_of(theirs, [&](const Facts& facts) { return std::ranges::any_of(facts, is_in); });
+        };
+        if (all_have([&](const Fact& other) { return other.text == fact.text; })) {
+            out.push_back(fact.text);
+            continue;
+        }
+        for (const std::string& part : fact.parts)
+            if (all_have([&](const Fact& other) { return std::ranges::find(other.parts, part) != other.parts.end(); }))
+                out.push_back(part);
+    }
     return fmt::format("{}", fmt::join(out, phrase(of.lang, ", ", "，")));
 }
 

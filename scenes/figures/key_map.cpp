@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 
@@ -68,9 +69,14 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
     auto [any, low, high] = numbers;
     if (!any) throw render::PictureError(fmt::format("no point of this sweep has a number for \"{}\"", value));
     if (low == high) low -= 0.5, high += 0.5;
+    const bool both_signs = low < 0 && high > 0;
+    if (both_signs) high = std::max(-low, high), low = -high;
     for (std::size_t i = 0; i < cells.colors.size(); ++i)
-        if (!std::isnan(cells.values[i])) cells.colors[i] = figure::map_color((cells.values[i] - low) / (high - low));
-    panel.color_bar = figure::ColorBar{.label = map_label(points, value), .from = low, .to = high};
+        if (const double number = cells.values[i]; !std::isnan(number))
+            cells.colors[i] =
+                both_signs ? figure::signed_color(number / high) : figure::map_color((number - low) / (high - low));
+    panel.color_bar =
+        figure::ColorBar{.label = map_label(points, value), .from = low, .to = high, .is_signed = both_signs};
     panel.legend = figure::Legend::none;
 }
 

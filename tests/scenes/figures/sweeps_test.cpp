@@ -139,6 +139,18 @@ TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
     EXPECT_THAT(figure.caption, HasSubstr("largest Lyapunov exponent"));
 }
 
+TEST(Diagram, StatesTheOtherNumbersWhereOneOfAPairVaries) {
+    const auto caption = [](const char* key) {
+        const SweepGrid swept = grid(fmt::format(R"({{"over": [{{"key": "{}", "values": [1.5, 1.6]}}]}})", key));
+        return render::to_plain(
+            diagram("bifurcation", swept, data(swept, {AttractorClass::periodic}), "v_n_before").caption);
+    };
+    EXPECT_THAT(caption("cam.centre.1"), HasSubstr("Cx = 0.25 m, R"));
+    EXPECT_THAT(caption("contact.exponent"), HasSubstr("K = 10⁸ N m−n, lankarani"));
+    EXPECT_THAT(caption("contact.stiffness"), HasSubstr("n = 1.5, lankarani"));
+    EXPECT_THAT(caption("gravity"), HasSubstr("C = (0.25, 0) m"));
+}
+
 TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": [1, 2]}]})");
     using enum AttractorClass;
@@ -263,12 +275,15 @@ TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
         branch.points.push_back(point);
     }
     table.branches = {branch};
+    table.from = 0.5, table.to = 3;
     const Scene scene;
     EXPECT_THAT(branches_figure(table, {}, scene, Lang::en).panels[0].clouds, SizeIs(0));
     const auto figure = branches_figure(table, {{1.5, 1.6}, {0.2, 0.1}}, scene, Lang::en);
     ASSERT_THAT(figure.panels[0].clouds, SizeIs(1));
     EXPECT_EQ(figure.panels[0].clouds[0].y, (std::vector<double>{0.2, 0.1}));
     EXPECT_THAT(figure.panels[0].series, SizeIs(1));
+    EXPECT_EQ(figure.panels[0].x.from, 0.5);  // the range that was asked for
+    EXPECT_EQ(figure.panels[0].x.to, 3);
     EXPECT_THAT(figure.caption, HasSubstr("Dots: impacts of a sweep"));
 }
 
@@ -280,6 +295,7 @@ TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
     point.parameter = 10 * std::numbers::pi;
     table.branches.emplace_back().points = {point, point};
     table.branches[0].special.emplace_back().at = point;
+    table.from = 30, table.to = 40;
     Scene scene;
     scene.units.speed = render::SpeedUnit::rpm;
     const auto figure = branches_figure(table, {{10 * std::numbers::pi}, {0.2}}, scene, Lang::en);
@@ -374,7 +390,20 @@ TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
     EXPECT_TRUE(std::isnan(panel.cells.at(0).values[3]));
     EXPECT_EQ(panel.cells.at(0).colors[3].a, 0);
     EXPECT_EQ(panel.color_bar->to, 2);
+    EXPECT_FALSE(panel.color_bar->is_signed);
     EXPECT_THAT(figure.caption, HasSubstr("White"));
+    // Numbers of both signs, −1 to 2: white is 0, and as much below it is as dark as above.
+    some.read = [read = some.read](std::uint64_t k) {
+        output::StoredPoint p = read(k);
+        p.exponent -= 1;
+        return p;
+    };
+    const auto both = diagram("map", two, some, "exponent").panels.at(0);
+    EXPECT_TRUE(both.color_bar->is_signed);
+    EXPECT_EQ(both.color_bar->from, -1);
+    EXPECT_EQ(both.color_bar->to, 1);
+    EXPECT_EQ(both.cells.at(0).colors[1], render::figure::signed_color(0));
+    EXPECT_EQ(both.cells.at(0).colors[0], render::figure::signed_color(-1));
     // The mean of a column's samples, −1 and −2.
     EXPECT_EQ(diagram("map", two, some, "v_n_before").panels.at(0).cells.at(0).values[1], 1.5);
 }
