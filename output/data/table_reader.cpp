@@ -47,12 +47,24 @@ class CsvParser {
 
     bool next_line(std::string_view& line) {
         if (at_ >= text_.size()) return false;
-        const std::size_t end = std::min(text_.find('\n', at_), text_.size());
+        const std::size_t end = end_of_line();
+        line_ += lines_;
         line = text_.substr(at_, end - at_);
+        lines_ = 1 + static_cast<std::size_t>(std::ranges::count(line, '\n'));
         at_ = end + 1;
-        ++line_;
         if (line.ends_with('\r')) line.remove_suffix(1);
         return true;
+    }
+
+    // Line breaks in quotes belong to their cell (RFC 4180).
+    std::size_t end_of_line() const {
+        std::size_t end = std::min(text_.find('\n', at_), text_.size());
+        if (text_.substr(at_, end - at_).find('"') == text_.npos) return end;
+        for (std::size_t begin = at_;; begin = end + 1) {
+            end = std::min(text_.find_first_of(",\n", end_of_quotes(text_, begin)), text_.size());
+            if (end == text_.size() || text_[end] == '\n') break;
+        }
+        return end;
     }
 
     // Calls visit(cell, column of its first byte, number of the cell).
@@ -103,15 +115,16 @@ class CsvParser {
 
     void read_row(std::string_view line) {
         std::size_t cells = 0;
-        for_cells(line, [&](std::string_view cell, std::size_t column, std::size_t count) {
+        for_cells(line, [&](std::string_view raw, std::size_t column, std::size_t count) {
             cells = count + 1;
             if (count >= table_.columns.size()) return;
+            const std::string cell = unquoted(raw);
             std::optional<double> value = cell.empty() ? kNothing : number(cell);
             if (!value && table_.columns[count].name == "class") value = class_number(cell);
             if (!value && texts_ == Texts::kept) {
                 std::vector<std::string>& texts = table_.columns[count].texts;
                 texts.resize(table_.columns[count].values.size());
-                texts.push_back(unquoted(cell));
+                texts.push_back(cell);
                 value = kNothing;
             }
             if (!value) refuse(column, in_quotes(cell) + " is not a number");
@@ -148,7 +161,7 @@ class CsvParser {
     std::string_view text_;
     const std::string& file_;
     Texts texts_;
-    std::size_t at_ = 0, line_ = 0;
+    std::size_t at_ = 0, line_ = 0, lines_ = 1;  // of the file: the first of this row, their number in it
     ColumnTable table_;
     std::set<std::string> known_;  // its names
 };

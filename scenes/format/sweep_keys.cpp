@@ -215,6 +215,8 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
         const auto found = std::ranges::find(kSeedKinds, word, &sim::Named<SeedKind>::name);
         if (found == std::end(kSeedKinds) || found->value == SeedKind::random)
             return "write same, carry-up, carry-down, carry-up,carry-down, or random:N";
+        if (std::ranges::find(read.kinds, found->value) != read.kinds.end())
+            return fmt::format("{} is listed twice; remove one of them", word);
         read.kinds.push_back(found->value);
     }
     seeds = std::move(read);
@@ -246,6 +248,13 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
             all.push_back({at + ".count", "one value cannot have two ends; write at least 2, or equal ends"});
         else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
             all.push_back({at, "logarithmic spacing needs ends of one sign, neither of them 0"});
+        for (std::size_t k = 0; k < over.values.size(); ++k)
+            if (std::find(over.values.begin(), over.values.begin() + static_cast<long>(k), over.values[k]) !=
+                over.values.begin() + static_cast<long>(k)) {
+                all.push_back(
+                    {at + ".values", fmt::format("{:g} is listed twice; remove one of them", over.values[k])});
+                break;
+            }
         if (over.file.empty() != over.column.empty()) all.push_back({at, "file and column must be given together"});
     }
     const bool carries = std::ranges::any_of(
@@ -253,7 +262,11 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
     for (const SweptKey& over : sweep.over)
         if (carries && over.key.starts_with("initial."))
             all.push_back({"seed", fmt::format("a carried motion does not start at {}; use \"same\"", over.key)});
-    for (const RandomKey& key : sweep.seeds.keys) need_key("seed.key", key.key);
+    for (const RandomKey& key : sweep.seeds.keys) {
+        need_key("seed.key", key.key);
+        if (key.from > key.to)
+            all.push_back({"seed.key", fmt::format("\"from\" of {} is greater than \"to\"; exchange them", key.key)});
+    }
     if (!sweep.seeds.keys.empty() && !is_random(sweep.seeds))
         all.push_back({"seed.key", "random keys need random starts; add \"random\""});
     const sim::CamSpan& keep = sweep.sampling.keep;

@@ -44,10 +44,15 @@ std::string text_of_sample(const sim::Sampling& sampling) {
 
 static void resolve_table(SweptKey& over) {
     if (over.file.empty()) return;
-    const output::ColumnTable table = output::read_table(over.file);
-    const std::vector<double>* column = table.find(over.column);
-    if (!column) throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
-    over.values = *column;
+    const output::ColumnTable table = output::read_table(over.file, output::Texts::kept);  // in other columns
+    const auto column = std::ranges::find(table.columns, over.column, &output::TableColumn::name);
+    if (column == table.columns.end())
+        throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
+    for (const std::string& text : column->texts)
+        if (!text.empty())
+            throw SceneError(fmt::format("sweep.over: column {} of {}: {} is not a number", over.column, over.file,
+                                         in_quotes(text)));
+    over.values = column->values;
     std::erase_if(over.values, [](double value) { return std::isnan(value); });
     if (over.values.empty())
         throw SceneError(fmt::format("sweep.over: column {} of {} is empty", over.column, over.file));

@@ -284,6 +284,13 @@ TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
     const ColumnTable npz = read_table(scratch / "a.npz"), csv = read_table(scratch / "a.csv");
     EXPECT_EQ(*npz.find("k"), (std::vector<double>{0, 1, 2}));
     EXPECT_EQ(*csv.find("x"), (std::vector<double>{1, 1}));
+    // Quotes carry no meaning (RFC 4180), but for commas and line breaks within them; lines of the file are counted.
+    const ColumnTable quoted = parse_csv("a,note\n\"2\",\"one\ntwo, \"\"three\"\"\"\n3,4\n", "q.csv", Texts::kept);
+    EXPECT_EQ(quoted.columns[0].values, (std::vector<double>{2, 3}));
+    EXPECT_EQ(quoted.columns[1].text(0), "one\ntwo, \"three\"");
+    EXPECT_THAT(io_error_of([] { parse_csv("a,b\n1,\"2\n\"\nx,1\n", "q.csv", Texts::rejected); }),
+                ::testing::StartsWith("q.csv:2:3: "));
+    EXPECT_THAT(io_error_of([] { parse_csv("a,\"b\nc\"\nx,1\n", "q.csv"); }), ::testing::StartsWith("q.csv:3:1: "));
     const ColumnTable excel = parse_csv("\xEF\xBB\xBF\"t\", x\r\n1,+2\r\n3,\r\n", "e.csv");
     EXPECT_EQ(*excel.find("t"), (std::vector<double>{1, 3}));
     EXPECT_EQ(excel.find("x")->front(), 2);

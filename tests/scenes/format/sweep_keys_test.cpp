@@ -83,6 +83,10 @@ TEST(SweepKeys, AreRejectedWithTheRemedy) {
     EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "from": -1, "to": 2, "count": 4, "spacing": "log"}]})"),
                 HasSubstr("one sign"));
     EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + "," + kSpeed + "]}"), HasSubstr("listed twice"));
+    EXPECT_THAT(only(R"({"over": [{"key": "cam.speed", "values": [40, 41, 40]}]})"), HasSubstr("40 is listed twice"));
+    EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "seed": {"random": 2,
+                     "key": [{"key": "initial.angle", "from": 0.6, "to": 0.5}]}})"),
+                HasSubstr("exchange them"));
     EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "seed": "random"})"), HasSubstr("carry-up"));
     EXPECT_THAT(only(std::string(R"({"over": [)") + kSpeed + R"(], "sample": {"section": "thet", "at": 0}})"),
                 HasSubstr("did you mean \"theta\"?"));
@@ -107,7 +111,7 @@ TEST(SweepKeys, HaveWordsOnTheCommandLine) {
     EXPECT_THAT(seeds.kinds, ElementsAre(SeedKind::carry_up, SeedKind::carry_down));
     EXPECT_EQ(parse_seeds("random:8", seeds), "");
     EXPECT_EQ(seeds.random, 8);
-    for (const char* text : {"", "random", "random:0", "random:x", "up", "same,"})
+    for (const char* text : {"", "random", "random:0", "random:x", "up", "same,", "same,same"})
         EXPECT_NE(parse_seeds(text, seeds), "");
 }
 

@@ -196,7 +196,7 @@ TEST(SweepCommand, DrawsInTheUnitOfItsOption) {
 TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
     Folder folder;
     folder.write("s.json", kSweptScene);
-    folder.write("w.csv", "w\n40\n41.5\n");
+    folder.write("w.csv", "w,note\n40,first\n41.5,\n");  // texts in other columns do not matter
     const auto first_column = [&](const std::string& over) {
         const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --transient 5 --keep 1 --over '" + over + "'");
         EXPECT_EQ(done.code, 0) << done.err;
