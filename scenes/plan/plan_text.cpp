@@ -124,7 +124,8 @@ std::vector<std::string> work_without_cost(const Plan& plan) {
     };
     if (plan.simulation) check(plan.simulation->cost, "the motion");
     for (const Simulation& other : plan.others) check(other.cost, fmt::format("the motion of \"{}\"", other.label));
-    for (const Pictures& p : plan.pictures) check(p.cost, p.file);
+    for (const Pictures& p : plan.pictures)
+        check(p.cost, p.times_known ? p.file : p.file + " (at events, which are found first)");
     for (const FigureFile& f : plan.figures) check(f.cost, f.file);
     for (const DataFile& d : plan.data)
         if (d.numbers > 0) check(d.cost, d.file);

@@ -126,6 +126,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
          {std::pair{"figure s.json --channels theta --low 3 --high 1 -o a.pdf", "--high must be above --low"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "beamcam: no frame lies between 1 s and 0.5 s"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to must be later than --from"},
+          std::pair{"render s.json --from 30 -o a.mp4", "--from must be earlier than the end of the scene"},
           std::pair{"render s.json --frames 80:91 -o a.mp4", "the frames of the film are 0 … 89; END, not included"},
           std::pair{"render s.json --frames 9:9 -o a.mp4", "END must be above FIRST"},
           std::pair{"test s.json --tolerance motion=1e9", "--tolerance.motion = 1e9 is outside 0 … 1"}})
@@ -187,7 +188,8 @@ TEST(CommandLine, AFilmBetweenEventsInTheWrongOrderIsRejected) {
 TEST(CommandLine, QuotesTheUsersWordsAsTheyAre) {
     const Folder folder;
     folder.write("s.json", "{}");
-    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json --at 0.3 --style speed -o a.png").err, HasSubstr("--style = \"speed\""));
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json --at 0.3 --style speed -o a.png").err,
+                HasSubstr("--style = \"speed\""));
 }
 
 TEST(CommandLine, AnUnreadableSceneIsSix) {

@@ -26,6 +26,15 @@ TEST(Cache, GivesPlansTheDurationsOfEarlierRuns) {
     EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --no-cache").out, Not(HasSubstr("about")));
 }
 
+TEST(Cache, APlanSaysWhichCostDependsOnEvents) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.5}, "outputs": [{"type": "still", "file": "a.png", "at": "impact:1",
+        "size": [64, 64], "view": {"style": "flat"}}, {"type": "trajectory", "file": "t.csv"}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out,
+                HasSubstr("a.png (at events, which are found first)"));
+}
+
 // The start of drawing is most of the time of a single frame.
 TEST(Cache, AFewFramesDoNotEstimateAFilm) {
     const Folder folder;
