@@ -50,7 +50,8 @@ inline constexpr double kMostUnstable = 1e6;
 inline constexpr double kMovedSection = 0.01;  // [rad] smaller changes of the section are ignored
 inline constexpr double kNearSection = 0.1;    // of its flight: an impact so close to the section moves it
 inline constexpr double kAtRangeEnd = 1e-12;   // of the range: rounding
-// Of the orbit's size over its turns: first step onto the doubled branch, and how often it is halved until there is a point on it.
+// Of the orbit's size over its turns: first step onto the doubled branch, and how often it is halved until there is a
+// point on it.
 inline constexpr double kDoubledShift = 0.02;
 inline constexpr int kDoubledHalvings = 13;
 
