@@ -31,9 +31,8 @@ class PhasePanel final : public FilmPanel {
                 all.add({p.theta, p.theta_dot});
             }
         }
-        factor_ = context.shown_factor({ChannelKind::theta, 0});
-        axes_.x = axis(all.x0, all.x1, "$θ$", ChannelKind::theta);
-        axes_.y = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot);
+        axes_.x = axis(all.x0, all.x1, "$θ$", ChannelKind::theta, x_factor_);
+        axes_.y = axis(all.y0, all.y1, "d$θ$/d$t$", ChannelKind::theta_dot, y_factor_);
         Image none(1, 1);
         plot_.place(Canvas(none, *context.fonts), plot_area(slot.box, context.unit, context.tick));
         for (int m = 0; m < context.members(); ++m) paths_.push_back(path(m));
@@ -96,9 +95,9 @@ class PhasePanel final : public FilmPanel {
 
   private:
     Color color(std::size_t member) const { return series_color(*context_.palette, member); }
-    Axis axis(double low, double high, const std::string& symbol, ChannelKind kind) const {
-        if (!(low <= high)) low = 0, high = 1 / factor_;
-        low *= factor_, high *= factor_;
+    Axis axis(double low, double high, const std::string& symbol, ChannelKind kind, double factor) const {
+        if (!(low <= high)) low = 0, high = 1 / factor;
+        low *= factor, high *= factor;
         if (high - low < 1e-9) low -= 0.05, high += 0.05;
         const std::string unit = context_.shown_unit({kind, 0});
         return {.label = symbol + " / " + unit,
@@ -108,7 +107,7 @@ class PhasePanel final : public FilmPanel {
                 .short_numbers = true,
                 .grid = true};
     }
-    Vec2 to_pixels(double theta, double speed) const { return plot_.at(factor_ * theta, factor_ * speed); }
+    Vec2 to_pixels(double theta, double speed) const { return plot_.at(x_factor_ * theta, y_factor_ * speed); }
     Vec2 corner() const { return {accumulated_box().x, accumulated_box().y}; }
     TimedPath path(int member) const {
         const sim::Table& table = context_.motion(member).chart;
@@ -136,10 +135,12 @@ class PhasePanel final : public FilmPanel {
 
     const FilmContext& context_;
     Box box_;
+    // From SI to the units of the axes.
+    double x_factor_ = context_.shown_factor({ChannelKind::theta, 0});
+    double y_factor_ = context_.shown_factor({ChannelKind::theta_dot, 0});
     figure::PlotStyle style_;
     figure::Panel axes_;
     figure::Plot plot_;
-    double factor_ = 1;  // from SI to displayed units
     std::vector<TimedPath> paths_;
 };
 
