@@ -79,7 +79,7 @@ void add_hash(Grammar& grammar) {
         "with\n"
         "  ffmpeg -i FILE -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba \\\n"
         "         -f framehash -hash sha256 -\n"
-        "and for --whole with -f hash -hash sha256.";
+        "and for --whole with -f hash -hash sha256; a transparent .webm needs -c:v libvpx-vp9 before -i.";
 }
 
 }  // namespace beamcam::scenes

@@ -49,13 +49,20 @@ class FfmpegDecoder : public Decoder {
     }
 
   private:
+    // FFmpeg's own decoder of VP9 ignores the second stream of pictures in which WebM stores alpha.
+    bool has_alpha_apart() const {
+        const AVDictionaryEntry* mode = av_dict_get(stream_->metadata, "alpha_mode", nullptr, 0);
+        return stream_->codecpar->codec_id == AV_CODEC_ID_VP9 && mode != nullptr && mode->value == std::string("1");
+    }
     void open_codec() {
         const AVCodecParameters* parameters = stream_->codecpar;
-        const AVCodec* decoder = avcodec_find_decoder(parameters->codec_id);
+        const AVCodec* decoder =
+            has_alpha_apart() ? avcodec_find_decoder_by_name("libvpx-vp9") : avcodec_find_decoder(parameters->codec_id);
         if (decoder == nullptr)
-            throw MissingCodec(
-                "cannot read " + file_.file().string() + ": the FFmpeg libraries on this machine have no decoder for " +
-                avcodec_get_name(parameters->codec_id) + "; install the distribution's full build of libavcodec");
+            throw MissingCodec("cannot read " + file_.file().string() +
+                               ": the FFmpeg libraries on this machine have no decoder for " +
+                               avcodec_get_name(parameters->codec_id) + (has_alpha_apart() ? " with alpha" : "") +
+                               "; install the distribution's full build of libavcodec");
         codec_ = owned(avcodec_alloc_context3(decoder));
         int code = avcodec_parameters_to_context(codec_.get(), parameters);
         if (code < 0) file_.refuse(kDamaged, code);

@@ -21,9 +21,9 @@ namespace {
 std::string in_shell(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
 // One digest a picture, as FFmpeg's own program takes them.
-std::vector<std::string> framehash(const std::filesystem::path& file) {
+std::vector<std::string> framehash(const std::filesystem::path& file, const std::string& decoder = "") {
     const std::string text = output_of(
-        "ffmpeg -v error -i " + in_shell(file) +
+        "ffmpeg -v error " + decoder + " -i " + in_shell(file) +
         " -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact -pix_fmt rgba -f framehash -hash sha256 -");
     std::vector<std::string> digests;
     std::istringstream lines(text);
@@ -150,6 +150,20 @@ TEST(VideoReader, DigestsOfFilmsAreFFmpegs) {
         EXPECT_GE(expected.size(), 5u) << name;
         EXPECT_EQ(own_digests(scratch / name), expected) << name;
     }
+}
+
+// WebM stores alpha as a second stream of pictures, which only libvpx decodes.
+TEST(VideoReader, TransparentWebmKeepsItsAlpha) {
+    Scratch scratch;
+    make_film(scratch / "a.mkv");
+    output_of("ffmpeg -v error -i " + in_shell(scratch / "a.mkv") +
+              " -frames:v 6 -vf format=rgba,colorchannelmixer=aa=0.5 -c:v libvpx-vp9 -pix_fmt yuva420p " +
+              in_shell(scratch / "a.webm"));
+    EXPECT_EQ(own_digests(scratch / "a.webm"), framehash(scratch / "a.webm", "-c:v libvpx-vp9"));
+    VideoReader film(scratch / "a.webm");
+    Raster picture;
+    ASSERT_TRUE(film.next(picture));
+    for (std::size_t i = 3; i < picture.rgba.size(); i += 4) ASSERT_NEAR(picture.rgba[i], 128, 2) << i;
 }
 
 TEST(VideoReader, KnowsWhatTheFileSaysOfItself) {
