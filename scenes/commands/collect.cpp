@@ -23,7 +23,7 @@ void act(const CollectArguments& args) {
     manifest.require_replaceable(args.file);
     CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
     all.scene.set_outputs({SweepOutput{args.file}});
-    output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), to_json(all.scene)};
+    output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), metadata_json(all.scene)};
     output::write_sweep(manifest.target(args.file, std::move(origin)), all.data);
     manifest.save();
     inform(args.common, fmt::format("wrote {} ({} of {})", args.file, counted(all.data.points(), "point"),

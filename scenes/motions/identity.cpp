@@ -97,7 +97,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
         const char* epoch = figure->file.ends_with(".png") ? nullptr : std::getenv("SOURCE_DATE_EPOCH");
         other += fmt::format("\n{}", epoch ? epoch : "");
     }
-    return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, to_json(inputs)));
+    return output::sha256(fmt::format("inputs\n{}\n{}\n{}", program_identity(), other, metadata_json(inputs)));
 }
 
 }  // namespace beamcam::scenes

@@ -77,7 +77,7 @@ std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
 output::Target OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {
     output::Origin origin;
     if (output) origin.inputs = inputs_[*output];
-    if (lacks_metadata(file)) origin.version = kVersion, origin.scene = to_json(scene_);
+    if (lacks_metadata(file)) origin.version = kVersion, origin.scene = metadata_json(scene_);
     output::Target target = context_.manifest.target(file, std::move(origin));
     target.within = context_.options.directory;
     return target;

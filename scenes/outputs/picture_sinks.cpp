@@ -69,7 +69,7 @@ class CallbackSink final : public PictureSink {
 
 std::map<std::string, std::string> png_metadata(const SinkFiles& to) {
     std::map<std::string, std::string> all = {{"Software", fmt::format("beamcam {}", kVersion)},
-                                              {"beamcam-scene", to_json(to.scene)},
+                                              {"beamcam-scene", metadata_json(to.scene)},
                                               {"beamcam-accuracy", to.accuracy}};
     if (!to.scene.title.empty()) all["Title"] = render::plain_text(to.scene.title);
     return all;

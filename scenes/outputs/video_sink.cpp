@@ -28,7 +28,7 @@ std::vector<std::uint32_t> palette_of(render::Film& film) {
 output::VideoOptions options_of(const Pictures& p, render::Film& film, const SinkFiles& to) {
     output::VideoOptions options = video_options(p);
     if (options.codec == output::Codec::gif) options.palette = palette_of(film);
-    options.metadata = film_metadata(to_json(to.scene), to.scene.title);
+    options.metadata = film_metadata(metadata_json(to.scene), to.scene.title);
     options.metadata["beamcam-accuracy"] = to.accuracy;
     if (!p.part.empty()) options.metadata["beamcam-frames"] = p.part;
     if (p.chapters && p.part.empty()) options.chapters = to.track.chapters;

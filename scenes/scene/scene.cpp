@@ -47,6 +47,15 @@ std::vector<std::string> written_by(const Output& output) {
     return files;
 }
 
+std::string metadata_json(Scene scene) {
+    const auto strip = [](std::string& file) { file.erase(0, file.rfind('/') + 1); };  // npos + 1 is 0
+    for (Output& output : scene.outputs) {
+        std::visit([&](auto& each) { strip(each.file); }, output);
+        if (auto* figure = std::get_if<FigureOutput>(&output)) strip(figure->data_file), strip(figure->caption_file);
+    }
+    return to_json(scene);
+}
+
 double memory_of(const Picture& picture) {
     // Bytes per pixel, measured at 8192 × 8192 pixels: three layers and the rows of a PNG, and the buffers of OpenGL.
     const double pixels = double(picture.size.width) * picture.size.height;

@@ -44,8 +44,10 @@ struct Scene {
 // The output of a scene without outputs.
 PictureOutput default_film(const Scene& scene);
 
-// The scene as JSON in the scene format with all defaults. It reads back to the same scene, and is the metadata of
-// files made from it.
+// The scene as JSON in the scene format with all defaults. It reads back to the same scene.
 std::string to_json(const Scene& scene);
+// The same for the metadata of files made from it, which name their outputs without folders: they are the same bytes in
+// every folder.
+std::string metadata_json(Scene scene);
 
 }  // namespace beamcam::scenes

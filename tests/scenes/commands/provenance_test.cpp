@@ -64,6 +64,29 @@ TEST(Info, FiguresGiveBackTheSceneThatMakesTheSameBytes) {
     }
 }
 
+// Files name their outputs without folders, so the same film has the same bytes everywhere.
+TEST(Info, FilesAreTheSameBytesInEveryFolder) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    ASSERT_EQ(shell(folder, R"(mkdir one two; for e in png mp4 gif html glb; do at=--to; test $e = png && at=--at
+        for d in one "$PWD/two"; do $BEAMCAM render -q s.json --style flat --size 96x64 $at 0.05 -o "$d/a.$e" || exit
+        done; done)")
+                  .code,
+              0);
+    for (const std::string ending : {"png", "mp4", "gif", "html", "glb"}) {
+        const std::string one = testing::slurp(folder / ("one/a." + ending));
+        EXPECT_EQ(one, testing::slurp(folder / ("two/a." + ending))) << ending;
+        EXPECT_THAT(one, Not(HasSubstr("one/"))) << ending;
+        EXPECT_THAT(shell(folder, "$BEAMCAM info --json one/a." + ending).out,
+                    HasSubstr(fmt::format("\"file\": \"a.{}\"", ending)));
+    }
+    EXPECT_EQ(
+        shell(folder, "$BEAMCAM info --scene one/a.mp4 | $BEAMCAM run -q - -o again && cmp one/a.mp4 again/a.mp4").code,
+        0);
+    EXPECT_THAT(shell(folder, "$BEAMCAM render s.json --style flat --size 96x64 --at 0.05 -o \"$PWD/one/a.png\"").err,
+                HasSubstr("up to date"));
+}
+
 TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
     const Folder folder;
     folder.write("s.json", "{}");
