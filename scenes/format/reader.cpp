@@ -42,7 +42,7 @@ Scene read_tree(const Node& root, const Source& source, const std::string& scene
 
 std::string stem(const std::string& path) {
     std::string name = std::filesystem::path(path).stem().string();
-    return name.empty() || path == "-" ? "scene" : name;
+    return name.empty() ? "scene" : name;
 }
 
 struct CloseFile {
@@ -124,7 +124,7 @@ Source load_source(const std::string& path) {
         throw UnreadableFile(errno == ENOENT
                                  ? fmt::format("{} does not exist; `beamcam init` writes a first scene", path)
                                  : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
-    Source source{path == "-" ? "<stdin>" : path, {}, true};
+    Source source{path == "-" ? "stdin" : path, {}, true};
     std::array<char, 65536> block;
     while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {
         source.text.append(block.data(), n);

@@ -209,6 +209,12 @@ TEST(CommandLine, CheckReportsEveryScene) {
     EXPECT_EQ(shell(folder, "$BEAMCAM check - < good.json").code, 0);
 }
 
+TEST(CommandLine, ASceneFromStandardInputNamesItsFilesStdin) {
+    const Folder folder;
+    EXPECT_THAT(shell(folder, "echo '{}' | $BEAMCAM plan -").out, HasSubstr("video     stdin.mp4: "));
+    EXPECT_THAT(shell(folder, "echo '{,}' | $BEAMCAM check -").err, HasSubstr("stdin:1:2: "));
+}
+
 TEST(CommandLine, PlanPrintsDataAndDoesNothing) {
     const Folder folder;
     folder.write("s.json", "{}");
