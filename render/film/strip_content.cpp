@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <span>
+#include <string_view>
 
 #include "render/film/force_curve.hpp"
 #include "render/plot/channel_label.hpp"
@@ -17,6 +18,7 @@ using sim::ChannelKind;
 
 constexpr double kPaleShare = 0.5;     // of a curve's colour where the motion is not reproducible
 constexpr double kSingleDot = 0.02;    // of the panel's time: dots within it are one dot
+constexpr double kRounding = 1e-15;    // of lengths, relative to the beam's: a few units in the last place
 constexpr double kSingleShare = 0.45;  // of the colour of the past that a single dot of the future has
 
 std::string symbol_of(Channel channel) {
@@ -32,6 +34,9 @@ std::string colored(const std::string& markup, Color color) {
 }
 
 bool is_force(Channel c) { return c.kind == ChannelKind::contact_force; }
+bool is_length(const FilmContext& context, Channel c) {
+    return sim::unit(c, context.setup->problem) == std::string_view("m");
+}
 
 figure::Series curve_of(const FilmContext& context, int member, Channel channel) {
     if (is_force(channel)) return force_curve(context.motion(member), context.span);
@@ -78,12 +83,15 @@ Range range_of(const FilmContext& context, const PanelSpec& spec, const std::vec
     const auto& [any, low, high] = all;
     if (is_force(channel)) return {0, any && high > 0 ? 1.02 * high : 1};
     if (!any) return {0, 1};
-    // The axis of a constant: ± a twentieth of it, of a radian, or of one unit.
-    const double least = channel.kind == ChannelKind::theta ? 1e-9 : 1e-12 * std::max(std::abs(low), std::abs(high));
-    if (high - low <= least) {
-        const double share = 0.05, half = channel.kind == ChannelKind::theta ? share * context.shown_factor(channel)
-                                          : low == 0                         ? share
-                                                                             : share * std::abs(low);
+    // The axis of a constant: ± a twentieth of it, of a radian, or of one unit. A length below the rounding of
+    // positions is zero.
+    const bool angle = channel.kind == ChannelKind::theta, length = is_length(context, channel);
+    const double largest = std::max(std::abs(low), std::abs(high)),
+                 zero = length ? kRounding * context.setup->problem.beam.length : 0;
+    if (high - low <= (angle ? 1e-9 : std::max(1e-12 * largest, zero))) {
+        const double share = 0.05, half = angle             ? share * context.shown_factor(channel)
+                                          : largest <= zero ? share
+                                                            : share * std::abs(low);
         return {low - half, high + half};
     }
     return {low, high};

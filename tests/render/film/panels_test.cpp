@@ -952,6 +952,22 @@ TEST(CollisionStrip, ShowsTheWholeCollision) {
     }
 }
 
+// A deflection of the size of rounding errors is drawn as zero.
+TEST(Strips, RoundingOfALengthIsZero) {
+    const auto picture = [](double size) {
+        FilmSetup setup = test::flat_film({.duration = 0.5}, 960, 540);
+        setup.chart.channels.push_back({ChannelKind::tip_deflection, 0});
+        std::vector<double> v;
+        for (const double t : setup.chart.values[0]) v.push_back(size * std::sin(50 * t));
+        setup.chart.values.push_back(v);
+        setup.layout = leaf(strip(ChannelKind::tip_deflection));
+        Film film(std::move(setup));
+        return drawn(film, 20);
+    };
+    EXPECT_EQ(picture(1e-22), picture(0));
+    EXPECT_NE(picture(1e-12), picture(0));
+}
+
 // Numbers with many decimals stand apart.
 TEST(Strips, NumbersOfAShortWindowStandApart) {
     FilmSetup setup = test::flat_film({.duration = 1}, 1280, 720);
