@@ -181,9 +181,8 @@ void Chart::draw_readings(Canvas& canvas, std::span<const double> readings) cons
     const double widest = widest_reading(canvas);
     double right = plot_.box().right() + 8 * u;
     for (std::size_t i = readings.size(); i-- > 0;) {
-        // Of several motions those without a force have no number: a row of zeros would say nothing.
-        const bool idle = readings.size() > 1 && !c_.reading_unit.empty() && readings[i] == 0;
-        const double v = idle ? std::numeric_limits<double>::quiet_NaN() : readings[i];
+        const bool blank = c_.blank_zeros && readings[i] == 0;
+        const double v = blank ? std::numeric_limits<double>::quiet_NaN() : readings[i];
         const bool has_name = (named || names_only) && i < c_.panel.series.size();
         const std::string label = has_name ? name_of(c_.panel.series[i], named) : std::string();
         const TextStyle style = reading_style(readable(palette_, reading_color(i)));

@@ -29,6 +29,7 @@ struct ChartContent {
     // prefix.
     std::string reading_unit = {};
     bool names_first = false;  // rather the names of the curves than their readings, if only one of them has room
+    bool blank_zeros = false;  // a reading of zero has no number
 
     Range time() const { return {*panel.x.from, *panel.x.to}; }
     Range values() const { return {*panel.y.from, *panel.y.to}; }

@@ -905,6 +905,29 @@ TEST(ForceStrip, ReadsTheForceWithThePrefixOfItsLabel) {
     EXPECT_GT(reading_width(0.4), 1.8 * reading_width(0));
 }
 
+// Several forces of one motion have readings of zero, as one force alone has; of several motions they would be a row of
+// zeros.
+TEST(ForceStrip, ReadsZeros) {
+    const auto readings = [](FilmSetup setup) {
+        setup.poses[0].nearest->force = 0;
+        setup.layout = leaf({.kind = PanelKind::strip,
+                             .channels = {{ChannelKind::contact_force, 0}, {ChannelKind::friction_force, 0}}});
+        setup.chart.channels.push_back({ChannelKind::friction_force, 0});
+        setup.chart.values.emplace_back(setup.chart.values[0].size(), 0.0);
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(0);
+        const Box box = g.layout.first(PanelKind::strip)->box;
+        std::vector<double> widths;  // from the right
+        for (const Box& text : g.texts)
+            if (text.y < box.y + 30 * g.layout.unit && text.x > box.centre().x) widths.push_back(text.w);
+        return widths;
+    };
+    const std::vector<double> found = readings(struck(strip(ChannelKind::contact_force), {0.04}));
+    ASSERT_EQ(found.size(), 4u);    // two numbers and two names
+    EXPECT_EQ(found[0], found[2]);  // "0 N" twice, not a dash
+    EXPECT_GT(found[0], found[1]);  // than "F"
+}
+
 // The reading is at the right end of the heading's line while the cursor is inside the axes.
 bool has_reading(const FrameGeometry& g) {
     const Box box = g.layout.first(PanelKind::strip)->box;

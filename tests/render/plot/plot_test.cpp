@@ -92,16 +92,17 @@ TEST(Plot, TicksOfEventsAreBetweenTheAxisAndItsNumbers) {
         }
 }
 
-// Of several motions, those without a force have no reading.
-TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideOthers) {
+// Of several motions, those without a force have no reading; several forces of one motion have theirs.
+TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideThoseOfOtherMotions) {
     ChartContent content;
     content.set_time({0, 1}, 1, "t");
     content.set_values({0, 100}, "F", "N");
     content.reading_unit = "N";
     content.panel.series.resize(2);
     const Fonts fonts;
-    const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 0.5, 9), fonts);
-    const auto readings = [&](std::vector<double> values) {
+    const auto readings = [&](std::vector<double> values, bool of_several_motions = true) {
+        content.blank_zeros = of_several_motions;
+        const Chart chart(content, {0, 0, 300, 160}, kBox, film_style(palette(Theme::light), 0.5, 9), fonts);
         Image image(300, 160);
         Canvas canvas(image, fonts);
         std::vector<Box> texts;
@@ -112,7 +113,8 @@ TEST(Chart, ForcesThatAreZeroHaveNoReadingBesideOthers) {
     EXPECT_EQ(readings({3, 5}), 2u);
     EXPECT_EQ(readings({0, 5}), 1u);
     EXPECT_EQ(readings({0, 0}), 0u);
-    EXPECT_EQ(readings({0}), 1u);  // of one motion it keeps its place
+    EXPECT_EQ(readings({0, 0}, false), 2u);
+    EXPECT_EQ(readings({0}, false), 1u);
 }
 
 // A window moves the curves and its numbers, and no number is before the first instant of the film.
