@@ -13,6 +13,7 @@ constexpr double kSameEpisode = 0.5;         // longest time without a force dur
 constexpr std::size_t kMeasuredPushes = 60;  // number of forces whose texts are measured to find the widest label
 // Beyond it a line that follows the arrow would sweep the picture [design px].
 constexpr double kFarthestArrow = 320;
+constexpr double kPast = 0.4;                    // share of the colour that the arrow of a peak has after its contact
 constexpr double kSample = 44, kSampleGap = 12;  // length of a sample, and its distance from the text [design px]
 
 }  // namespace
@@ -178,14 +179,16 @@ void draw_force(const MechanismScene& s) {
     const ForceArrow& arrow = *s.arrow;
     const Vec2 foot = s.px(arrow.foot), tip = arrow_tip(s.at, s.view, arrow);
     const double length = s.at.moved ? norm(tip - foot) : arrow_length(s.at, arrow);
-    draw_arrow(s.canvas, foot, tip, length, s.at.palette.contact, s.at.marks);
+    const bool past = arrow.is_peak && !(s.pose.nearest && s.pose.nearest->force > 0);
+    const Color color = past ? s.at.palette.tint(s.at.palette.contact, kPast) : s.at.palette.contact;
+    draw_arrow(s.canvas, foot, tip, length, color, s.at.marks);
     if (!names_force(s)) return;
     const LabelPlace& label = *s.at.labels->force;
     const double u = s.at.unit, sample = label.has_sample ? kSample * u : 0;
     if (const double opacity = label.opacity_at(s.frame); label.has_sample && opacity > 0) {
         const Box box = s.label_box(label, arrow.foot);
         const Vec2 from{box.x + 5 * s.at.marks, box.centre().y};
-        draw_arrow(s.canvas, from, {box.x + sample, from.y}, sample, s.at.palette.contact.faded(opacity), s.at.marks);
+        draw_arrow(s.canvas, from, {box.x + sample, from.y}, sample, color.faded(opacity), s.at.marks);
     }
     draw_label(s, label, force_label(s.at, arrow), force_style(s.at), arrow.foot,
                sample > 0 ? sample + kSampleGap * u : 0);

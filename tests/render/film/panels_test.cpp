@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "render/draw/accumulated.hpp"
+#include "render/draw/blend.hpp"
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/markup.hpp"
 #include "render/film/film.hpp"
@@ -269,6 +270,22 @@ TEST(Peaks, GiveWayToAContactThatLasts) {
     const int touch = 19;
     for (int k : {touch, touch + 2, touch + 6}) EXPECT_EQ(drawn(both, k), drawn(alone, k)) << k;
     EXPECT_NE(drawn(held, touch + 6), drawn(alone, touch + 6));
+}
+
+// The arrow of a peak is pale when its contact is over, so that it does not look like a force of this instant.
+TEST(Peaks, ThatArePastHavePaleArrows) {
+    const Palette p = palette(Theme::light);
+    const auto pixels = [&](double force, Color color) {
+        FilmSetup setup = test::flat_film({.duration = 1.2}, 1280, 720);
+        setup.layout = LayoutNode{};
+        setup.impacts = {brief_impact(0.3, 100)};
+        setup.poses[24].nearest->force = force;
+        Film film(std::move(setup));
+        return std::ranges::count(drawn(film, 24).pixels, pixel_of(color));
+    };
+    const auto label = pixels(0, p.contact), all = pixels(1, p.contact);
+    EXPECT_GT(all, label + 100);
+    EXPECT_GT(pixels(0, p.tint(p.contact, 0.4)), 100);
 }
 
 // The leader line from a caption to the contact does not cross the disc.
