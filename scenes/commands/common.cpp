@@ -75,7 +75,8 @@ Scene load_scene(const std::string& path, const Common& common) {
 
 void add_shard(Command& app, std::optional<std::string>& shard) {
     app.option("--shard", &shard, "I/N",
-               "Make part I of N of every film and sequence, with the pixels of the whole: 2/3 writes NAME.2of3.mp4. "
+               "Make part I of N of every film and sequence: 2/3 writes NAME.2of3.mp4. Its pictures are those of the whole "
+               "before encoding. "
                "Part 1 makes the other outputs. auto: the part of this array task of Slurm, Grid Engine or PBS");
 }
 
