@@ -61,13 +61,18 @@ void PanelDrawing::place_marks() {
     }
 }
 
-// Places the labels of rules where they cover least; the right end wins ties.
+// Places the labels of rules where they cover least, rather not across another rule; the right end wins ties.
 void PanelDrawing::place_rules() {
     const Box& plot = plot_.box();
     TextStyle l = style_.tick_numbers();
     l.color = kMuted;
+    const auto along_of = [&](const Rule& r) { return r.vertical ? plot_.along_x(r.at) : plot_.along_y(r.at); };
     for (const Rule& r : panel_.rules) {
-        const double along = r.vertical ? plot_.along_x(r.at) : plot_.along_y(r.at);
+        const double along = along_of(r);
+        const auto crosses = [&](const Box& box, const Rule& other) {
+            const double at = along_of(other), low = r.vertical ? box.x : box.y;
+            return other.vertical == r.vertical && at > low && at < low + (r.vertical ? box.w : box.h);
+        };
         if (r.label.empty() || !inside(plot, r.vertical ? Vec2{along, plot.y} : Vec2{plot.x, along}, 1e-6)) continue;
         const Box size = sheet_.measure(r.label, l);
         const double room = (r.vertical ? plot.h - size.h : plot.w - size.w) - 2 * style_.gap;
@@ -79,7 +84,10 @@ void PanelDrawing::place_rules() {
                 const double beside = side < 0 ? along - off - (r.vertical ? size.w : size.h) : along + off;
                 const Box box = r.vertical ? Box{beside, plot.y + room + 2 * style_.gap - from, size.w, size.h}
                                            : Box{plot.x + from, beside, size.w, size.h};
-                const double cost = 10 * taken_->cost(box.inset(-1)) + 0.1 * k + 0.05 * side;
+                const auto crossed =
+                    std::ranges::count_if(panel_.rules, [&](auto& each) { return crosses(box, each); });
+                const double cost =
+                    10 * taken_->cost(box.inset(-1)) + 3 * static_cast<double>(crossed) + 0.1 * k + 0.05 * side;
                 if (cost < least) least = cost, best = box;
             }
         taken_->cover(best);

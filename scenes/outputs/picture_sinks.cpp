@@ -36,8 +36,9 @@ class PngSink final : public PictureSink {
     void finish() override {
         if (p_.kind == Pictures::Kind::still) return to_.files.wrote(to_.files.path_of(p_.file), "");
         to_.context.progress.end();
-        to_.context.print("wrote {} … {} ({})\n", path_of(0).string(),
-                          numbered_file(p_.file, p_.first_frame + p_.draw.back()), counted(p_.draw.size(), "frame"));
+        const std::string last = numbered_file(p_.file, p_.first_frame + p_.draw.back());
+        to_.context.print("wrote {}{} ({})\n", path_of(0).string(), p_.draw.size() > 1 ? " … " + last : "",
+                          counted(p_.draw.size(), "frame"));
     }
 
   private:

@@ -7,6 +7,7 @@
 #include "output/files/atomic_file.hpp"
 #include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/report.hpp"
+#include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -120,13 +121,14 @@ std::string to_html(const RegressionResult& result, const std::string& title, co
         "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">"
         "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
         "<title>{0}</title><link rel=\"stylesheet\" href=\"report.css\"></head><body>\n<h1>{0}</h1>\n"
-        "<p class=\"soft\">{1} entries, {2} simulations, {3} pictures</p>\n"
+        "<p class=\"soft\">{1}, {2}, {3}</p>\n"
         "<input type=\"radio\" name=\"show\" id=\"show-all\" checked><label for=\"show-all\">all</label>\n"
         "<input type=\"radio\" name=\"show\" id=\"show-changed\"><label for=\"show-changed\">not identical</label>\n"
         "<input type=\"radio\" name=\"show\" id=\"show-failed\"><label for=\"show-failed\">failed</label>\n"
         "<main>\n<table><thead><tr><th>entry</th><th>picture</th><th>motion</th><th>pictures</th><th>seconds</th></tr>"
         "</thead><tbody>\n{4}</tbody></table>\n{5}</main></body></html>\n",
-        escaped_for_xml(title), result.entries.size(), result.simulations, result.pictures, rows, sections);
+        escaped_for_xml(title), counted(result.entries.size(), "entry"), counted(result.simulations, "simulation"),
+        counted(result.pictures, "picture"), rows, sections);
 }
 
 }  // namespace

@@ -208,6 +208,18 @@ TEST(Figure, RulesHaveTheirWordsUnlessTheyAreBeyondTheAxes) {
             EXPECT_FALSE(drawn.written[i].box.inset(0.3).overlaps(drawn.written[k].box.inset(0.3)));
 }
 
+// The label of each of two close rules is on its own side of both.
+TEST(Figure, LabelsOfCloseRulesKeepTheirOrder) {
+    Figure figure = plot({0, 1}, {0, 1});
+    figure.panels[0].rules = {{.at = 0.400, .vertical = true, .label = "first"},
+                              {.at = 0.403, .vertical = true, .label = "second"}};
+    const Drawn drawn = draw_png(figure);
+    const auto place = [&](const char* words) {
+        return std::ranges::find(drawn.written, words, &PageCanvas::Written::markup)->box;
+    };
+    EXPECT_LT(place("first").right(), place("second").x);
+}
+
 // An inset becomes smaller, then is left out, rather than hiding a curve.
 TEST(Figure, AnInsetNeverCoversData) {
     const auto written_in_inset = [](int oscillations) {

@@ -119,8 +119,9 @@ TEST(Foreign, AnAcceptedFilmIsWhatASceneIsHeldTo) {
                  R"({"entries": {"film": {"scene": {"time": {"end": 0.4}}, "expected": "film.mp4", "physics": false,
   "output": {"type": "frames", "fps": 10, "size": [320, 180], "view": {"style": "flat"}}, "tolerance": {"ssim": 0.97}}}})");
     const std::string accepted = slurp(folder / "f.json");
-    const Finished alike = shell(folder, "$BEAMCAM test f.json");
+    const Finished alike = shell(folder, "$BEAMCAM test f.json --report r");
     EXPECT_EQ(alike.code, 0) << alike.out;
+    EXPECT_THAT(slurp(folder / "r/index.html"), HasSubstr("1 entry, 1 simulation, 4 pictures"));
     EXPECT_THAT(alike.out, HasSubstr("equivalent  film"));
     EXPECT_EQ(shell(folder, "$BEAMCAM test f.json --tolerance ssim=1").code, 7);
     EXPECT_EQ(slurp(folder / "f.json"), accepted);
