@@ -28,17 +28,21 @@ class TracesPanel final : public FilmPanel {
         const Box room{box_.x, box_.y + 40 * u, box_.w, box_.h - 40 * u - 74 * u};
         radius_ = 0.5 * std::min(room.w, room.h) / 1.42;
         centre_ = room.centre();
-        beam_ = {box_.x + 12 * u, box_.bottom() - 34 * u, box_.w - 24 * u, 8 * u};
+        axes_ = plot_area(box_, u, context.tick);
+        beam_ = {axes_.x, box_.bottom() - 34 * u, axes_.w, 8 * u};
     }
     std::unique_ptr<State> make_state() const override { return std::make_unique<Spokes>(context_, member_); }
 
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const Palette& p = *context_.palette;
-        // The heading is above those of charts in the same column.
-        const Box axes = plot_area(box_, u, context_.tick);
-        draw_heading(canvas, context_, {axes.x, box_.y, axes.w, axes.h},
-                     context_.translate("Contact trace on disc and beam") + motion_suffix(context_, member_));
+        const TextStyle heading{.size = context_.heading(), .weight = Weight::semibold};
+        const std::string suffix = motion_suffix(context_, member_);
+        draw_heading(canvas, context_, {axes_.x, box_.y, axes_.w, axes_.h},
+                     first_that_fits(canvas,
+                                     {context_.translate("Contact trace on disc and beam") + suffix,
+                                      context_.translate("Contact trace") + suffix},
+                                     heading, axes_.w));
         canvas.circle(centre_, radius_);
         canvas.fill_keeping_path(p.tint(p.steel, 0.5));
         canvas.stroke({p.steel_edge, 1.6 * u});
@@ -85,7 +89,7 @@ class TracesPanel final : public FilmPanel {
   private:
     const FilmContext& context_;
     int member_;
-    Box box_, beam_;
+    Box box_, axes_, beam_;  // `axes_`: as wide as those of charts in the same column
     Vec2 centre_;
     double radius_ = 1;
 };

@@ -9,6 +9,7 @@ namespace {
 constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
     {"Contact trace on disc and beam", "圆盘与梁上的接触轨迹"},
+    {"Contact trace", "接触轨迹"},
     {"Contact close-up", "接触点放大"},
     {"age of the trace", "轨迹时间"},
     {"bending moment", "弯矩"},
