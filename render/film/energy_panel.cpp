@@ -10,8 +10,8 @@ namespace {
 
 using sim::ChannelKind;
 
-// T + (V − least V) + U + U_c + losses, stacked: their sum is the initial energy plus the work done by cam and drive,
-// so the outline of the stack is the supplied energy.
+// V + T + U + U_c + losses, stacked: their sum is the initial energy plus the work done by cam and drive, so the
+// outline of the stack is the supplied energy. Where V < 0 its band is below zero, and the others are stacked on zero.
 class EnergyPanel final : public ChartPanel {
   public:
     EnergyPanel(const FilmContext& context, const PanelSlot& slot)
@@ -56,24 +56,26 @@ class EnergyPanel final : public ChartPanel {
         const sim::Table& table = context.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});
         std::vector<double> base(t ? t->size() : 0, 0.0);
-        double most = 0;
+        Extent shown;
         for (const Part& part : parts(context)) {
             figure::Band band{.low = base, .high = base, .color = part.color, .faint = part.color.faded(0.28)};
             if (t) band.x = *t;
             for (ChannelKind kind : part.channels) {
                 const auto* v = column(table, {kind, 0});
                 if (!v || v->empty()) continue;
-                const double zero = zero_of(table, {kind, 0});
                 // Without a cam the channels of contact are empty.
                 for (std::size_t i = 0; i < base.size(); ++i)
-                    if (!std::isnan((*v)[i])) band.high[i] += std::max((*v)[i] - zero, 0.0);
+                    if (const double value = (*v)[i]; kind == ChannelKind::energy_potential && value < 0)
+                        band.low[i] = value;
+                    else if (value > 0)
+                        band.high[i] += value;
             }
             base = band.high;
-            for (double v : base)
-                if (v > most) most = v;
+            shown.add(band.low), shown.add(band.high);
             c.panel.bands.push_back(std::move(band));
         }
-        c.set_values({0, most > 0 ? 1.02 * most : 1}, "$E$", "J");
+        const auto& [any, low, high] = shown;
+        c.set_values({1.02 * low, high > low ? 1.02 * high : 1}, "$E$", "J");
         return c;
     }
 
@@ -127,8 +129,9 @@ class EnergyPanel final : public ChartPanel {
         const sim::Table& table = context_.motion(member_).chart;
         return std::ranges::any_of(part.channels, [&](ChannelKind kind) {
             const auto* v = column(table, {kind, 0});
-            const double zero = zero_of(table, {kind, 0});
-            return v && std::ranges::any_of(*v, [&](double value) { return value > zero; });
+            return v && std::ranges::any_of(*v, [&](double value) {
+                       return value > 0 || (value < 0 && kind == ChannelKind::energy_potential);
+                   });
         });
     }
     // The motion's label, over the bands.

@@ -44,7 +44,7 @@ figure::Series curve_of(const FilmContext& context, int member, Channel channel)
     const Motion& one = context.motion(member);
     const auto *t = column(one.chart, {ChannelKind::t, 0}), *v = column(one.chart, channel);
     if (t && v) curve.x = *t, curve.y = *v;
-    for (double& value : curve.y) value = context.shown_factor(channel) * (value - zero_of(one.chart, channel));
+    for (double& value : curve.y) value *= context.shown_factor(channel);
     return curve;
 }
 
@@ -204,11 +204,6 @@ static void add_data(const FilmContext& context, const PanelSpec& spec, ChartCon
         }
 }
 
-double zero_of(const sim::Table& table, Channel channel) {
-    const auto* v = channel.kind == ChannelKind::energy_potential ? column(table, channel) : nullptr;
-    return v && !v->empty() ? *std::ranges::min_element(*v) : 0;
-}
-
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member) {
     ChartContent c;
     c.window = spec.window;
@@ -235,7 +230,7 @@ double reading(const FilmContext& context, int member, int frame, Channel channe
     if (channel.kind == ChannelKind::contact_x) return pose.nearest && pose.nearest->touching ? pose.nearest->x : kNan;
     const sim::Table& table = context.motion(member).chart;
     const auto *t = column(table, {ChannelKind::t, 0}), *v = column(table, channel);
-    return t && v ? context.shown_factor(channel) * (value_at(*t, *v, pose.t) - zero_of(table, channel)) : kNan;
+    return t && v ? context.shown_factor(channel) * value_at(*t, *v, pose.t) : kNan;
 }
 
 std::vector<double> readings_of_data(const FilmContext& context, const PanelSpec& spec, double t) {

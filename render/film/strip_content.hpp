@@ -11,8 +11,6 @@ namespace beamcam::render {
 
 // Colour of an energy, the same in strips and in the energy panel; none for other channels.
 std::optional<Color> energy_color(const Palette& palette, sim::ChannelKind kind);
-// The zero of the displayed values: the minimum for potential energy, otherwise 0.
-double zero_of(const sim::Table& table, sim::Channel channel);
 // A chart with time axis and marks of impacts, without curves. `member` < 0: impacts of all motions.
 ChartContent blank_content(const FilmContext& context, const PanelSpec& spec, int member);
 // A chart with the curves of a strip's channels for all motions.

@@ -27,7 +27,7 @@ constexpr LabelRow kLabels[] = {
     {ChannelKind::cam_angle, {"Cam angle", "凸轮转角", "ψ"}},
     {ChannelKind::q, {"Modal coordinate", "模态坐标", "q"}},
     {ChannelKind::energy_kinetic, {"Kinetic energy", "动能", "T"}},
-    {ChannelKind::energy_potential, {"Potential energy", "势能", "V − V", "min"}},  // above its least value
+    {ChannelKind::energy_potential, {"Potential energy", "势能", "V"}},
     {ChannelKind::energy_elastic, {"Bending energy", "弯曲能", "U"}},
     {ChannelKind::energy_contact, {"Energy in the contact", "接触能", "U", "c"}},
     {ChannelKind::loss_structural, {"Lost in the beam", "结构耗散", "D", "s"}},

@@ -20,14 +20,6 @@ using sim::Channel;
 
 // ---- values ---------------------------------------------------------------------------------------
 
-// Only differences of potential energy are physical: its least value becomes zero.
-std::vector<double> above_zero(std::vector<double> values, Channel channel) {
-    if (channel.kind != sim::ChannelKind::energy_potential || values.empty()) return values;
-    const double least = *std::ranges::min_element(values);
-    for (double& v : values) v -= least;
-    return values;
-}
-
 bool has_values(const sim::Table& table) {  // in its last channel
     return std::ranges::any_of(table.values.back(), [](double v) { return std::isfinite(v); });
 }
@@ -116,7 +108,6 @@ class SeriesPanelMaker {
     }
     sim::Table rows_of(const SeriesCurve& curve) const {
         sim::Table rows = plan_.rows(curve, results_);
-        if (!curve.sum) rows.values.back() = above_zero(std::move(rows.values.back()), curve.channel);
         for (double& v : rows.values.back())
             if (is_closure()) v = std::max(std::abs(v), rounding(curve));
         return rows;
@@ -212,8 +203,7 @@ class SeriesPanelMaker {
         const Measurement& data = measured.data;
         const auto along = plan_.abscissa.of(data, plan_.motion_with_data().problem);
         if (!along) return;
-        Series points = measured_series(
-            data, *along, scaled(above_zero(*data.find(channel), channel), side.measure.factor), curves_++);
+        Series points = measured_series(data, *along, scaled(*data.find(channel), side.measure.factor), curves_++);
         points.right = side.right;
         plan_.abscissa.fold(points);
         if (plan_.keys.residuals && !side.right) add_difference(measured, channel, points);

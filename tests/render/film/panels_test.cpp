@@ -766,6 +766,41 @@ TEST(Energy, LossesThatNobodyHasLeaveTheOthers) {
     EXPECT_EQ(empty.pixels, zero.pixels);
 }
 
+// The potential energy is zero at the height of O, whatever part of the motion is shown; below it the other terms are
+// stacked on zero.
+TEST(Energy, PotentialIsThatOfTheTrajectory) {
+    const auto chart = [](double potential, double kinetic) {
+        FilmSetup setup = test::flat_film({.duration = 0.3, .cam = false}, 960, 540);
+        const std::size_t rows = setup.chart.values[0].size();
+        for (const auto& [kind, value] : {std::pair{ChannelKind::energy_kinetic, kinetic},
+                                          {ChannelKind::energy_potential, potential},
+                                          {ChannelKind::energy_elastic, 1.0}}) {
+            setup.chart.channels.push_back({kind, 0});
+            setup.chart.values.emplace_back(rows, value);
+        }
+        setup.layout = leaf({.kind = PanelKind::energy});
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(12);
+        const Box plot = plot_area(g.layout.panels.front().box, g.layout.unit, g.layout.tick);
+        const Image image = drawn(film, 12);
+        // Rows of each colour in a column of the past.
+        const auto share = [&](ChannelKind kind) {
+            int count = 0;
+            for (int y = int(plot.y); y < int(plot.bottom()); ++y)
+                count += image.pixels[std::size_t(y) * std::size_t(image.width) + std::size_t(plot.x + 0.3 * plot.w)] ==
+                         pixel_of(*energy_color(palette(Theme::light), kind));
+            return count / plot.h;
+        };
+        return std::array{share(ChannelKind::energy_potential), share(ChannelKind::energy_kinetic),
+                          share(ChannelKind::energy_elastic)};
+    };
+    const auto above = chart(6, 3), below = chart(-4, 5);  // axes of 0…10 or 12 J, −5…6 J
+    EXPECT_NEAR(above[0] / above[1], 2, 0.1);
+    EXPECT_NEAR(above[1] / above[2], 3, 0.15);
+    EXPECT_NEAR(below[0] / below[1], 0.8, 0.05);
+    EXPECT_NEAR(below[1] / below[2], 5, 0.25);
+}
+
 // Rows of the chart are coarser than an impact: the curve shows its peak nevertheless.
 TEST(ForceStrip, ReachesThePeakOfEveryImpact) {
     const auto highest = [](double end) {

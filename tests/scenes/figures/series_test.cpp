@@ -226,9 +226,12 @@ TEST(Series, DrawsSumsAgainstAnyAbscissa) {
     }
 }
 
-TEST(Series, CountsPotentialEnergyFromItsLeast) {
-    const Figure figure = figure_of(R"("channels": ["energy_potential"])");
-    EXPECT_EQ(*std::ranges::min_element(figure.panels[0].series[0].y), 0);
+// Zero is the height of O, as in a trajectory: a curve alone equals the sum of one channel.
+TEST(Series, CountsPotentialEnergyFromO) {
+    const Figure alone = figure_of(R"("channels": ["energy_potential"])"),
+                 sum = figure_of(R"("panels": [{"sums": [{"label": "V", "plus": ["energy_potential"]}]}])");
+    EXPECT_EQ(alone.panels[0].series[0].y, sum.panels[0].series[0].y);
+    EXPECT_EQ(alone.panels[0].y.label, "$V$ / J");
 }
 
 TEST(Series, MarksImpacts) {
