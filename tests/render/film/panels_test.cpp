@@ -910,6 +910,23 @@ double highest_past(Film& film, int frame) {
     return 0;
 }
 
+// A heading that has no room is shorter, not cut.
+TEST(Traces, HaveAShortHeadingInANarrowColumn) {
+    const auto heading = [](int width) {
+        FilmSetup setup = test::flat_film({.duration = 0.3}, width, 540);
+        setup.layout = leaf({.kind = PanelKind::traces});
+        Film film(std::move(setup));
+        const FrameGeometry g = film.geometry(2);
+        const Box box = g.layout.panels.front().box;
+        const auto text = std::ranges::find_if(
+            g.texts, [&](const Box& each) { return box.contains(each) && each.y < box.y + 26 * g.layout.unit; });
+        return text == g.texts.end() ? 0.0 : text->w / g.layout.unit;
+    };
+    EXPECT_GT(heading(960), 200);
+    EXPECT_GT(heading(300), 0);
+    EXPECT_LT(heading(300), 0.6 * heading(960));
+}
+
 // Before the first touch the axis of force has neither numbers nor levels.
 TEST(ForceStrip, WithoutContactHasNoInventedAxis) {
     const auto texts_left_of_plot = [](double duration) {
