@@ -85,8 +85,7 @@ void add_lyapunov(Grammar& grammar) {
     app.examples = {"lyapunov pressed.json --set cam.speed=54.3 --transient 200 --duration '60 s' -o convergence.pdf"};
     app.footer =
         "`beamcam init --from pressed` writes the scene of the example. In JSON, which has no infinities, an exponent "
-        "of −∞ is null, "
-        "as where lasting contact removes every difference; \"chaotic\" is null if it is doubtful.";
+        "of −∞ is null, as where lasting contact removes every difference; \"chaotic\" is null if it is doubtful.";
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");

@@ -192,8 +192,7 @@ sim::Progress search_progress(Progress& progress, double transient) {
 }
 
 // The orbits of the scene; with a range, the orbits at its start value and their branches.
-output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range,
-                            sim::OrbitRequest& request) {
+output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range) {
     sim::Family family;
     output::BranchTable table;
     if (range) {
@@ -208,7 +207,7 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         problem = problem_with(problem, range->key.path, table.start);
     }
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
-    request = request_of(args, problem);
+    const sim::OrbitRequest request = request_of(args, problem);
     Progress progress(run_options(args.common, "").progress);
     table.orbits = sim::find_orbits(problem, request, search_progress(progress, request.transient));
     if (range) {
@@ -242,8 +241,7 @@ int act(const OrbitsArguments& args) {
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
 
     // 2. The orbits and their branches.
-    sim::OrbitRequest request;
-    const output::BranchTable table = compute(args, scene.problem, range, request);
+    const output::BranchTable table = compute(args, scene.problem, range);
 
     // 3. The result and its files.
     write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table); },
@@ -251,7 +249,7 @@ int act(const OrbitsArguments& args) {
                   [&] { return output::orbit_columns(table, attributes_of(scene)); }},
                  args.files, scene, args.common, manifest);
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
-    if (table.orbits.empty()) inform(args.common, nothing_found(request));
+    if (table.orbits.empty()) inform(args.common, nothing_found(request_of(args, scene.problem)));
     const bool followed = !range || !table.branches.empty();
     if (!followed && !table.orbits.empty())
         inform(args.common, fmt::format("the orbits that were found could not be followed: Newton's method did not "
@@ -269,8 +267,7 @@ void add_orbits(Grammar& grammar) {
                     "orbits pressed.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
     app.footer =
         "`beamcam init --from pressed` writes the scene of the examples. The exit code is 4 if no orbit is found, or "
-        "if none "
-        "can be followed.";
+        "if none can be followed.";
     add_scene(app, args.scene, args.common);
     add_result_options(
         app, args.files, args.common,
@@ -280,7 +277,7 @@ void add_orbits(Grammar& grammar) {
                "too, the first orbit that rests on the cam for a part of its period");
     app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
-    app.option("--turns", &args.turns, "N", "Shortest period of the orbit in turns of the cam (default: any)")
+    app.option("--turns", &args.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
         .range(1, 1000);
     app.option("--most-turns", &args.most_turns, "N", "Longest period to try without --turns (default: 8)")
         .range(1, 1000);
