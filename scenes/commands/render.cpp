@@ -69,7 +69,8 @@ Output output_for_file(const RenderArguments& args, PictureOutput film) {
                 : ending == ".png"       ? frames
                                          : video;
     if (film.kind == still && (ending != ".png" || numbered))
-        throw UsageError(fmt::format("--at makes one picture; -o {} must be a .png file without '#'", args.file));
+        throw UsageError(fmt::format(
+            "--at makes one picture; -o {} must be a .png, .pdf, .svg or .eps file without '#'", args.file));
     if (document && !args.others.empty())
         throw UsageError(fmt::format("-o {} plays one motion; name one scene", args.file));
     if (film.kind == frames && !numbered)

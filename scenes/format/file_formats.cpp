@@ -50,7 +50,8 @@ ValueFormat file_format(std::string& file, std::initializer_list<const char*> al
 void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const char*> endings, const char* ending,
                 const char* meaning, const char* note) {
     const std::string text =
-        fmt::format("{}; by default NAME{}, where NAME is the name of the scene.{}", meaning, ending, note);
+        fmt::format("{}{}; by default NAME{}, where NAME is the name of the scene.{}", meaning,
+                    endings.size() > 1 ? fmt::format(" ({})", fmt::join(endings, " ")) : "", ending, note);
     v.value("file", file_format(file, endings, is_numbered(ending)), text.c_str());
     v.check([&file, ending](ObjectReader& r) {
         if (file.empty()) file = r.context().scene.name + ending;

@@ -202,12 +202,17 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
              "next text.");
 }
 
+void visit_bounds(SceneVisitor& v, FrameSpan& span) {
+    v.value("from", bound_format(span.from, span.from_event),
+            "First instant; in real time the first frame is at the next multiple of 1/fps.");
+    v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
+}
+
 void visit_span(SceneVisitor& v, FrameSpan& span) {
     v.value(
         "fps", frame_rate_format(span.fps),
         "Frames per second, 0.1 to 1000, or a fraction such as \"30000/1001\", which is also the meaning of 29.97.");
-    v.value("from", bound_format(span.from, span.from_event), "First instant.");
-    v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
+    visit_bounds(v, span);
     v.value(
         written_if(!span.duration, "speed"), speed_format(span.speed),
         "Playback speed: a factor, where 1 is real time; \"impacts\": slow motion around impacts; or an object with "

@@ -8,6 +8,7 @@ namespace beamcam::scenes {
 
 void visit_picture(SceneVisitor& v, Picture& picture);
 void visit_theme(SceneVisitor& v, View& view);
-void visit_span(SceneVisitor& v, FrameSpan& span);  // how time runs in a film
+void visit_bounds(SceneVisitor& v, FrameSpan& span);  // the part of the motion
+void visit_span(SceneVisitor& v, FrameSpan& span);    // how time runs in a film
 
 }  // namespace beamcam::scenes

@@ -87,8 +87,7 @@ void visit_document(SceneVisitor& v, PictureOutput& p, const char* ending, const
     }
     visit_exaggeration(v, p.view.exaggeration, "Factor of the deflection, as in films.");
     v.value("fps", frame_rate_format(p.span.fps), rate);
-    v.value("from", bound_format(p.span.from, p.span.from_event), "First instant.");
-    v.value("to", bound_format(p.span.to, p.span.to_event), "Last instant; by default the end of the scene.");
+    visit_bounds(v, p.span);
     v.check([&p](ObjectReader& r) { check_span(r, p.span, p); });
 }
 

@@ -139,18 +139,6 @@ void find_unreached_collisions(const FrameSpan& span, double to, const sim::Resu
     }
 }
 
-double frame_count(double duration, double fps) {
-    const double count = std::round(duration * fps);
-    if (count > kMostFrames)
-        throw render::PictureError(
-            fmt::format("the film would have {:.0f} frames, but the maximum is {:.0f}; reduce \"to\" or \"fps\", or "
-                        "increase \"speed\"",
-                        count, kMostFrames));
-    if (!(count >= 1))
-        throw render::PictureError("the film has no frame at this speed; reduce the speed, or increase \"fps\"");
-    return count;
-}
-
 // Frames at film times k/fps. Where the speed is below one half, charts get rows between frames.
 FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, const std::vector<sim::Impact>& slowed,
                  std::vector<double>& fine) {
@@ -159,7 +147,7 @@ FilmTimes warped(const FrameSpan& span, double to, const sim::Result& motion, co
     const std::vector<ShownEvent> shown = place_events(span, to, motion, map, out.unreached_events);
     find_unreached_collisions(span, to, motion, slowed, out.unreached_events);
     map.freeze(to, span.hold);
-    const double fps = span.fps.value(), count = frame_count(span.duration.value_or(map.duration()), fps);
+    const double fps = span.fps.value(), count = frame_count(span, span.duration.value_or(map.duration()));
     const int steps = std::clamp(static_cast<int>(kFinePoints / count), 1, kFineSteps);
     double previous = span.from;
     for (long k = 0; k < static_cast<long>(count); ++k) {
@@ -233,13 +221,6 @@ std::vector<double> rows(double from, double to, double rate) {
     if (!times.empty() && std::abs(times.back() - to) < 1e-9 * std::min(1 / rate, to)) times.back() = to;
     if (times.empty() || times.back() < to) times.push_back(to);
     return times;
-}
-
-std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time) {
-    const double fps = span.fps.value();
-    if (span.duration) return std::pair(0L, static_cast<long>(frame_count(*span.duration, fps)));
-    if (!span.real_time() || span.from_event || span.to_event) return std::nullopt;
-    return std::pair(std::lround(span.from * fps), std::lround(span.to.value_or(end_time) * fps));
 }
 
 FilmTimes film_times(const FrameSpan& span, double end_time, const sim::Result& motion, bool collisions) {

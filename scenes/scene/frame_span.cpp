@@ -1,6 +1,7 @@
-// Which spans of a film have frames.
+// Which frames a film in real time has.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "render/base/error.hpp"
@@ -8,13 +9,49 @@
 #include "scenes/scene/time_map.hpp"
 
 namespace beamcam::scenes {
+namespace {
+
+constexpr double kRounding = 1e-9;  // of a frame: an instant on a frame belongs to it, as 0.28 s · 25/s to frame 7
+
+struct Frames {
+    double first, end;  // numbers
+};
+
+// The frames k/fps from `from`, never earlier, to the one nearest to `to`, which is not shown; at least one if one lies
+// between them.
+Frames frames_between(double from, double to, double fps) {
+    const auto next = [fps](double t) { return std::ceil(t * fps - kRounding); };
+    const double first = next(from);
+    return {first, std::max(std::round(to * fps), std::min(first + 1, next(to)))};
+}
+
+// Why a film of this length has no frames, or too many; empty if it is valid.
+std::string problem_with_length(const FrameSpan& span, double seconds) {
+    const double count = std::round(seconds * span.fps.value());
+    if (count > kMostFrames)
+        return fmt::format("the film would have {:.0f} frames, but the maximum is {:.0f}; reduce {} or \"fps\"{}",
+                           count, kMostFrames, span.duration ? "\"duration\"" : "\"to\"",
+                           span.duration ? "" : ", or increase \"speed\"");
+    if (!(count >= 1))
+        return span.duration ? "the film has no frame; increase \"duration\" or \"fps\""
+                             : "the film has no frame at this speed; reduce the speed, or increase \"fps\"";
+    return {};
+}
+
+std::string order_remedy(const FrameSpan& span) {
+    return span.to ? "\"to\" must be later than \"from\"" : "\"from\" must be earlier than the end of the scene";
+}
+
+}  // namespace
+
+double frame_count(const FrameSpan& span, double seconds) {
+    if (const std::string problem = problem_with_length(span, seconds); !problem.empty())
+        throw render::PictureError(problem);
+    return std::round(seconds * span.fps.value());
+}
 
 std::string pauses_fill(const FrameSpan& span) {
     return fmt::format("the freezes and the hold fill the film of {:g} s; increase \"duration\"", *span.duration);
-}
-
-static std::string order_remedy(const FrameSpan& span) {
-    return span.to ? "\"to\" must be later than \"from\"" : "\"from\" must be earlier than the end of the scene";
 }
 
 std::string problem_with_span(const FrameSpan& span, double end_time) {
@@ -23,20 +60,30 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     for (const FilmEvent& event : span.events)
         if (event.at.kind == Instant::Kind::time && event.at.t >= span.from && event.at.t <= to) pauses += event.freeze;
     if (span.duration && *span.duration <= pauses) return pauses_fill(span);
+    if (span.duration)
+        if (std::string problem = problem_with_length(span, *span.duration); !problem.empty()) return problem;
     if (span.from_event || span.to_event) return {};
     if (!span.real_time()) {
         if (to > span.from) return {};  // the number of frames depends on the motion
         return fmt::format("the film begins at {:g} s and ends at {:g} s; {}", span.from, to, order_remedy(span));
     }
-    const double first = std::round(span.from * fps), last = std::round(to * fps);
-    if (!(last > first))
+    const auto [first, end] = frames_between(span.from, to, fps);
+    if (!(end > first))
         return fmt::format("no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
                            to > span.from ? "increase \"to\" or \"fps\"" : order_remedy(span));
-    if (last - first > kMostFrames)
+    if (end - first > kMostFrames)
         return fmt::format(
             "{:.0f} frames are too many: an output has at most {:.0f}; use \"from\" and \"to\", or reduce \"fps\"",
-            last - first, kMostFrames);
+            end - first, kMostFrames);
     return {};
+}
+
+std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time) {
+    const double fps = span.fps.value();
+    if (span.duration) return std::pair(0L, static_cast<long>(frame_count(span, *span.duration)));
+    if (!span.real_time() || span.from_event || span.to_event) return std::nullopt;
+    const auto [first, end] = frames_between(span.from, span.to.value_or(end_time), fps);
+    return std::pair(std::lround(first), std::lround(end));
 }
 
 FrameSpan resolved(const FrameSpan& span, double end_time, const sim::Result& motion) {

@@ -206,6 +206,15 @@ TEST(FilmTimes, RealTimeIsTheFramesGrid) {
     EXPECT_TRUE(times.speeds.empty());
 }
 
+TEST(FilmTimes, APartOfAFilmNeverStartsBeforeItsFirstInstant) {
+    const auto frames = [](FrameSpan span) { return film_times(span, 1, {}).frames; };
+    EXPECT_EQ(frames({.fps = {25, 1}, .from = 0.25, .to = 0.32}), (std::vector{7 / 25.0}));
+    EXPECT_EQ(frames({.fps = {25, 1}, .from = 0.28, .to = 0.36}), (std::vector{7 / 25.0, 8 / 25.0}));
+    EXPECT_EQ(frames({.fps = {25, 1}, .from = 0.25, .to = 0.285}), (std::vector{7 / 25.0}));
+    EXPECT_EQ(frames({.fps = {1, 10}, .to = 1}), (std::vector{0.0}));
+    EXPECT_THROW(frames({.fps = {25, 1}, .from = 0.25, .to = 0.27}), render::PictureError);
+}
+
 TEST(FilmTimes, SlowMotionHasRowsBetweenItsFrames) {
     sim::Result motion;
     motion.impacts = kImpacts;
