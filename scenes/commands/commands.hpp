@@ -2,6 +2,7 @@
 // this folder: `add_NAME` adds its grammar to the program and binds its action.
 #pragma once
 
+#include <functional>
 #include <initializer_list>
 #include <optional>
 #include <span>
@@ -55,6 +56,8 @@ Selection shard_argument(const std::string& text);  // "2/3", "auto"; throws Usa
 
 // A message on standard error, unless -q.
 void inform(const Common& common, const std::string& text);
+// The work for each file; an unreadable one is reported, and the others follow. Returns the exit code.
+int for_each_file(const std::vector<std::string>& files, const std::function<void(const std::string& file)>& work);
 using output::print_data;
 using output::print_json;
 using output::print_text;

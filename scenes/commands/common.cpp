@@ -131,6 +131,17 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
         run(scenes, options);
 }
 
+int for_each_file(const std::vector<std::string>& files, const std::function<void(const std::string& file)>& work) {
+    int code = kDone;
+    for (const std::string& file : files) try {
+            work(file);
+        } catch (const output::IoError& error) {
+            output::print_message("beamcam: {}\n", error.what());
+            code = kInputOutput;
+        }
+    return code;
+}
+
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension) {
     const QuantityText read = parse_quantity(text);
     if (!read.quantity) throw UsageError(fmt::format("{} {}: {}", option, text, read.problem));

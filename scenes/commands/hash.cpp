@@ -1,4 +1,7 @@
 // `beamcam hash`: digests of decoded pixels.
+#include <algorithm>
+#include <atomic>
+
 #include "output/files/descriptor.hpp"
 #include "output/files/digest.hpp"
 #include "output/film/picture_source.hpp"
@@ -18,17 +21,24 @@ struct HashArguments {
 
 void print_line(const std::string& digest, const std::string& name) { print_text(digest + "  " + name + "\n"); }
 
-// Separate files are decoded in parallel; their digests are printed in order.
-void hash_files(const std::vector<std::filesystem::path>& files, int threads) {
+// Separate files are decoded in parallel; their digests are printed in order. Returns the exit code.
+int hash_files(const std::vector<std::filesystem::path>& files, int threads) {
     Gate gate;
+    std::atomic<int> code = kDone;
     auto make_worker = [&]() -> Worker {
         return [&](long k) {
-            const std::filesystem::path& file = files[static_cast<std::size_t>(k)];
-            const std::string digest = output::digest(output::read_png(file));
-            gate.pass(k, [&] { print_line(digest, file.string()); });
+            const std::string file = files[static_cast<std::size_t>(k)].string();
+            std::string digest;
+            const int read =
+                for_each_file({file}, [&](const auto&) { digest = output::digest(output::read_png(file)); });
+            if (read != kDone) code = read;
+            gate.pass(k, [&] {
+                if (read == kDone) print_line(digest, file);
+            });
         };
     };
     fan_out(static_cast<long>(files.size()), {threads, threads}, make_worker, gate);
+    return code;
 }
 
 void hash_in_order(output::PictureSource& source, const std::string& file, bool whole) {
@@ -45,23 +55,25 @@ void hash_in_order(output::PictureSource& source, const std::string& file, bool 
     if (whole) print_line(all.hex(), file);
 }
 
-void act(const HashArguments& args) {
+int act(const HashArguments& args) {
     const int threads = thread_count(args.common.threads);
     std::vector<std::filesystem::path> stills;  // not hashed yet
+    int of_stills = kDone;
     auto hash_stills = [&] {
-        hash_files(stills, threads);
+        of_stills = std::max(of_stills, hash_files(stills, threads));
         stills.clear();
     };
-    for (const std::string& file : args.files) {
+    const int code = for_each_file(args.files, [&](const std::string& file) {
         output::PictureSource source(file);
         if (!source.is_film() && !args.whole) {
             stills.insert(stills.end(), source.files().begin(), source.files().end());
-            continue;
+            return;
         }
         hash_stills();
         hash_in_order(source, file, args.whole);
-    }
+    });
     hash_stills();
+    return std::max(code, of_stills);
 }
 
 }  // namespace

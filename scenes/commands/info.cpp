@@ -201,23 +201,25 @@ struct InfoArguments {
     bool scene = false;
 };
 
-void act(const InfoArguments& args) {
-    if (args.scene && args.files.size() != 1) throw UsageError("--scene prints one scene; name one file");
-    for (const std::string& file : args.files) {
-        const Provenance found = provenance_of(file);
-        if (!args.scene) {
-            if (args.common.json)
-                print_json(to_text(provenance_node(found)));
-            else
-                print_text(provenance_text(found));
-            continue;
-        }
-        const std::string scene = runnable_scene(found.scene);
-        if (scene.empty())
-            throw output::IoError(fmt::format(
-                "{} contains no scene: beamcam did not make it, or another program removed its metadata", file));
-        print_json(scene);
+void print_info(const InfoArguments& args, const std::string& file) {
+    const Provenance found = provenance_of(file);
+    if (!args.scene) {
+        if (args.common.json)
+            print_json(to_text(provenance_node(found)));
+        else
+            print_text(provenance_text(found));
+        return;
     }
+    const std::string scene = runnable_scene(found.scene);
+    if (scene.empty())
+        throw output::IoError(fmt::format(
+            "{} contains no scene: beamcam did not make it, or another program removed its metadata", file));
+    print_json(scene);
+}
+
+int act(const InfoArguments& args) {
+    if (args.scene && args.files.size() != 1) throw UsageError("--scene prints one scene; name one file");
+    return for_each_file(args.files, [&](const std::string& file) { print_info(args, file); });
 }
 
 }  // namespace

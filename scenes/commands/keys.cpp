@@ -36,10 +36,18 @@ bool matches(const std::string& text, const std::string& pattern) {
     return true;
 }
 
+// Whether the pattern is the type of outputs, of drives … that have this key: "trajectory".
+bool belongs_to(const KeyRow& row, const std::string& pattern) {
+    const std::string type = "type=" + pattern;
+    const std::size_t at = row.when.find(type);
+    return !pattern.empty() && at != std::string::npos && (row.when + " ").find_first_of(" ,", at) == at + type.size();
+}
+
 std::vector<KeyRow> chosen(const std::string& pattern) {
     std::vector<KeyRow> rows = key_rows();
     std::erase_if(rows, [&](const KeyRow& row) {
-        return !matches(lowered(row.path), lowered(pattern)) && !matches(lowered(row.key->meaning), lowered(pattern));
+        return !matches(lowered(row.path), lowered(pattern)) && !matches(lowered(row.key->meaning), lowered(pattern)) &&
+               !belongs_to(row, pattern);
     });
     return rows;
 }
@@ -95,8 +103,9 @@ void add_keys(Grammar& grammar) {
     const auto [app, args] =
         grammar.command<KeysArguments>("keys", "Explain the keys of scenes: type, unit, range, default, meaning", act);
     app.examples = {"keys damping", "keys 'contact*'"};
-    app.positional("PATTERN", &args.pattern,
-                   "Only keys with this text in their path or meaning; * stands for any text");
+    app.positional(
+        "PATTERN", &args.pattern,
+        "Only keys with this text in their path or meaning, or of this type of output; * stands for any text");
     app.flag("--json", args.json, "Print JSON");
     app.flag("--markdown", args.markdown, "Print all keys as Markdown (scenes/FORMAT.md)");
 }

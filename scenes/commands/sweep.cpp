@@ -39,6 +39,28 @@ bool is_count(const std::string& text) {
     return text.ends_with('n') || (digits && text != "0" && text != "1");
 }
 
+// FIRST, LAST, and COUNT or STEP.
+void set_range(SweptKey& over, const std::string& option, const std::vector<std::string>& parts,
+               const Dimension& dimension) {
+    over.from = signed_argument(option, parts[0], dimension);
+    over.to = signed_argument(option, parts[1], dimension);
+    std::string third = parts[2];
+    const bool counted = is_count(third) || over.logarithmic;
+    if (third.ends_with('n')) third.pop_back();
+    const double step = counted ? 0 : signed_argument(option, third, dimension);
+    const double count = counted ? output::number_in<int>(third).value_or(0)
+                                 : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
+    constexpr double kMost = 1e8;
+    if (count > kMost && std::isfinite(count))
+        throw UsageError(fmt::format("{}: {:.4g} values are too many; a key has at most {:g}", option, count, kMost));
+    const double fewest = counted || over.from == over.to ? 1 : 2;  // a step within the range leads to a second value
+    if (!(count >= fewest && count <= kMost))
+        throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, third,
+                                     counted ? "number of values" : "step", parts[0], parts[1]));
+    if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
+    over.count = static_cast<int>(count);
+}
+
 // KEY=FIRST:LAST:COUNT, then :log; KEY=FIRST:LAST:STEP; KEY=v,v,…; KEY=@FILE:COLUMN. Diagrams take over the unit.
 SweptKey over_argument(const std::string& text, const sim::Problem& problem, render::Units& units) {
     const std::string option = "--over " + text;
@@ -58,7 +80,7 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
         return over;
     }
     adopt_unit(value.substr(0, value.find_first_of(":,")), dimension, units);
-    std::vector<std::string> parts = split(value, ':');
+    const std::vector<std::string> parts = split(value, ':');
     if (parts.size() == 1) {
         for (const std::string& each : split(value, ','))
             over.values.push_back(signed_argument(option, each, dimension));
@@ -69,24 +91,22 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
         throw UsageError(
             option +
             ": write KEY=FIRST:LAST:COUNT, with :log for logarithmic spacing, or KEY=FIRST:LAST:STEP as in 40:52:0.02");
-    over.from = signed_argument(option, parts[0], dimension);
-    over.to = signed_argument(option, parts[1], dimension);
-    std::string& third = parts[2];
-    const bool counted = is_count(third) || over.logarithmic;
-    if (third.ends_with('n')) third.pop_back();
-    const double step = counted ? 0 : signed_argument(option, third, dimension);
-    const double count = counted ? output::number_in<int>(third).value_or(0)
-                                 : 1 + std::floor((*over.to - *over.from) / step * (1 + 1e-12) + 1e-9);
-    constexpr double kMost = 1e8;
-    if (count > kMost && std::isfinite(count))
-        throw UsageError(fmt::format("{}: {:.4g} values are too many; a key has at most {:g}", option, count, kMost));
-    const double fewest = counted || over.from == over.to ? 1 : 2;  // a step within the range leads to a second value
-    if (!(count >= fewest && count <= kMost))
-        throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, parts[2],
-                                     counted ? "number of values" : "step", parts[0], parts[1]));
-    if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
-    over.count = static_cast<int>(count);
+    set_range(over, option, parts, dimension);
     return over;
+}
+
+// A whole number that may have been meant as the other of count and step is explained.
+void explain_range(const std::string& text, const SweptKey& over) {
+    const std::string third = text.substr(text.rfind(':') + 1);
+    const bool digits = !third.empty() && third.find_first_not_of("0123456789") == std::string::npos;
+    if (!digits || !over.count || *over.count < 2) return;
+    const double range = std::abs(*over.to - *over.from), number = *output::number_in<double>(third);
+    if (number > range) return;
+    output::print_message(
+        "note: --over {}: {} values, {:.6g} apart; {}\n", text, *over.count, range / (*over.count - 1),
+        third == "1" ? "1 is a step, because a range has more than one value"
+                     : fmt::format("whole numbers from 2 are a number of values, and a step of {} is written {}.0",
+                                   third, third));
 }
 
 sim::CamSpan span_argument(const char* option, const std::string& text) {
@@ -109,7 +129,10 @@ sim::CamSpan span_argument(const char* option, const std::string& text) {
 Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     Sweep sweep = scene.sweep.value_or(Sweep{});
     if (!args.over.empty()) sweep.over.clear();
-    for (const std::string& text : args.over) sweep.over.push_back(over_argument(text, scene.problem, scene.units));
+    for (const std::string& text : args.over) {
+        sweep.over.push_back(over_argument(text, scene.problem, scene.units));
+        if (!args.common.quiet) explain_range(text, sweep.over.back());
+    }
     const auto require = [](const char* option, const std::string& text, const std::string& problem) {
         if (!problem.empty()) throw UsageError(fmt::format("{} {}: {}", option, text, problem));
     };
@@ -250,7 +273,8 @@ void add_sweep(Grammar& grammar) {
     app.option(
         "--over", &args.over, "KEY=VALUES",
         "The key to vary and its values: KEY=FIRST:LAST:COUNT (both ends included; add :log for logarithmic spacing), "
-        "KEY=FIRST:LAST:STEP with a step such as 0.02, KEY=v,v,... or KEY=@FILE.csv:COLUMN. Twice for a grid");
+        "KEY=FIRST:LAST:STEP, KEY=v,v,... or KEY=@FILE.csv:COLUMN. Digits only, from 2, are a COUNT; other numbers, as "
+        "0.02, 2.0 or 1, are a STEP. Twice for a grid");
     app.option("--sample", &args.sample, "WHAT",
                "When to take samples: impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: "
                "impacts)");

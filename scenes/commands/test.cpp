@@ -142,8 +142,10 @@ int act(const TestArguments& args) {
 }  // namespace
 
 void add_test(Grammar& grammar) {
-    const auto [app, args] = grammar.command<TestArguments>(
-        "test", "Run a regression test of pictures and motions; exit code 7 if any entry differs", act);
+    const auto [app, args] = grammar.command<TestArguments>("test",
+                                                            "Run a regression test of pictures and motions; exit code "
+                                                            "7 if any entry differs, 3, 5 or 6 if any could not run",
+                                                            act);
     app.examples = {"test baselines.json --report report", "test baselines.json --update 'fall-*'"};
     app.positional("BASELINES", &args.baselines, "The file of baselines, JSON; - is standard input").required();
     app.option("--only,--filter", &args.only, "NAME...",

@@ -17,6 +17,18 @@ namespace {
 constexpr double kTextOfNumber = 19, kNumber = 8;
 constexpr double kCommonColumns = 9;
 
+// "  cam.speed: 21 values, 40 to 60 rad/s in steps of 1 rad/s"
+std::string axis_text(const output::SweepAxis& axis, const SweptKey& over) {
+    const std::string unit = axis.unit == "1" ? "" : " " + axis.unit;
+    std::string text = fmt::format("  {}: {}, {:.10g} to {:.10g}{}", axis.name, counted(axis.values.size(), "value"),
+                                   axis.values.front(), axis.values.back(), unit);
+    if (over.logarithmic)
+        text += ", logarithmically spaced";
+    else if (over.count && axis.values.size() > 1)
+        text += fmt::format(" in steps of {:.6g}{}", axis.values[1] - axis.values[0], unit);
+    return text + "\n";
+}
+
 }  // namespace
 
 std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& files, int threads, bool json) {
@@ -35,9 +47,7 @@ std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& fi
                                     {"npz_bytes", std::round(rows * columns * kNumber)},
                                     {"files", array_node(files, &PlannedFile::file)}}));
     std::string text = "sweep\n";
-    for (const output::SweepAxis& axis : grid.axes())
-        text += fmt::format("  {}: {}, {:.10g} to {:.10g}{}\n", axis.name, counted(axis.values.size(), "value"),
-                            axis.values.front(), axis.values.back(), axis.unit == "1" ? "" : " " + axis.unit);
+    for (std::size_t i = 0; i < grid.axes().size(); ++i) text += axis_text(grid.axes()[i], grid.sweep().over[i]);
     text += fmt::format("  {}, samples: {}\n", counted(grid.points(), "point"), text_of_sample(grid.sampling()));
     text += fmt::format("  about {:.2g} s on {}\n", seconds, counted(used, "thread"));
     text += fmt::format("  about {:.2g} rows: {:.2g} MB of CSV, {:.2g} MB of NPZ\n", rows,

@@ -11,8 +11,8 @@
 namespace beamcam::scenes {
 namespace {
 
+using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not, ::testing::StartsWith;
 using testing::Finished, testing::Folder, testing::shell;
-using ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not, ::testing::StartsWith;
 
 TEST(CommandLine, VersionHelpAndSchemaAreData) {
     const Folder folder;
@@ -67,6 +67,9 @@ TEST(CommandLine, EveryKeyIsExplained) {
     for (const auto& key : nlohmann::json::parse(shell(folder, "$BEAMCAM keys --json").out))
         EXPECT_GT(key["meaning"].get<std::string>().size(), 3u) << key;
     EXPECT_EQ(shell(folder, "$BEAMCAM keys nonsense").code, 2);
+    const std::string shapes = shell(folder, "$BEAMCAM keys shapes").out;
+    EXPECT_THAT(shapes, AllOf(HasSubstr("outputs[].stations  (type=shapes)"), HasSubstr("(.csv .npz); by default")));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys trajectory").out, Not(HasSubstr("stations")));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys sped").err, HasSubstr("did you mean \"speed\"?"));
 }
 
@@ -127,12 +130,41 @@ TEST(CommandLine, WrongUsageIsTwo) {
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "beamcam: no frame lies between 1 s and 0.5 s"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to must be later than --from"},
           std::pair{"render s.json --from 30 -o a.mp4", "--from must be earlier than the end of the scene"},
+          std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf, .svg or .eps file"},
+          std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce --duration or --fps"},
           std::pair{"render s.json --frames 80:91 -o a.mp4", "the frames of the film are 0 … 89; END, not included"},
           std::pair{"render s.json --frames 9:9 -o a.mp4", "END must be above FIRST"},
           std::pair{"test s.json --tolerance motion=1e9", "--tolerance.motion = 1e9 is outside 0 … 1"}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
+}
+
+TEST(CommandLine, AnUnreadableFileDoesNotHideTheOthers) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM render s.json --at 0 --size 64x64 --style flat -o a.png -q").code, 0);
+    folder.write("bad.png", "no picture");
+    for (const char* command : {"info", "hash"}) {
+        const Finished finished = shell(folder, fmt::format("$BEAMCAM {} none.png bad.png a.png", command));
+        EXPECT_EQ(finished.code, 6) << command;
+        EXPECT_THAT(finished.out, HasSubstr("a.png")) << command;
+        EXPECT_THAT(finished.err, HasSubstr("none.png")) << command;
+    }
+}
+
+TEST(CommandLine, ARangeThatCanBeReadInTwoWaysIsExplained) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const auto sweep = [&](const std::string& third) {
+        return shell(folder, "$BEAMCAM sweep s.json -n --over cam.speed=40:60:" + third);
+    };
+    EXPECT_THAT(sweep("2").err, HasSubstr("2 values, 20 apart; whole numbers from 2 are a number of values, and a step "
+                                          "of 2 is written 2.0"));
+    EXPECT_THAT(sweep("1").err, HasSubstr("21 values, 1 apart; 1 is a step"));
+    EXPECT_THAT(sweep("1").out, HasSubstr("cam.speed: 21 values, 40 to 60 rad/s in steps of 1 rad/s\n"));
+    EXPECT_THAT(sweep("5:log").out, HasSubstr("5 values, 40 to 60 rad/s, logarithmically spaced\n"));
+    for (const char* clear : {"2.0", "2n", "601", "5:log"}) EXPECT_EQ(sweep(clear).err, "") << clear;
 }
 
 // Published: clamped beams turning in their plane (Wright et al. 1982), the free hub (hinged–free), see public numbers.
