@@ -203,9 +203,9 @@ class Assessment {
         Recommendation r;
         r.modes = problem_.beam.modes;
         r.until = out_.until;
-        double error = 0;
+        double error = 0, farthest = out_.until;
         if (!out_.modes.empty()) {
-            double farthest = 0;
+            farthest = 0;
             const ModesRow* last = nullptr;
             for (const ModesRow& row : out_.modes)
                 if (row.error) last = &row;
@@ -239,8 +239,11 @@ class Assessment {
         }
         r.error = error;
         const std::string shapes = problem_.beam.model == ModelKind::rigid ? "" : " and " + counted(r.modes, "mode");
-        r.text = fmt::format("rtol {:.0e}{} give {} to {:g} rad for the first {:.3g} s in {:.2g} ms", r.rtol, shapes,
-                             out_.of_tip ? "the tip's δ/L" : "θ", request_.target, r.until, 1e3 * r.seconds);
+        const std::string within = fmt::format("{} to {:g} rad", out_.of_tip ? "the tip's δ/L" : "θ", request_.target);
+        if (r.until < out_.until && farthest < out_.until)
+            r.text = fmt::format("no number of modes that was tried gives {} until {:.4g} s; ", within, out_.until);
+        r.text += fmt::format("rtol {:.0e}{} give {} for the first {:.3g} s in {:.2g} ms", r.rtol, shapes, within,
+                              r.until, 1e3 * r.seconds);
         out_.recommendation = std::move(r);
     }
 

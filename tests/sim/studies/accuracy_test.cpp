@@ -165,6 +165,25 @@ TEST(Accuracy, HorizonOfADrivenHubIsTheTips) {
     EXPECT_LT(*r.reproducible_until, 4);
 }
 
+// With one impact, no few modes reach the target: what holds until the impact alone is no recommendation for the whole.
+TEST(Accuracy, SaysIfNoSettingsReachTheTarget) {
+    SKIP_UNDER_SANITIZERS();
+    Problem p;
+    p.initial.angle = 0.6;
+    AccuracyRequest request = quick(0.3);
+    request.methods = {Method::automatic};
+    request.models = {ModelKind::first_order};
+    request.target = 1e-6;
+    const Accuracy found = assess(p, request);
+    ASSERT_TRUE(found.recommendation);
+    EXPECT_LT(found.recommendation->until, 0.3);
+    EXPECT_EQ(
+        found.recommendation->text.find("no number of modes that was tried gives θ to 1e-06 rad until 0.3 s; rtol "),
+        0U);
+    request.target = 1;
+    EXPECT_EQ(assess(p, request).recommendation->text.find("rtol "), 0U);
+}
+
 TEST(Accuracy, StopsWhenAsked) {
     EXPECT_THROW(assess(falling(), quick(0.1), [](double share) { return share < 0.2; }), Interrupted);
 }
