@@ -44,7 +44,7 @@ constexpr std::array kCurves{Curves{Printing::corrected, {"along the rod", "沿�
                              Curves{Printing::completed, {"terms completed", "补全各项"}, 2},
                              Curves{Printing::printed, {"as printed", "原文公式"}, 1}};
 
-// Deflection [mm] and slope [10⁻³] over both spans; the slope's jump at the support.
+// Deflection [mm] and slope along the beam [10⁻³] over both spans; the slope's jump at the support.
 struct DeflectionCurves {
     Series v, slope;
     double jump = 0;
@@ -68,7 +68,7 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
             const double x = from + (to - from) * k / (kPerSpan - 1);
             const sim::StaticDeflection s = sim::supported_beam(problem, angle, support, x, c.printing, overhang);
             out.v.add(x, s.v * 1e3);
-            out.slope.add(x, s.slope * 1e3);
+            out.slope.add(x, s.slope * std::cos(angle) * 1e3);  // dx/ds = cos θ
         }
     }
     out.jump = std::abs(out.slope.y[kPerSpan] - out.slope.y[kPerSpan - 1]);
@@ -80,9 +80,12 @@ std::string deflection_caption(const Subject& subject, const Inclination& at, do
     const std::string angle = number(at.angle * 180 / M_PI, 4);
     std::string text = phrase(
         lang,
-        "Static deflection $v$ (a) and slope (b) of the beam inclined by {}°{}, hinged at $O$ and supported at the "
-        "horizontal distance $l_{{1}}$. ",
-        "倾角 {}°{}的梁铰接于 $O$ 并支承于水平距离 $l_{{1}}$ 处的静挠度 $v$ (a) 与斜率 (b)。", angle,
+        "Static deflection $v$ across the beam (a) and slope d$v$/d$s$ along it (b), over the horizontal distance $x$ "
+        "= "
+        "$s$ cos $θ$. The beam, inclined by $θ$ = {}°{}, is hinged at $O$ and supported at $x$ = $l_{{1}}$. ",
+        "横向静挠度 $v$ (a) 与沿梁斜率 d$v$/d$s$ (b)，横轴为水平距离 $x$ = $s$ cos $θ$；倾角 $θ$ = {}°{}的梁铰接于 "
+        "$O$ 并支承于 $x$ = $l_{{1}}$ 处。",
+        angle,
         at.tangent ? phrase(lang, " (tangent to the disc as if it were centred)", "（与视为对心的圆盘相切）") : "");
     if (is_of_the_paper(subject.problem))
         text += phrase(
@@ -104,12 +107,13 @@ Figure deflection_figure(const Subject& subject, const Results&) {
     const double reach = problem.beam.length * std::cos(at.angle);
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
     const bool several = curves.size() > 1;
-    Panel shape{.x = {.label = "$x$ / m", .tight = true},
+    Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m", "距 $O$ 的水平距离 $x$ / m"),
+                      .tight = true},
                 .y = {.label = "$v$ / mm"},
                 .rules = {{.at = 0}},
                 .legend = Legend::box},
         slope{.x = shape.x,
-              .y = {.label = "d$v$/d$x$ / 10^{−3}"},
+              .y = {.label = "d$v$/d$s$ / 10^{−3}"},
               .rules = {{.at = 0}},
               .legend = several ? Legend::box : Legend::none};
     double largest_jump = 0;  // of the slope, as printed

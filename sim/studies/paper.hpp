@@ -12,8 +12,8 @@ namespace beamcam::sim {
 // lengths measured along the inclined beam (S48).
 enum class Printing { printed, completed, corrected };
 
-// Deflection v [m] and slope v′ [–] of eq. (5): the beam, inclined by `angle`, is supported at the hinge and at the
-// horizontal distance `support` in (0, L cos θ).
+// Deflection v [m] and its derivative v′ = dv/dx [–] by the horizontal distance x, of eq. (5): the beam, inclined by
+// `angle`, is supported at the hinge and at the horizontal distance `support` in (0, L cos θ).
 struct StaticDeflection {
     double v = 0, slope = 0;
 };

@@ -269,6 +269,18 @@ TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
     }
 }
 
+// Of the deflection across the beam, by its own length.
+TEST(Figures, TheSlopeOfTheStaticDeflectionIsThatOfTheBeam) {
+    const auto figure = figure_of(scene_from("{}"), "deflection");
+    const double cosine = std::sqrt(1 - 0.4 * 0.4);  // the beam is tangent to the disc
+    const auto &v = figure.panels[0].series[0], &slope = figure.panels[1].series[0];
+    const std::size_t last = v.x.size() - 1;
+    EXPECT_NEAR(v.x[last], cosine, 1e-12);
+    EXPECT_THAT(figure.panels[0].x.label, HasSubstr("horizontal distance"));
+    const double length = (v.x[last] - v.x[last - 2]) / cosine;  // along the beam
+    EXPECT_NEAR((v.y[last] - v.y[last - 2]) / length, slope.y[last - 1], 1e-5);
+}
+
 TEST(Figures, EachStaticDeflectionHasItsNameInTheData) {
     const auto figure = figure_of(scene_from("{}"), "deflection");
     for (const auto& panel : figure.panels) {
