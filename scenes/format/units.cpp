@@ -80,7 +80,7 @@ std::optional<Scaled> named(std::string_view symbol) {
     return std::nullopt;
 }
 
-// Of one dimension, if any unit has it; else all.
+// Of one dimension, its SI unit the last, such as "N m"; or all.
 std::vector<std::string> symbols_of(const Dimension* dimension) {
     std::vector<std::string> symbols;
     for (const NamedUnit& unit : kUnits) {
@@ -90,7 +90,8 @@ std::vector<std::string> symbols_of(const Dimension* dimension) {
         for (const Prefix& prefix : kPrefixes)
             if (prefix.name[0] > 0) symbols.push_back(std::string(prefix.name) + std::string(unit.name));
     }
-    return symbols.empty() && dimension ? symbols_of(nullptr) : symbols;
+    if (dimension) symbols.push_back(si_unit(*dimension));
+    return symbols;
 }
 
 void multiply(Scaled& q, const Scaled& factor, double exponent) {

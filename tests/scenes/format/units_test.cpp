@@ -76,6 +76,11 @@ TEST(Units, WhatIsNoQuantityIsReported) {
         }
     }
     EXPECT_NE(parse_quantity("3 Mpa").problem.find("did you mean \"MPa\""), std::string::npos);
+    const auto suggested = [](const char* text, const Dimension& dimension) {
+        return parse_quantity(text, &dimension).problem;
+    };
+    EXPECT_EQ(suggested("3 Nm", dimension::kTorque), "unknown unit \"Nm\"; did you mean \"N m\"?");
+    EXPECT_EQ(suggested("1 gn", dimension::kAcceleration), "unknown unit \"gn\"");
     EXPECT_NE(parse_quantity("1e307 Gm").problem.find("out of the range"), std::string::npos);
 }
 
