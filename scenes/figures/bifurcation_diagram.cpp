@@ -6,6 +6,7 @@
 #include <map>
 #include <numeric>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include "scenes/figures/figure_types.hpp"
@@ -82,18 +83,22 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
 // Samples and exponents as clouds, one for each start that is distinguished.
 struct Dots {
     std::vector<figure::Cloud> samples, exponents;
+    std::set<AttractorClass> undrawn;  // classes of the motions with an exponent, but without drawn samples
 };
 Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<std::uint64_t>& order,
              const Added& added) {
     const std::size_t width = points.data.columns.size();
-    Dots out{clouds_of_starts(points), clouds_of_starts(points)};
+    Dots out{clouds_of_starts(points), clouds_of_starts(points), {}};
     for (const std::uint64_t k : order) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
         const double at = points.value(k);
         if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent), added(1, cloud, k);
-        if (!has_section(kind_of(p))) continue;
+        if (!has_section(kind_of(p))) {
+            if (std::isfinite(p.exponent)) out.undrawn.insert(kind_of(p));
+            continue;
+        }
         for (std::size_t i = column; i < p.samples.size(); i += width)
             out.samples[cloud].add(at, drawn(points, column, p.samples[i])), added(0, cloud, k);
     }
@@ -138,6 +143,17 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
     return panel;
 }
 
+// Of the panel of exponents, which has dots where that of the samples has none.
+std::string exponents_text(const std::set<AttractorClass>& undrawn, Lang lang) {
+    std::vector<std::string> names;
+    for (const AttractorClass kind : undrawn) names.push_back(class_label(kind, lang));
+    const std::string more = names.empty() ? ""
+                                           : phrase(lang, ", also of motions whose samples are not drawn ({})",
+                                                    "，包括未绘制样本的运动（{}）", fmt::join(names, ", "));
+    return phrase(lang, "$λ_1$: the largest Lyapunov exponent where it is known and finite{}.",
+                  "$λ_1$：最大 Lyapunov 指数（已知且有限处）{}。", more);
+}
+
 std::string usual_value(const SweptPoints& points) { return points.of_impacts() ? "v_n_before" : "theta"; }
 
 // The points as they are numbered.
@@ -168,10 +184,7 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
     out.stack = out.share_x = true;
     out.aspect = empty ? 0.45 : known ? 1.05 : 0.8;
     if (empty) out.caption = phrase(points.lang, "No motion has a section to draw.", "没有可绘制的截面。");
-    if (known)
-        out.caption += (empty ? " " : "") + phrase(points.lang,
-                                                   "$λ_1$: the largest Lyapunov exponent where it is known and finite.",
-                                                   "$λ_1$：最大 Lyapunov 指数（已知且有限处）。");
+    if (known) out.caption += (empty ? " " : "") + exponents_text(dots.undrawn, points.lang);
     return out;
 }
 

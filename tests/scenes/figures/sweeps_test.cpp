@@ -22,6 +22,7 @@ using sim::AttractorClass;
 using ::testing::DoubleNear;
 using ::testing::Each;
 using ::testing::ElementsAre;
+using ::testing::EndsWith;
 using ::testing::HasSubstr;
 using ::testing::Not;
 using ::testing::SizeIs;
@@ -79,6 +80,23 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_THAT(figure.caption, HasSubstr("1 over-the-top"));
     EXPECT_THAT(figure.caption, HasSubstr("Samples of chaotic motions"));
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
+}
+
+TEST(Diagram, SaysOfWhichMotionsItDrawsExponentsAlone) {
+    const SweepGrid speeds = grid(kEightSpeeds);
+    using enum AttractorClass;
+    const auto caption = [&](const std::vector<AttractorClass>& kinds) {
+        output::SweepData points = data(speeds, kinds);
+        points.read = [read = points.read](std::uint64_t k) {
+            output::StoredPoint p = read(k);
+            p.exponent = 0.1;
+            return p;
+        };
+        return diagram("bifurcation", speeds, points, "v_n_before").caption;
+    };
+    EXPECT_THAT(caption({periodic, chaotic}), EndsWith("where it is known and finite."));
+    EXPECT_THAT(caption({periodic, unsettled}),
+                EndsWith("where it is known and finite, also of motions whose samples are not drawn (unsettled)."));
 }
 
 TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
