@@ -45,7 +45,9 @@ void add_cache(Grammar& grammar) {
     app.footer =
         "The cache is in $BEAMCAM_CACHE_DIR, or else in $XDG_CACHE_HOME/beamcam, or else in ~/.cache/beamcam. Its "
         "largest\n"
-        "size is $BEAMCAM_CACHE_SIZE MiB (1024); the least recently used trajectories are removed first.";
+        "size is $BEAMCAM_CACHE_SIZE MiB (1024); the least recently used trajectories are removed first. A trajectory "
+        "of more\n"
+        "than half of that size is not stored.";
     const auto [ls, of_list] =
         app.subcommand("ls", "List the trajectories, the most recently used first: size, duration, steps, model", list);
     add_quiet(ls, of_list);

@@ -1,6 +1,7 @@
 #include "scenes/motions/cache.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -172,7 +173,10 @@ void Cache::Entry::add(std::span<const double> numbers) {
     if (!file_) return;
     count_ += numbers.size();
     // A larger entry would evict nearly all others.
-    if (count_ * sizeof(double) > cache_.limit_ / 2) return give_up("it is larger than half of the cache");
+    too_large_ = count_ * sizeof(double) > cache_.limit_ / 2;
+    if (too_large_)
+        return give_up(fmt::format("it is larger than half of the cache of {} MiB, which BEAMCAM_CACHE_SIZE enlarges",
+                                   cache_.limit_ / kMiB));
     sum_ = output::crc32(sum_, numbers.data(), numbers.size_bytes());
     try {
         file_->write(output::bytes_of(numbers));

@@ -248,7 +248,7 @@ std::vector<sim::Result> MotionStore::integrate(const Job& job, const sim::Progr
     if (!entry || !writer.complete() || writer.steps() < fewest_steps(job.problem)) return results;
     if (entry->commit(writer.reached(), writer.steps(), describe(job.problem)))
         ++kept_;
-    else if (options_.verbose)
+    else if (options_.verbose || (entry->too_large() && !options_.quiet))  // each run will integrate it again
         output::print_message("the motion was not added to the cache: {}\n", entry->why());
     return results;
 }

@@ -46,9 +46,11 @@ std::string about(double value) {
     return fmt::format("{:.10g}", std::round(value / unit) * unit);
 }
 
-// "; about 0.31 s, 5200 steps"
-std::string motion_cost(const std::optional<Cost>& cost) {
-    return cost ? fmt::format("; about {} s, {} steps", about(cost->seconds), about(cost->amount)) : "";
+// "; about 0.31 s, 5200 steps"; a cached motion needs no steps.
+std::string motion_cost(const Simulation& s) {
+    if (!s.cost) return "";
+    return fmt::format("; about {} s{}", about(s.cost->seconds),
+                       s.from_cache ? "" : fmt::format(", {} steps", about(s.cost->amount)));
 }
 
 std::string size_text(double bytes) {
@@ -59,7 +61,8 @@ std::string size_text(double bytes) {
 
 // "; about 12 s, 3.1 MB"
 std::string file_cost(const std::optional<Cost>& cost) {
-    return cost ? fmt::format("; about {} s, {}", about(cost->seconds), size_text(cost->amount)) : "";
+    if (!cost) return "";
+    return fmt::format("; about {} s{}", about(cost->seconds), cost->amount > 0 ? ", " + size_text(cost->amount) : "");
 }
 
 std::string simulation_text(const Simulation& simulation) {
@@ -71,9 +74,9 @@ std::string simulation_text(const Simulation& simulation) {
     if (!(end > 0) && events.empty()) text += "the initial state only, without integration";
     if (!simulation.label.empty()) text += fmt::format(" for \"{}\"", simulation.label);
     if (simulation.from_cache) text += "; from the cache";
-    if (simulation.keep) text += "; added to the cache, unless it is short";
+    if (simulation.keep) text += "; added to the cache, unless it is short or too large";
     if (simulation.horizon) text += "; further runs find the reproducible horizon";
-    return text + motion_cost(simulation.cost);
+    return text + motion_cost(simulation);
 }
 
 std::string span_text(const Pictures& p, const std::vector<double>& times) {
@@ -150,7 +153,8 @@ std::string to_text(const Plan& plan) {
         line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
     if (const auto cost = plan.cost()) {
         const std::vector<std::string> more = work_without_cost(plan);
-        line("total", fmt::format("{}, estimated from earlier runs{}", file_cost(cost).substr(2),
+        line("total", fmt::format("{}{}, estimated from earlier runs{}", more.empty() ? "" : "more than ",
+                                  file_cost(cost).substr(2),
                                   more.empty() ? "" : fmt::format("; not known: {}", fmt::join(more, ", "))));
     }
     text += "skipped\n";

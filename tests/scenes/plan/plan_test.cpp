@@ -248,7 +248,19 @@ TEST(PlanText, AMotionThatTwoPicturesCompareIsSimulatedOnceAndMayBeCached) {
     ASSERT_EQ(p.others.size(), 2u);
     const std::string text = to_text(p), how = "until 0.4 s, needed by b.png for ";
     EXPECT_THAT(text, HasSubstr(how + "\"slow\"; from the cache\n"));
-    EXPECT_THAT(text, HasSubstr(how + "\"fast\"; added to the cache, unless it is short\n"));
+    EXPECT_THAT(text, HasSubstr(how + "\"fast\"; added to the cache, unless it is short or too large\n"));
+}
+
+TEST(PlanText, AKeptMotionCostsTimeAndNoSteps) {
+    ExistingWork existing;
+    existing.kept_until[Studies::key(scene_of(kTwo).problem)] = 0.6;
+    Plan p = plan(scene_of(kTwo), {}, existing);
+    p.simulation->cost = Cost{0.65, 14000};
+    EXPECT_THAT(to_text(p), HasSubstr("; from the cache; about 0.65 s\n"));
+    EXPECT_THAT(to_text(p),
+                HasSubstr("total     more than about 0.65 s, estimated from earlier runs; not known: f-##.png, t.csv\n"));
+    p.simulation->from_cache = false;
+    EXPECT_THAT(to_text(p), HasSubstr("; about 0.65 s, 14000 steps\n"));
 }
 
 TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
@@ -273,7 +285,8 @@ skipped
   further runs for the reproducible horizon: no output needs it
 )");
     kept_until = 0.4;  // too short
-    EXPECT_THAT(text_with(existing), HasSubstr("needed by f-##.png; added to the cache, unless it is short\n"));
+    EXPECT_THAT(text_with(existing),
+                HasSubstr("needed by f-##.png; added to the cache, unless it is short or too large\n"));
     existing.finished = {{0, "f-##.png"}, {1, "t.csv"}};
     EXPECT_EQ(text_with(existing), R"(to do
 skipped
