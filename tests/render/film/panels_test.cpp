@@ -912,19 +912,19 @@ double highest_past(Film& film, int frame) {
 
 // A heading that has no room is shorter, not cut.
 TEST(Traces, HaveAShortHeadingInANarrowColumn) {
-    const auto heading = [](int width) {
-        FilmSetup setup = test::flat_film({.duration = 0.3}, width, 540);
-        setup.layout = leaf({.kind = PanelKind::traces});
+    const auto heading = [](double other) {
+        FilmSetup setup = test::flat_film({.duration = 0.3}, 960, 540);
+        setup.layout = grid(LayoutNode::Kind::columns,
+                            {leaf({.kind = PanelKind::traces}), leaf(strip(ChannelKind::theta), other)});
         Film film(std::move(setup));
         const FrameGeometry g = film.geometry(2);
-        const Box box = g.layout.panels.front().box;
+        const Box box = g.layout.first(PanelKind::traces)->box;
         const auto text = std::ranges::find_if(
             g.texts, [&](const Box& each) { return box.contains(each) && each.y < box.y + 26 * g.layout.unit; });
-        return text == g.texts.end() ? 0.0 : text->w / g.layout.unit;
+        return text == g.texts.end() ? 0.0 : text->w;
     };
-    EXPECT_GT(heading(960), 200);
-    EXPECT_GT(heading(300), 0);
-    EXPECT_LT(heading(300), 0.6 * heading(960));
+    EXPECT_GT(heading(4), 30);
+    EXPECT_LT(heading(4), 0.6 * heading(1));
 }
 
 // Before the first touch the axis of force has neither numbers nor levels.

@@ -226,12 +226,13 @@ TEST(Series, DrawsSumsAgainstAnyAbscissa) {
     }
 }
 
-// Zero is the height of O, as in a trajectory: a curve alone equals the sum of one channel.
+// Zero is the height of O, as in a trajectory; sums are in J.
 TEST(Series, CountsPotentialEnergyFromO) {
     const Figure alone = figure_of(R"("channels": ["energy_potential"])"),
-                 sum = figure_of(R"("panels": [{"sums": [{"label": "V", "plus": ["energy_potential"]}]}])");
-    EXPECT_EQ(alone.panels[0].series[0].y, sum.panels[0].series[0].y);
-    EXPECT_EQ(alone.panels[0].y.label, "$V$ / J");
+                 sum = figure_of(R"("panels": [{"channels": ["energy_potential"],
+                           "sums": [{"label": "V", "plus": ["energy_potential"]}]}])");
+    EXPECT_EQ(alone.panels[0].y.label, "$V$ / mJ");
+    EXPECT_NEAR(alone.panels[0].series[0].y.front(), 1e3 * sum.panels[0].series[0].y.front(), 1e-9);
 }
 
 TEST(Series, MarksImpacts) {
