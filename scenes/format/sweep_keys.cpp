@@ -248,10 +248,6 @@ std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& pr
             all.push_back({at + ".count", "one value cannot have two ends; write at least 2, or equal ends"});
         else if (ranged && over.logarithmic && !(*over.from * *over.to > 0))
             all.push_back({at, "logarithmic spacing needs ends of one sign, neither of them 0"});
-        std::vector<double> sorted = over.values;
-        std::ranges::sort(sorted);
-        if (const auto twice = std::ranges::adjacent_find(sorted); twice != sorted.end())
-            all.push_back({at + ".values", fmt::format("{:g} is listed twice; remove one of them", *twice)});
         if (over.file.empty() != over.column.empty()) all.push_back({at, "file and column must be given together"});
     }
     const bool carries = std::ranges::any_of(

@@ -232,8 +232,8 @@ TEST(OrbitsCommand, AVeryUnstableBranchIsFollowedInLongStepsAndSaysWhyItEnds) {
     const Folder folder;
     const Finished done =
         shell(folder,
-              "$BEAMCAM init --from bifurcation -q && $BEAMCAM orbits bifurcation.json --over cam.speed=46:60 "
-              "--impacts 1 --doublings 4 -q --json");
+              "$BEAMCAM init --from bifurcation -q && $BEAMCAM orbits bifurcation.json --over cam.speed=38:60 "
+              "--doublings 4 -q --json");
     ASSERT_EQ(done.code, 0) << done.err;
     const nlohmann::json table = nlohmann::json::parse(done.out);
     for (const nlohmann::json& branch : table["branches"])

@@ -163,8 +163,8 @@ TEST(Diagram, StatesTheOtherNumbersWhereOneOfAPairVaries) {
         return render::to_plain(
             diagram("bifurcation", swept, data(swept, {AttractorClass::periodic}), "v_n_before").caption);
     };
-    EXPECT_THAT(caption("cam.centre.1"), HasSubstr("Cx = 0.25 m, R"));
-    EXPECT_THAT(caption("contact.exponent"), HasSubstr("K = 10⁸ N m−n, lankarani"));
+    EXPECT_THAT(caption("cam.centre.1"), HasSubstr("C_x = 0.25 m, R"));
+    EXPECT_THAT(caption("contact.exponent"), HasSubstr("K = 10⁸ N m^(−n), lankarani"));
     EXPECT_THAT(caption("contact.stiffness"), HasSubstr("n = 1.5, lankarani"));
     EXPECT_THAT(caption("gravity"), HasSubstr("C = (0.25, 0) m"));
 }

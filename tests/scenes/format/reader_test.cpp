@@ -321,7 +321,7 @@ TEST(Reader, FramesAreCountedByRoundedNumbers) {
             .report();
     };
     EXPECT_EQ(film(R"("hold": 1.9)"), "");
-    EXPECT_THAT(problem_with_span({.duration = 1e9}, 1.5), HasSubstr("reduce \"duration\" or \"fps\""));
+    EXPECT_THAT(problem_with_span({.fps = {60, 1}, .duration = 1e9}, 1.5), HasSubstr("reduce \"duration\" or \"fps\""));
     EXPECT_THAT(film(R"("hold": 2)"), HasSubstr("the freezes and the hold fill the film of 2 s"));
     EXPECT_THAT(film(R"("hold": 1, "events": [{"at": 0.3, "freeze": 1}])"), HasSubstr("fill the film of 2 s"));
 }
