@@ -1,7 +1,7 @@
 // Cached coverage of shapes that are unchanged since the last frame: the arrow of the cam, the hub, pieces of the tip's
 // trail. Computing the coverage of each pixel costs far more than painting it: without the cache a flat film takes a
-// fifth longer (0.90 s in place of 0.73 s for 240 pictures). The pixels equal those that Cairo paints: the formulas for
-// opaque and translucent colours are the same, rounding included.
+// quarter longer (0.90 s in place of 0.73 s for 240 pictures of one film). The pixels equal those that Cairo paints:
+// the formulas for opaque and translucent colours are the same, rounding included.
 #pragma once
 
 #include <cstdint>

@@ -40,7 +40,7 @@ const Typography& typography(Typefaces typefaces) {
                                            : kSerifLetters;
 }
 
-constexpr guint16 kFaintOpacity = 14417;  // opacity of faint letters, 22 % of 65535
+constexpr guint16 kFaintOpacity = 14417;  // 22 % of 65535
 
 PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, bool tabular) {
     PangoLayout* layout = pango_layout_new(context);

@@ -10,8 +10,9 @@ namespace {
 
 using sim::ChannelKind;
 
-// V + T + U + U_c + losses, stacked: their sum is the initial energy plus the work done by cam and drive, so the
-// outline of the stack is the supplied energy. Where V < 0 its band is below zero, and the others are stacked on zero.
+// V + T + U + U_c + losses, stacked: their sum is the initial energy plus the work done by cam and drive, so where
+// V ≥ 0 the outline of the stack is the supplied energy. Where V < 0 its band is below zero, and the others are stacked
+// on zero.
 class EnergyPanel final : public ChartPanel {
   public:
     EnergyPanel(const FilmContext& context, const PanelSlot& slot)

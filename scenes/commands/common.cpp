@@ -75,9 +75,9 @@ Scene load_scene(const std::string& path, const Common& common) {
 
 void add_shard(Command& app, std::optional<std::string>& shard) {
     app.option("--shard", &shard, "I/N",
-               "Make part I of N of every film and sequence: 2/3 writes NAME.2of3.mp4. Its pictures are those of the whole "
-               "before encoding. "
-               "Part 1 makes the other outputs. auto: the part of this array task of Slurm, Grid Engine or PBS");
+               "Make part I of N of every film and sequence: 2/3 writes NAME.2of3.mp4. Its pictures are those of the "
+               "whole before encoding. Part 1 makes the other outputs. auto: the part of this array task of Slurm, "
+               "Grid Engine or PBS");
 }
 
 Selection shard_argument(const std::string& text) { return {{}, shard_of(text, std::getenv)}; }

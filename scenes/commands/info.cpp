@@ -14,6 +14,7 @@
 #include "output/image/document_metadata.hpp"
 #include "output/image/png_reader.hpp"
 #include "output/json/tree.hpp"
+#include "render/base/error.hpp"
 #include "scenes/commands/commands.hpp"
 
 namespace beamcam::scenes {
@@ -105,10 +106,19 @@ void read_table(const std::string& file, Provenance& p) {
     read_manifest(file, p);
     const output::ColumnTable table = output::read_table(file, output::Texts::kept);
     const bool texts = std::ranges::any_of(table.columns, [](const auto& column) { return !column.texts.empty(); });
-    const bool netcdf = lower_ending(file) == ".nc";
-    p.kind = texts ? "table with texts" : netcdf ? "NetCDF table" : "table";  // texts: such as the data of a figure
+    p.kind = texts ? "table with texts" : "table";  // texts: such as the data of a figure
     p.facts["rows"] = std::to_string(table.rows());
     p.facts["columns"] = std::to_string(table.columns.size());
+}
+
+// Without rows and columns where the library is missing, or for a file that is no table.
+void read_netcdf(const std::string& file, Provenance& p) {
+    try {
+        read_table(file, p);
+    } catch (const output::IoError&) {
+    } catch (const render::MissingPart&) {
+    }
+    p.kind = "NetCDF table";
 }
 
 // Files whose provenance is only in the manifest beside them.
@@ -134,8 +144,10 @@ Provenance provenance_of(const std::string& file) {
     } else if (ending == ".pdf") {
         p.kind = "PDF figure";
         read_document(output::read_pdf_metadata(file), p);
-    } else if (ending == ".csv" || ending == ".npz" || ending == ".nc") {
+    } else if (ending == ".csv" || ending == ".npz") {
         read_table(file, p);
+    } else if (ending == ".nc") {
+        read_netcdf(file, p);
     } else if (listed != std::end(kListedKinds)) {
         p.kind = listed->second;
         read_manifest(file, p);
@@ -166,18 +178,14 @@ std::string provenance_text(const Provenance& p) {
     return text;
 }
 
-// The scene with outputs in the current folder, so that it can be run where it is; empty: it is not JSON.
+// The scene without outputs on standard output, so that it can be run; empty: it is not JSON.
 std::string runnable_scene(const std::string& scene) {
     Parsed parsed = parse(scene);
     if (!parsed.is_json || parsed.root.kind != Node::Kind::object) return {};
     if (Member* outputs = parsed.root.find("outputs"))
         for (Node& output : outputs->value.items) {
-            Member* file = output.find("file");
-            if (!file || file->value.kind != Node::Kind::string) continue;
-            if (file->value.text == "-")
-                remove(output, "file");
-            else
-                file->value.text.erase(0, file->value.text.rfind('/') + 1);  // npos + 1 is 0
+            const Member* file = output.find("file");
+            if (file && file->value.kind == Node::Kind::string && file->value.text == "-") remove(output, "file");
         }
     return to_text(parsed.root);
 }

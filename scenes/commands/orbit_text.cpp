@@ -87,9 +87,10 @@ std::string nothing_found(const sim::OrbitRequest& request) {
             : fmt::format("a period of {}{}", request.turns == 0 ? "up to " : "",
                           counted(request.turns == 0 ? request.most_turns : 1, "turn"));
     return fmt::format(
-        "no periodic orbit was found with {}{}: neither near the motion after a transient of {:.6g} s, nor from throws "
-        "of the beam off the cam; try another initial state, --turns, --impacts or --transient",
-        periods, request.impacts ? " and " + counted(*request.impacts, "impact") : "", request.transient);
+        "no periodic orbit was found with {}{}: neither near the motion after a transient of {:.6g} s, nor near throws "
+        "of the beam off the cam that last {}; try another initial state, --turns, --impacts or --transient",
+        periods, request.impacts ? " and " + counted(*request.impacts, "impact") : "", request.transient,
+        counted(std::max(1, request.turns), "turn"));
 }
 
 }  // namespace beamcam::scenes

@@ -9,7 +9,7 @@ namespace beamcam::scenes {
 
 std::string to_text(const output::BranchTable& table);
 
-// What to try if a search for orbits of this number of turns, or of any (0), has found none.
+// What was searched in vain, and what to try.
 std::string nothing_found(const sim::OrbitRequest& request);
 
 }  // namespace beamcam::scenes

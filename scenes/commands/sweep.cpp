@@ -95,18 +95,13 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
     return over;
 }
 
-// A whole number that may have been meant as the other of count and step is explained.
+// A digit that may have been meant as the other of count and step is explained.
 void explain_range(const std::string& text, const SweptKey& over) {
     const std::string third = text.substr(text.rfind(':') + 1);
-    const bool digits = !third.empty() && third.find_first_not_of("0123456789") == std::string::npos;
-    if (!digits || !over.count || *over.count < 2) return;
-    const double range = std::abs(*over.to - *over.from), number = *output::number_in<double>(third);
-    if (number > range) return;
-    output::print_message(
-        "note: --over {}: {} values, {:.6g} apart; {}\n", text, *over.count, range / (*over.count - 1),
-        third == "1" ? "1 is a step, because a range has more than one value"
-                     : fmt::format("whole numbers from 2 are a number of values, and a step of {} is written {}.0",
-                                   third, third));
+    if (third.size() != 1 || third < "1" || third > "9" || !over.count) return;
+    output::print_message("note: --over {}: {} values; {}\n", text, *over.count,
+                          third == "1" ? "1 is a step, because a range has more than one value"
+                                       : "whole numbers from 2 are a number of values, and a step has a decimal point");
 }
 
 sim::CamSpan span_argument(const char* option, const std::string& text) {

@@ -58,7 +58,10 @@ void color_by_class(const SweptPoints& points, const std::vector<output::StoredP
     panel.legend = figure::Legend::box;
 }
 
-// Cells without a number stay white.
+// Unknown numbers beside colours that are nearly white at 0.
+constexpr Color kUnknown{0.66, 0.66, 0.66};
+
+// Cells without a number stay white, or are grey beside numbers of both signs.
 void color_by_value(const SweptPoints& points, const std::vector<output::StoredPoint>& entries,
                     const std::string& value, figure::Panel& panel) {
     figure::Cells& cells = panel.cells[0];
@@ -68,29 +71,33 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
     numbers.add(cells.values);
     auto [any, low, high] = numbers;
     if (!any) throw render::PictureError(fmt::format("no point of this sweep has a number for \"{}\"", value));
-    if (low == high) low -= 0.5, high += 0.5;
     const bool both_signs = low < 0 && high > 0;
+    if (low == high) low -= 0.5, high += 0.5;
     if (both_signs) high = std::max(-low, high), low = -high;
-    for (std::size_t i = 0; i < cells.colors.size(); ++i)
-        if (const double number = cells.values[i]; !std::isnan(number))
-            cells.colors[i] =
-                both_signs ? figure::signed_color(number / high) : figure::map_color((number - low) / (high - low));
+    for (std::size_t i = 0; i < cells.colors.size(); ++i) {
+        const double number = cells.values[i];
+        if (both_signs)
+            cells.colors[i] = std::isnan(number) ? kUnknown : figure::signed_color(number / high);
+        else if (!std::isnan(number))
+            cells.colors[i] = figure::map_color((number - low) / (high - low));
+    }
     panel.color_bar =
         figure::ColorBar{.label = map_label(points, value), .from = low, .to = high, .is_signed = both_signs};
     panel.legend = figure::Legend::none;
 }
 
-// Explains the white cells of a map that is coloured by a number.
-std::string white_cells_text(const SweptPoints& points, const std::string& value) {
+// Explains the cells without a number of a map that is coloured by one.
+std::string unknown_cells_text(const SweptPoints& points, const std::string& value, bool grey) {
+    const std::string color = grey ? phrase(points.lang, "Grey", "灰色") : phrase(points.lang, "White", "白色");
     if (value == "class") return "";
     if (value == "exponent")
         return phrase(points.lang,
-                      "White: the exponent is unknown, or −∞ because lasting contact removes every difference.",
-                      "白色：指数未知，或持续接触使一切差异消失（−∞）。");
+                      "{}: the exponent is unknown, or −∞ because lasting contact removes every difference.",
+                      "{}：指数未知，或持续接触使一切差异消失（−∞）。", color);
     if (value == "impacts_per_period")
-        return phrase(points.lang, "Where there is no period: impacts in a turn of the cam. White: neither is known.",
-                      "无周期处为凸轮每转的碰撞次数。白色：二者均未知。");
-    return phrase(points.lang, "White: no sample.", "白色：无样本。");
+        return phrase(points.lang, "Where there is no period: impacts in a turn of the cam. {}: neither is known.",
+                      "无周期处为凸轮每转的碰撞次数。{}：二者均未知。", color);
+    return phrase(points.lang, "{}: no sample.", "{}：无样本。", color);
 }
 
 }  // namespace
@@ -116,7 +123,8 @@ figure::Figure key_map(const SweptPoints& points, const std::string& chosen) {
         color_by_class(points, entries, panel);
     else
         color_by_value(points, entries, value, panel);
-    return {.panels = {std::move(panel)}, .aspect = 0.9, .caption = white_cells_text(points, value)};
+    const bool grey = panel.color_bar && panel.color_bar->is_signed;
+    return {.panels = {std::move(panel)}, .aspect = 0.9, .caption = unknown_cells_text(points, value, grey)};
 }
 
 }  // namespace beamcam::scenes

@@ -204,7 +204,7 @@ static void visit(SceneVisitor& v, FilmEvent& event) {
 
 void visit_bounds(SceneVisitor& v, FrameSpan& span) {
     v.value("from", bound_format(span.from, span.from_event),
-            "First instant; in real time the first frame is at the next multiple of 1/fps.");
+            "First instant; in real time the first frame is at the nearest multiple of 1/fps.");
     v.value("to", bound_format(span.to, span.to_event), "Last instant; by default the end of the scene.");
 }
 

@@ -37,7 +37,7 @@ FrameSpan resolved(const FrameSpan& span, double end_time, const sim::Result& mo
 // The number of frames of a film of this length in film time. Throws render::PictureError if it has none or too many.
 double frame_count(const FrameSpan& span, double seconds);
 // The numbers of the frames, the end not included; nullopt if they depend on events. In real time frame k shows k/fps:
-// the first one is at or after `from`, the end is the one nearest to `to`. Throws what frame_count throws.
+// the first one and the end are nearest to `from` and `to`. Throws what frame_count throws.
 std::optional<std::pair<long, long>> frame_numbers(const FrameSpan& span, double end_time);
 
 // `motion` contains the events until the end of the span if the span needs them; else it may be empty. Throws

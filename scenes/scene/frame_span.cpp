@@ -11,19 +11,13 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr double kRounding = 1e-9;  // of a frame: an instant on a frame belongs to it, as 0.28 s · 25/s to frame 7
-
 struct Frames {
     double first, end;  // numbers
 };
 
-// The frames k/fps from `from`, never earlier, to the one nearest to `to`, which is not shown; at least one if one lies
-// between them.
-Frames frames_between(double from, double to, double fps) {
-    const auto next = [fps](double t) { return std::ceil(t * fps - kRounding); };
-    const double first = next(from);
-    return {first, std::max(std::round(to * fps), std::min(first + 1, next(to)))};
-}
+// The frames k/fps from the one nearest to `from` to the one nearest to `to`, which is not shown: parts that adjoin
+// have all frames of the whole once.
+Frames frames_between(double from, double to, double fps) { return {std::round(from * fps), std::round(to * fps)}; }
 
 // Why a film of this length has no frames, or too many; empty if it is valid.
 std::string problem_with_length(const FrameSpan& span, double seconds) {
@@ -69,8 +63,8 @@ std::string problem_with_span(const FrameSpan& span, double end_time) {
     }
     const auto [first, end] = frames_between(span.from, to, fps);
     if (!(end > first))
-        return fmt::format("no frame lies between {:g} s and {:g} s at {:g} frames a second; {}", span.from, to, fps,
-                           to > span.from ? "increase \"to\" or \"fps\"" : order_remedy(span));
+        return fmt::format("the film from {:g} s to {:g} s has no frame at {:g} frames a second; {}", span.from, to,
+                           fps, to > span.from ? "increase \"to\" or \"fps\"" : order_remedy(span));
     if (end - first > kMostFrames)
         return fmt::format(
             "{:.0f} frames are too many: an output has at most {:.0f}; use \"from\" and \"to\", or reduce \"fps\"",

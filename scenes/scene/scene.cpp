@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 namespace beamcam::scenes {
 
@@ -47,13 +48,17 @@ std::vector<std::string> written_by(const Output& output) {
     return files;
 }
 
-std::string metadata_json(Scene scene) {
+std::string metadata_json(const Scene& scene) {
     const auto strip = [](std::string& file) { file.erase(0, file.rfind('/') + 1); };  // npos + 1 is 0
-    for (Output& output : scene.outputs) {
+    Scene here = scene;
+    std::set<std::string> names;
+    bool distinct = true;
+    for (Output& output : here.outputs) {
         std::visit([&](auto& each) { strip(each.file); }, output);
         if (auto* figure = std::get_if<FigureOutput>(&output)) strip(figure->data_file), strip(figure->caption_file);
+        for (const std::string& name : written_by(output)) distinct = names.insert(name).second && distinct;
     }
-    return to_json(scene);
+    return to_json(distinct ? here : scene);
 }
 
 double memory_of(const Picture& picture) {

@@ -48,6 +48,6 @@ PictureOutput default_film(const Scene& scene);
 std::string to_json(const Scene& scene);
 // The same for the metadata of files made from it, which name their outputs without folders: they are the same bytes in
 // every folder.
-std::string metadata_json(Scene scene);
+std::string metadata_json(const Scene& scene);
 
 }  // namespace beamcam::scenes

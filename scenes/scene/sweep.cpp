@@ -48,10 +48,10 @@ static void resolve_table(SweptKey& over) {
     const auto column = std::ranges::find(table.columns, over.column, &output::TableColumn::name);
     if (column == table.columns.end())
         throw SceneError(fmt::format("sweep.over: {} has no column \"{}\"", over.file, over.column));
-    for (const std::string& text : column->texts)
-        if (!text.empty())
-            throw SceneError(fmt::format("sweep.over: column {} of {}: {} is not a number", over.column, over.file,
-                                         in_quotes(text)));
+    for (std::size_t i = 0; i < column->texts.size(); ++i)
+        if (!column->texts[i].empty())
+            throw SceneError(fmt::format("sweep.over: {}, column {}, row {}: {} is not a number", over.file,
+                                         over.column, i + 1, in_quotes(column->texts[i])));
     over.values = column->values;
     std::erase_if(over.values, [](double value) { return std::isnan(value); });
     if (over.values.empty())

@@ -27,7 +27,8 @@ std::optional<SectionMap::Value> BranchArc::image(const Eigen::VectorXd& z) cons
 }
 
 // ∂P/∂p by finite differences along the tangent, on which the image of an unstable orbit remains as near as the orbit:
-// dP = P_y dy + P_p dp. At folds with y constant. One-sided where only one side has the same events, or exists.
+// dP = P_y dy + P_p dp. At folds, and where the tangent is not known yet, with y constant. One-sided where only one
+// side has the same events, or exists.
 Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const Eigen::VectorXd& tangent,
                                  const SectionMap::Value& here) const {
     const Eigen::Index n = z.size() - 1;

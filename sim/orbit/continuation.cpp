@@ -187,7 +187,7 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
     const double first_step = kFirstArc * request_.step;
     double step = first_step;
     bool moved = false;              // the section, since the last point
-    std::optional<ArcPoint> before;  // the point before `from`, with the same section
+    std::optional<ArcPoint> before;  // the point before `from` on a smooth piece with the same section
     for (int count = 0; count < request_.most_points;) {
         if (progress_ && !progress_(arc_.parameter(from.z))) throw Interrupted();
         end = "the range ends";
@@ -200,7 +200,8 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
         const Eigen::VectorXd predicted = before ? cubic(from, *before, step) : from.z + step * from.tangent;
         auto next = arc_.correct(predicted, from.tangent);
         const bool same = next && same_pattern(from.orbit, next->orbit);
-        if (!same || next->tangent.dot(from.tangent) < kLeastCosine) {
+        const bool smooth = same && next->tangent.dot(from.tangent) >= kLeastCosine;
+        if (!smooth) {
             // Beyond the range there may be no problem.
             if (!next && beyond_range(predicted) && end_at_range(from, predicted, branch)) return;
             if (kArcShrink * step >= kSmallestArc) {
@@ -227,13 +228,12 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
         ++count;
         before = std::exchange(from, std::move(*next));
         moved = false;
-        if (auto centred = near_section(from.orbit) ? recentre(from) : std::nullopt) {
-            from = std::move(*centred);
-            before.reset();
-        }
+        auto centred = near_section(from.orbit) ? recentre(from) : std::nullopt;
+        if (centred) from = std::move(*centred);
+        if (!smooth || centred) before.reset();
         step = std::min(kArcGrowth * step, request_.step);
     }
-    end = fmt::format("the largest number of points, {}, is reached; --most-points takes more", request_.most_points);
+    end = fmt::format("the largest number of points, {}, is reached", request_.most_points);
 }
 
 // A point on the period-doubled branch, along the eigenvector of the multiplier −1.                             (S77)

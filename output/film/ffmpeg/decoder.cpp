@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 #include <new>
+#include <string>
 
 #include "output/film/ffmpeg/library.hpp"
 

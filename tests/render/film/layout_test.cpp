@@ -68,7 +68,8 @@ TEST_P(AnySize, TextKeepsWithinThePictureAndApart) {
     for (int frame : {0, 18, 41}) {
         const std::vector<Box> texts = film.geometry(frame).texts;
         for (std::size_t i = 0; i < texts.size(); ++i) {
-            EXPECT_TRUE((Box{0, 0, 1.0 * GetParam().w, 1.0 * GetParam().h}.contains(texts[i], 0.5))) << frame << ": " << i;
+            EXPECT_TRUE((Box{0, 0, 1.0 * GetParam().w, 1.0 * GetParam().h}.contains(texts[i], 0.5)))
+                << frame << ": " << i;
             for (std::size_t j = 0; j < i; ++j)
                 EXPECT_FALSE(texts[i].overlaps(texts[j]))
                     << "frame " << frame << ": texts " << i << " and " << j << " at " << texts[i].x << "," << texts[i].y

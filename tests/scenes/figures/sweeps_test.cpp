@@ -413,15 +413,16 @@ TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
     // Numbers of both signs, −1 to 2: white is 0, and as much below it is as dark as above.
     some.read = [read = some.read](std::uint64_t k) {
         output::StoredPoint p = read(k);
-        p.exponent -= 1;
+        p.exponent = k == 1 ? 0 : k == 2 ? 2 : p.exponent - 1;
         return p;
     };
     const auto both = diagram("map", two, some, "exponent").panels.at(0);
     EXPECT_TRUE(both.color_bar->is_signed);
-    EXPECT_EQ(both.color_bar->from, -1);
-    EXPECT_EQ(both.color_bar->to, 1);
+    EXPECT_EQ(both.color_bar->from, -2);
+    EXPECT_EQ(both.color_bar->to, 2);
     EXPECT_EQ(both.cells.at(0).colors[1], render::figure::signed_color(0));
-    EXPECT_EQ(both.cells.at(0).colors[0], render::figure::signed_color(-1));
+    EXPECT_EQ(both.cells.at(0).colors[0], render::figure::signed_color(-0.5));
+    EXPECT_NE(both.cells.at(0).colors[3], render::figure::signed_color(0));
     // The mean of a column's samples, −1 and −2.
     EXPECT_EQ(diagram("map", two, some, "v_n_before").panels.at(0).cells.at(0).values[1], 1.5);
 }

@@ -257,8 +257,9 @@ TEST(PlanText, AKeptMotionCostsTimeAndNoSteps) {
     Plan p = plan(scene_of(kTwo), {}, existing);
     p.simulation->cost = Cost{0.65, 14000};
     EXPECT_THAT(to_text(p), HasSubstr("; from the cache; about 0.65 s\n"));
-    EXPECT_THAT(to_text(p),
-                HasSubstr("total     more than about 0.65 s, estimated from earlier runs; not known: f-##.png, t.csv\n"));
+    EXPECT_THAT(
+        to_text(p),
+        HasSubstr("total     more than about 0.65 s, estimated from earlier runs; not known: f-##.png, t.csv\n"));
     p.simulation->from_cache = false;
     EXPECT_THAT(to_text(p), HasSubstr("; about 0.65 s, 14000 steps\n"));
 }

@@ -206,13 +206,17 @@ TEST(FilmTimes, RealTimeIsTheFramesGrid) {
     EXPECT_TRUE(times.speeds.empty());
 }
 
-TEST(FilmTimes, APartOfAFilmNeverStartsBeforeItsFirstInstant) {
-    const auto frames = [](FrameSpan span) { return film_times(span, 1, {}).frames; };
-    EXPECT_EQ(frames({.fps = {25, 1}, .from = 0.25, .to = 0.32}), (std::vector{7 / 25.0}));
-    EXPECT_EQ(frames({.fps = {25, 1}, .from = 0.28, .to = 0.36}), (std::vector{7 / 25.0, 8 / 25.0}));
-    EXPECT_EQ(frames({.fps = {25, 1}, .from = 0.25, .to = 0.285}), (std::vector{7 / 25.0}));
-    EXPECT_EQ(frames({.fps = {1, 10}, .to = 1}), (std::vector{0.0}));
-    EXPECT_THROW(frames({.fps = {25, 1}, .from = 0.25, .to = 0.27}), render::PictureError);
+TEST(FilmTimes, PartsThatAdjoinHaveEachFrameOnce) {
+    const auto frames = [](double from, double to) {
+        return film_times({.fps = {25, 1}, .from = from, .to = to}, 1, {}).frames;
+    };
+    for (const double cut : {0.24, 0.25, 0.27, 0.28}) {
+        std::vector<double> parts = frames(0, cut);
+        const std::vector<double> second = frames(cut, 0.4);
+        parts.insert(parts.end(), second.begin(), second.end());
+        EXPECT_EQ(parts, frames(0, 0.4)) << cut;
+    }
+    EXPECT_EQ(frames(0.25, 0.32), (std::vector{6 / 25.0, 7 / 25.0}));
 }
 
 TEST(FilmTimes, SlowMotionHasRowsBetweenItsFrames) {

@@ -55,7 +55,8 @@ TEST_P(FlowMap_, DerivativeIsTheLimitOfDifferences) {
     // Only the first column under a sanitizer, because the differences take long.
     for (Eigen::Index i = 0; i < (under_sanitizers() ? 1 : exact.cols()); ++i) {
         const double h = 1e-6 / std::max(1.0, exact.col(i).head(exact.rows() / 2).cwiseAbs().maxCoeff());
-        const Vector column = slope_at_zero([&](double s) { return end_state(c.problem, shifted(start, i, s), c.duration); }, h);
+        const Vector column =
+            slope_at_zero([&](double s) { return end_state(c.problem, shifted(start, i, s), c.duration); }, h);
         const Vector rows = exact.rowwise().norm();
         const double rounding = 20 * std::numeric_limits<double>::epsilon() / h;
         for (Eigen::Index r = 0; r < exact.rows(); ++r)
