@@ -17,15 +17,22 @@ ContactGeometry::ContactGeometry(const Problem& problem, const Model& model)
       x_last_(0.5 * length_) {}
 
 // A starting point for Newton's method: the foot on the straight beam if there is only one foot, else the nearest of a
-// few points.
-void ContactGeometry::search_whole_beam(const Model& model, Vec2 disc, bool straight) {
-    if (straight) {
-        x_last_ = std::clamp(dot(disc, unit(model.coordinates()[0])) - hub_radius_, 0.0, length_);
+// few points, which is not where a straight beam is farther by twice the deflection.
+void ContactGeometry::search_whole_beam(const Model& model, const GapBound& bound, Vec2 disc) {
+    const double* q = model.coordinates();
+    const Vec2 along = unit(q[0]);
+    const double straight_foot = std::clamp(dot(disc, along) - hub_radius_, 0.0, length_);
+    if (bound.nearly_straight(q + 1)) {
+        x_last_ = straight_foot;
         return;
     }
+    const double none[kMaxSize] = {}, step = length_ / samples_;
+    const auto straight = [&](double x) { return norm((hub_radius_ + x) * along - disc); };
+    const double most = straight(straight_foot) + step + 2 * bound.deflection(q, none);
     double best = std::numeric_limits<double>::infinity();
     for (int i = 0; i <= samples_; ++i) {
         const double x = length_ * i / samples_;
+        if (straight(x) > most) continue;
         model.point(x, at_);
         const Vec2 d = at_.r - disc;
         const double distance = dot(d, d);
@@ -74,7 +81,7 @@ Vec2 ContactGeometry::foot(const Model& model, Vec2 disc, ContactState& c) {
 ContactState ContactGeometry::evaluate(const Model& model, const GapBound& bound, double t, bool search, double shift) {
     ContactState c;
     const CamPose pose = cam_pose(cam_, t);
-    if (search || search_next_) search_whole_beam(model, pose.disc, bound.nearly_straight(model.coordinates() + 1));
+    if (search || search_next_) search_whole_beam(model, bound, pose.disc);
     search_next_ = false;
     const Vec2 d = foot(model, pose.disc, c);
     const double distance = norm(d);

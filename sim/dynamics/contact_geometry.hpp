@@ -38,7 +38,7 @@ class ContactGeometry {
     double gap_acceleration_at_rest(const Model& model, double t, const ContactState& c) const;
 
   private:
-    void search_whole_beam(const Model& model, Vec2 disc, bool straight);
+    void search_whole_beam(const Model& model, const GapBound& bound, Vec2 disc);
     Vec2 foot(const Model& model, Vec2 disc, ContactState& c);
 
     Cam cam_;

@@ -24,9 +24,10 @@ class GapBound {
     double shape_bound(std::size_t mode) const { return shape_bounds_[mode]; }
     double wave_number(std::size_t mode) const { return wave_numbers_[mode]; }
 
-  private:
+    // Upper bound of the distance of any point from the straight beam at the frame's angle [m].
     double deflection(const double* xi, const double* spread) const;
 
+  private:
     int modes_;
     bool exact_;
     double length_, radius_, offset_;
