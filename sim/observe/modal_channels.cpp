@@ -110,8 +110,8 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
             if (!basis_.are_coordinates()) return weigh({}, modes.q, [&](auto i) { return basis_.share(j, i); });
             values = modes.q[j];
             return true;
-        case ChannelKind::theta:
-            return weigh(modes.angle, modes.q, turn);
+        case ChannelKind::theta:  // of a prescribed hub not known there
+            return (modes.resolved || !system_.drive().prescribed()) && weigh(modes.angle, modes.q, turn);
         case ChannelKind::theta_dot:
             return weigh(modes.theta_dot, modes.rate, turn);
         case ChannelKind::tip_deflection:
@@ -122,6 +122,12 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
             if (basis_.coupled || basis_.bends_far) return false;
             values = (0.5 * basis_.J) * modes.theta_dot * modes.theta_dot;
             for (const Lanes& rate : modes.rate) values += (0.5 * basis_.mass) * rate * rate;
+            return true;
+        case ChannelKind::energy_elastic:
+            if (basis_.bends_far) return false;
+            values = {};
+            for (std::size_t i = 0; i < modes_.size(); ++i)
+                values += (0.5 * modes_[i].stiffness) * modes.q[i] * modes.q[i];
             return true;
         case ChannelKind::separation:
         case ChannelKind::separation_paper:

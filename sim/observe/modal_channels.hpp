@@ -32,6 +32,10 @@ class ModalChannels {
 
     void set(const PartBounds::Part& part);
     const TouchSamples* touch() const { return bounds_.part.touch; }
+    // The end of the beam that the foot of the contact does not leave within the part, if there is one.
+    std::optional<double> foot_at_end() const {
+        return bounds_.foot_moves() ? std::nullopt : std::optional(bounds_.nearest);
+    }
     double fading() const;  // the fastest, of vibration that a polynomial over the part does not resolve [1/s]
 
     struct Range {
@@ -76,7 +80,7 @@ class ModalChannels {
     const ForcedAcceleration& forced() const;
     double drift(ChannelKind kind) const;
     double line_strays(Channel channel, double length) const;
-    double pull() const { return 1.5 * sensitivity_.gravity() / basis_.length; }  // of gravity, per arm (S41)
+    double pull() const;  // largest of gravity, per arm (S41)
     double strays_between_nodes(Channel channel, const Variation& polynomial) const;
     template <class Add>
     void each_unresolved(Channel channel, Add&& add) const;

@@ -55,6 +55,15 @@ double ModalChannels::drift(ChannelKind kind) const {
     return 0;
 }
 
+// |cos θ| is at most that in the middle of the angles of the hub, and the distance of their ends from it.
+double ModalChannels::pull() const {
+    const MotionBounds& motion = *bounds_.part.motion;
+    const double middle = 0.5 * (motion.angle_low + motion.angle_high),
+                 around = 0.5 * (motion.angle_high - motion.angle_low) + bounds_.alpha;
+    const double cosine = std::min(1.0, std::fabs(std::cos(middle)) + around);
+    return 1.5 * sensitivity_.gravity() / basis_.length * cosine;
+}
+
 // Largest distance of the channel from the line between two of its values that are `length` apart in time.
 double ModalChannels::line_strays(Channel channel, double length) const {
     Lanes total{};
@@ -145,6 +154,8 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         return {-most, most};
     }
     Range range{std::min(first, last), std::max(first, last)};
+    const MotionBounds& motion = *bounds_.part.motion;
+    if (kind == ChannelKind::theta && (motion.rate_low > 0 || motion.rate_high < 0)) return range;
     if (kind == ChannelKind::energy_residual) {
         const double error = bounds_.part.modes->balance_error;
         return {range.low - error, range.high + error};

@@ -57,7 +57,10 @@ void StepChannels::begin(const SegmentInterval& s) {
     segment_ = s.segment;
     segment_from_ = s.segment->t0;
     segment_to_ = s.segment->t1;
-    if (bounded_from_ != s.from || bounded_to_ != s.to) bound(s);
+    if (bounded_from_ != s.from || bounded_to_ != s.to) {
+        bounded_from_ = -1;  // those of the last interval hold no more
+        bound(s);
+    }
     bounded_from_ = s.from;
     bounded_to_ = s.to;
     search_again();
@@ -94,8 +97,7 @@ void StepChannels::bound(const SegmentInterval& s) {
     if (modes) {
         for (const Lanes& rate : modes->rate) at_rest_ = at_rest_ && largest(rate) < resting;
         const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
-        modal_channels_.set({s.from, s.to, s.from - segment.t0, whole && !system.drive().prescribed(), modes,
-                             segment.bounds(), segment.touch()});
+        modal_channels_.set({s.from, s.to, s.from - segment.t0, whole, modes, segment.bounds(), segment.touch()});
         return;
     }
     PolynomialBounds::States states;
@@ -147,10 +149,13 @@ bool StepChannels::is_linear(ChannelKind kind) {
     return traits(kind).of_hub && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
-// Geometry and forces, except in sustained contact: the probe costs less than a search of the whole beam.
+// Geometry and forces, except in sustained contact: at the end of the beam where the foot stays, else by the probe,
+// which costs less than a search of the whole beam.
 void StepChannels::probe_contact(double t) {
-    ContactState c = probe_.evaluate(t, y_.data(), false);
-    const System& system = evaluator_.system();
+    System& system = evaluator_.system();
+    const std::optional<double> end = bounded_from_ >= 0 ? modal_channels_.foot_at_end() : std::nullopt;
+    if (end) system.begin_contact_at(*end);
+    ContactState c = end ? system.contact(t, y_.data(), false) : probe_.evaluate(t, y_.data(), false);
     const Phase& phase = system.phase();
     if (phase.touching) {
         c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);

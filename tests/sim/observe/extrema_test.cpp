@@ -287,6 +287,26 @@ TEST(Extrema, OfAnEstimateAreBoundedByItsModes) {
     EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::tip_deflection}}), 250);
 }
 
+// A prescribed hub hides the nodes of a step no more than a free one, and elastic energy is that of its modes there.
+TEST(Extrema, OnAHubAtConstantSpeedAreBoundedByNodes) {
+    Problem p = turning_cam(ModelKind::first_order, 8);
+    p.cam.reset();
+    p.hub.drive = ConstantSpeed{3};
+    p.initial.q = {0.02, 0.01, 0.004, 0.002, 0.001, 0.0005, 0.0003, 0.0002};
+    EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::theta_dot}, {ChannelKind::tip_rate}}), 4);
+    EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::energy_elastic}}), 30);
+    p.hub.drive = FreeDrive{};
+    EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::energy_elastic}}), 10);
+}
+
+// A beam that hangs almost straight down is hardly turned by its weight.
+TEST(Extrema, OfTheSeparationAreBoundedByTheAngleOfTheWeight) {
+    Problem p = turning_cam(ModelKind::first_order, 8, 1);
+    p.cam->centre = {0.1, -2.5};
+    p.initial.angle = -1.5;
+    EXPECT_LE(searches_times_256(p, 1, {{ChannelKind::separation}}), 60);
+}
+
 // In sustained impulsive contact the gap is zero but for rounding.
 TEST(Extrema, OfRoundingAreNotSearched) {
     Problem p = turning_cam(ModelKind::first_order, 8, -4);
