@@ -119,16 +119,13 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
         case ChannelKind::tip_rate:
             return weigh({}, modes.rate, tip);
         case ChannelKind::energy_kinetic:
-            if (basis_.coupled || basis_.bends_far) return false;
-            values = (0.5 * basis_.J) * modes.theta_dot * modes.theta_dot;
-            for (const Lanes& rate : modes.rate) values += (0.5 * basis_.mass) * rate * rate;
-            return true;
+            if (basis_.bends_far) return false;
+            return weigh((0.5 * basis_.J) * modes.theta_dot * modes.theta_dot, modes.rate, [&](auto i) {
+                return modes_[i].U * modes.theta_dot + (0.5 * basis_.mass) * modes.rate[i];
+            });
         case ChannelKind::energy_elastic:
             if (basis_.bends_far) return false;
-            values = {};
-            for (std::size_t i = 0; i < modes_.size(); ++i)
-                values += (0.5 * modes_[i].stiffness) * modes.q[i] * modes.q[i];
-            return true;
+            return weigh({}, modes.q, [&](auto i) { return (0.5 * modes_[i].stiffness) * modes.q[i]; });
         case ChannelKind::separation:
         case ChannelKind::separation_paper:
             if (!accelerated_by_modes()) return false;

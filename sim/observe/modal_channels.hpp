@@ -49,8 +49,8 @@ class ModalChannels {
     // their nodal forcing. A prescribed hub follows its drive.
     bool accelerated_by_modes() const;
     double hub_acceleration(double t, const double* y) const;
-    // The same at the nodes, or q, or the kinetic energy but for the change of inertia by bending; false where the part
-    // is not the whole step, or the channel is none of these. Of the separation θ̈ times the longest arm.
+    // The same at the nodes, or q, or the elastic energy, or the kinetic but for the change of inertia by bending; false
+    // where the part is not the whole step, or the channel is none of these. Of the separation θ̈ times the longest arm.
     bool at_nodes(Channel channel, Lanes& values) const;
     // The values of a channel at the nodes that need no evaluation, if there are any.
     bool known_at_nodes(Channel channel, Lanes& values) const;

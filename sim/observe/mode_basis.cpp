@@ -24,13 +24,12 @@ void ModeBasis::pack_modes() {
     groups.resize((size() + kNodes - 1) / kNodes);
     for (std::size_t i = 0; i < size(); ++i) {
         const Mode& mode = modes[i];
-        coupled = coupled || mode.U != 0;
         Group& group = groups[i / kNodes];
         const int lane = static_cast<int>(i % kNodes);
         group.h[lane] = mode.h;
         group.turn[lane] = mode.turn;
         group.tip[lane] = mode.tip;
-        group.U[lane] = mode.U;
+        group.U[lane] = std::fabs(mode.U);
         group.W[lane] = mode.W;
         group.stiffness[lane] = mode.stiffness;
         group.inertia[lane] = mode.inertia;
@@ -62,7 +61,7 @@ void ModeBasis::of_coordinates(System& system) {
         const auto mode = static_cast<std::size_t>(i);
         const double shape = system.gap_bound().shape_bound(mode), wave = system.gap_bound().wave_number(mode);
         tip.push_back(at_tip[i] - root[i] - length * m.slope[i]);
-        modes.push_back({std::fabs(m.slope[i]), m.slope[i], tip.back(), std::fabs(m.U[i]), std::fabs(m.W[i]), m.K[i],
+        modes.push_back({std::fabs(m.slope[i]), m.slope[i], tip.back(), m.U[i], std::fabs(m.W[i]), m.K[i],
                          inertia[mode], weight[mode], shape, shape * wave, wave, model.frequency(i),
                          damping ? damping[i] / mass : 0});
     }
@@ -92,7 +91,7 @@ void ModeBasis::of_natural_modes(System& system) {
     for (Eigen::Index i = 0; i < n; ++i) {
         const auto k = static_cast<std::size_t>(i);
         const double square = std::max(0.0, m.omega_squared[i]), steep = m.slope_norm[k] * with_root;
-        modes.push_back({std::fabs(m.h[k]), m.h[k], by_mode[i + 1], std::fabs(m.U[i]), mass * std::fabs(m.weight[i]),
+        modes.push_back({std::fabs(m.h[k]), m.h[k], by_mode[i + 1], m.U[i], mass * std::fabs(m.weight[i]),
                          mass * square, root_mass * (1 + arm * steep), root_mass * steep, m.shape[k],
                          m.shape[k] * m.beta[k], m.beta[k], std::sqrt(square), m.damping[i]});
     }

@@ -13,9 +13,10 @@ namespace beamcam::sim {
 struct ModeBasis {
     explicit ModeBasis(System& system);
 
-    // `turn`, `tip`: what q adds to θ and to the tip's deflection. The rest are magnitudes: `h` of turn; U, W of the
-    // terms Θ̇Uq̇ and gWq of the energies; `inertia`, `weight`: roots of the diagonals of their quadratic terms; `shape`,
-    // `slope`: largest displacement and rotation along the beam; `wave`: wave number [1/m]; `damping` = 2γ.
+    // `turn`, `tip`: what q adds to θ and to the tip's deflection; U of the term Θ̇Uq̇ of the energy, in groups its
+    // magnitude. The rest are magnitudes: `h` of turn; W of the term gWq; `inertia`, `weight`: roots of the diagonals
+    // of their quadratic terms; `shape`, `slope`: largest displacement and rotation along the beam; `wave`: wave number
+    // [1/m]; `damping` = 2γ.
     template <class T>
     struct Contribution {
         T h{}, turn{}, tip{}, U{}, W{}, stiffness{}, inertia{}, weight{}, shape{}, slope{}, wave{}, omega{}, damping{};
@@ -33,7 +34,6 @@ struct ModeBasis {
     // are the coordinates.
     std::vector<double> hub, tip, natural, to_natural;
     bool are_coordinates() const { return natural.empty(); }
-    bool coupled = false;  // a mode turns the hub: U of some is not zero
     // By terms of third order in the deflection, which the modal models leave out.
     bool bends_far = false;
     double length = 0, reach = 0, mass = 0, J = 0, S = 0;
