@@ -30,7 +30,7 @@ TEST(OrbitsCommand, ReportsTheShortestPeriod) {
     const Finished three = shell(folder, "$BEAMCAM orbits s.json --turns 3 --transient 0");
     EXPECT_EQ(three.code, 4);
     EXPECT_THAT(three.err, HasSubstr("no periodic orbit was found with a shortest period of 3 turns"));
-    EXPECT_THAT(three.err, HasSubstr("neither near the motion after a transient of 0 s, nor from throws"));
+    EXPECT_THAT(three.err, HasSubstr("neither near the motion after a transient of 0 s, nor near throws"));
     EXPECT_THAT(shell(folder, "$BEAMCAM orbits s.json --turns 1 --transient 0").out, StartsWith("period 1 turn"));
 }
 
