@@ -150,7 +150,7 @@ class Rk8 final : public Integrator, private Segment {
     void stage(int index, double h) {
         const TableauRow& row = kRows[static_cast<std::size_t>(index)];
         work_ = y_;
-        for (std::size_t j = 0; j < row.a.size(); ++j) {
+        for (std::size_t j = 0; j < static_cast<std::size_t>(index); ++j) {
             if (row.a[j] == 0) continue;
             const double a = h * row.a[j];
             const double* k = k_[j].data();
