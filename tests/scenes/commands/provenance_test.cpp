@@ -89,6 +89,16 @@ TEST(Info, FilesAreTheSameBytesInEveryFolder) {
                 HasSubstr("up to date"));
 }
 
+TEST(Info, OutputsOfOneNameInTwoFoldersKeepTheirFolders) {
+    const Folder folder;
+    folder.write("s.json",
+                 R"({"outputs": [{"type": "summary", "file": "a/x.json"}, {"type": "summary", "file": "b/x.json"}]})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
+    const Finished scene = shell(folder, "$BEAMCAM info --scene a/x.json");
+    EXPECT_THAT(scene.out, HasSubstr("\"a/x.json\""));
+    EXPECT_EQ(shell(folder, "$BEAMCAM info --scene a/x.json | $BEAMCAM check -").code, 0);
+}
+
 TEST(Info, AStillNamedByAnAbsolutePathGivesASceneThatCanBeRun) {
     const Folder folder;
     folder.write("s.json", "{}");
