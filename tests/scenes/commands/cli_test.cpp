@@ -153,6 +153,16 @@ TEST(CommandLine, AnUnreadableFileDoesNotHideTheOthers) {
     }
 }
 
+TEST(CommandLine, SaysWhyALongMotionIsNotKept) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 40}})");
+    const std::string simulate =
+        "BEAMCAM_CACHE_SIZE=1 BEAMCAM_CACHE_DIR=c $BEAMCAM simulate s.json --trajectory a.csv --force";
+    EXPECT_THAT(shell(folder, simulate).err,
+                HasSubstr("not added to the cache: it is larger than half of the cache of 1 MiB"));
+    EXPECT_EQ(shell(folder, simulate + " -q").err, "");
+}
+
 TEST(CommandLine, ARangeThatCanBeReadInTwoWaysIsExplained) {
     const Folder folder;
     folder.write("s.json", "{}");

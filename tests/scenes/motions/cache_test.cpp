@@ -1,6 +1,5 @@
 #include "scenes/motions/cache.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <fstream>
@@ -103,16 +102,6 @@ TEST(Cache, KeepsNothingThatWouldFillHalfOfIt) {
     const Cache none(folder / "d", 0);
     EXPECT_FALSE(keep(none, 'a', 1, 10));
     EXPECT_FALSE(fs::exists(folder / "d"));
-}
-
-TEST(Cache, SaysWhyALongMotionIsNotKept) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 40}})");
-    const std::string simulate =
-        "BEAMCAM_CACHE_SIZE=1 BEAMCAM_CACHE_DIR=c $BEAMCAM simulate s.json --trajectory a.csv --force";
-    EXPECT_THAT(testing::shell(folder, simulate).err,
-                ::testing::HasSubstr("not added to the cache: it is larger than half of the cache of 1 MiB"));
-    EXPECT_EQ(testing::shell(folder, simulate + " -q").err, "");
 }
 
 TEST(Cache, SweepsHalfWrittenFilesThatNobodyTouchesAnyMore) {
