@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "output/data/tables.hpp"
+#include "output/json/source.hpp"
 #include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {
