@@ -80,9 +80,8 @@ std::string deflection_caption(const Subject& subject, const Inclination& at, do
     const std::string angle = number(at.angle * 180 / M_PI, 4);
     std::string text = phrase(
         lang,
-        "Static deflection $v$ across the beam (a) and slope d$v$/d$s$ along it (b), over the horizontal distance $x$ "
-        "= "
-        "$s$ cos $θ$. The beam, inclined by $θ$ = {}°{}, is hinged at $O$ and supported at $x$ = $l_{{1}}$. ",
+        "Static deflection $v$ across the beam (a) and slope d$v$/d$s$ along it (b), over the horizontal distance "
+        "$x$ = $s$ cos $θ$. The beam, inclined by $θ$ = {}°{}, is hinged at $O$ and supported at $x$ = $l_{{1}}$. ",
         "横向静挠度 $v$ (a) 与沿梁斜率 d$v$/d$s$ (b)，横轴为水平距离 $x$ = $s$ cos $θ$；倾角 $θ$ = {}°{}的梁铰接于 "
         "$O$ 并支承于 $x$ = $l_{{1}}$ 处。",
         angle,

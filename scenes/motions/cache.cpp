@@ -169,12 +169,13 @@ void Cache::Entry::give_up(std::string reason) {
     file_.reset();
 }
 
+bool Cache::Entry::too_large() const { return count_ * sizeof(double) > cache_.limit_ / 2; }
+
 void Cache::Entry::add(std::span<const double> numbers) {
     if (!file_) return;
     count_ += numbers.size();
     // A larger entry would evict nearly all others.
-    too_large_ = count_ * sizeof(double) > cache_.limit_ / 2;
-    if (too_large_)
+    if (too_large())
         return give_up(fmt::format("it is larger than half of the cache of {} MiB, which BEAMCAM_CACHE_SIZE enlarges",
                                    cache_.limit_ / kMiB));
     sum_ = output::crc32(sum_, numbers.data(), numbers.size_bytes());

@@ -44,7 +44,7 @@ class Cache {
         // description for `ls`. False: not published, for the reason `why`.
         bool commit(double end, long steps, const std::string& about);
         const std::string& why() const { return why_; }
-        bool too_large() const { return too_large_; }
+        bool too_large() const;
 
       private:
         void give_up(std::string reason);
@@ -54,7 +54,6 @@ class Cache {
         std::string why_;
         std::unique_ptr<output::AtomicFile> file_;  // null: given up
         std::uint64_t count_ = 0;
-        bool too_large_ = false;
         std::uint32_t sum_ = 0;
     };
 

@@ -1,7 +1,6 @@
 // Which frames a film in real time has.
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "render/base/error.hpp"

@@ -33,7 +33,7 @@ Eigen::VectorXd BranchArc::slope(const Eigen::VectorXd& z, const Eigen::VectorXd
                                  const SectionMap::Value& here) const {
     const Eigen::Index n = z.size() - 1;
     Eigen::VectorXd along = Eigen::VectorXd::Unit(n + 1, n);
-    if (std::fabs(tangent[n]) > kSteep) along = tangent / tangent[n];
+    if (std::fabs(tangent[n]) > kNearFold) along = tangent / tangent[n];
     const auto before = image(z - kArcDifference * along), after = image(z + kArcDifference * along);
     if (!before && !after) throw StepFailure("the parameter cannot be varied");
     const bool back = before && (!after || same_events(before->map, here.map));

@@ -33,7 +33,7 @@ inline constexpr int kMaxArcNewton = 8;  // iterations; if a prediction needs mo
 inline constexpr double kArcConverged = 1e-11, kArcAcceptable = 1e-9;
 // Of the range: finite difference for ∂P/∂p, which affects the tangent and the convergence of the corrector.
 inline constexpr double kArcDifference = 1e-6;
-inline constexpr double kSteep = 0.1;  // of the unit tangent: its part along the parameter, if smaller, is a fold's
+inline constexpr double kNearFold = 0.1;  // of the unit tangent: its part along the parameter is smaller near a fold
 inline constexpr double kSmallestArc = 1e-9;                 // of the range: smallest step, located end of a branch
 inline constexpr double kFirstArc = 0.1;                     // of the longest step
 inline constexpr double kArcShrink = 0.3, kArcGrowth = 1.4;  // step factors after failure and success
