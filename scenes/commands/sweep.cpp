@@ -180,7 +180,7 @@ std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     return outputs;
 }
 
-std::string quoted(const std::string& word) {
+std::string shell_word(const std::string& word) {
     const bool plain =
         word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/:=,@+") ==
         std::string::npos;
@@ -192,12 +192,12 @@ std::string quoted(const std::string& word) {
 
 // The command line without -o.
 std::string command_of(const SweepArguments& args) {
-    std::string text = "beamcam sweep " + quoted(args.scene);
-    for (const std::string& each : args.common.overrides) text += " --set " + quoted(each);
-    for (const std::string& each : args.over) text += " --over " + quoted(each);
+    std::string text = "beamcam sweep " + shell_word(args.scene);
+    for (const std::string& each : args.common.overrides) text += " --set " + shell_word(each);
+    for (const std::string& each : args.over) text += " --over " + shell_word(each);
     for (const auto& [option, value] : {std::pair{"--sample", &args.sample}, std::pair{"--transient", &args.transient},
                                         std::pair{"--keep", &args.keep}, std::pair{"--seed", &args.seed}})
-        if (*value) text += fmt::format(" {} {}", option, quoted(**value));
+        if (*value) text += fmt::format(" {} {}", option, shell_word(**value));
     return text;
 }
 
@@ -210,7 +210,7 @@ void check_parts(const SweepArguments& args) {
         throw UsageError("--diagram, --film: a part has no diagram or film; collect the parts first");
     if (args.emit && args.shard) throw UsageError("--emit and --shard exclude each other: the script makes all parts");
     if (args.emit && args.scene == "-") throw UsageError("--emit: the scene must be in a file, which the script names");
-    if (args.emit && quoted(args.file) != args.file)
+    if (args.emit && shell_word(args.file) != args.file)
         throw UsageError(
             fmt::format("--emit: -o {}: use letters, digits and ._-/ only in names for scripts", args.file));
 }

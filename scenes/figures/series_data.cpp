@@ -23,7 +23,8 @@ std::vector<Lost> unreliable(const sim::Result& result, double end) {
     return out;
 }
 
-std::array<Series, 2> split(const Series& whole, const std::vector<double>& times, const std::vector<Lost>& intervals) {
+std::array<Series, 2> sure_and_unsure(const Series& whole, const std::vector<double>& times,
+                                      const std::vector<Lost>& intervals) {
     std::array<Series, 2> parts{whole, whole};
     for (Series& part : parts) part.x.clear(), part.y.clear();
     std::optional<bool> before;

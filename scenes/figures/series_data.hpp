@@ -25,8 +25,9 @@ std::vector<Lost> unreliable(const sim::Result& result, double end);
 
 // The curve outside of the intervals, and the curve within them; neighbouring pieces share a point. `times`: of its
 // points.
-std::array<render::figure::Series, 2> split(const render::figure::Series& whole, const std::vector<double>& times,
-                                            const std::vector<Lost>& intervals);
+std::array<render::figure::Series, 2> sure_and_unsure(const render::figure::Series& whole,
+                                                      const std::vector<double>& times,
+                                                      const std::vector<Lost>& intervals);
 
 // A sentence that names these intervals, by the names of the motions if there are several; empty: there are none.
 std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,

@@ -167,7 +167,7 @@ class SeriesPanelMaker {
                            .look = curves_++,
                            .right = side.right,
                            .weight = weight_};
-        auto [sure, unsure] = split(whole, rows.values[0], plan_.lost(*results_[motion.study]));
+        auto [sure, unsure] = sure_and_unsure(whole, rows.values[0], plan_.lost(*results_[motion.study]));
         unsure.faded = true;
         if (!sure.x.empty()) unsure.label.clear();
         for (Series* part : {&unsure, &sure}) {
@@ -216,7 +216,7 @@ class SeriesPanelMaker {
         std::vector<double> difference = *measured.data.find(channel);
         for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= computed[i];
         const Series whole = measured_series(measured.data, points.x, std::move(difference), points.look);
-        auto [sure, unsure] = split(whole, measured.data.times, plan_.lost(result));
+        auto [sure, unsure] = sure_and_unsure(whole, measured.data.times, plan_.lost(result));
         unsure.faded = true;
         for (Series* part : {&unsure, &sure})
             if (!part->x.empty()) differences_.series.push_back(std::move(*part));

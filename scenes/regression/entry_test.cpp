@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "output/files/errors.hpp"
 #include "output/film/picture_source.hpp"
 #include "render/base/error.hpp"
 

@@ -15,6 +15,7 @@
 #include "scenes/regression/entry_motion.hpp"
 #include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/regression.hpp"
+#include "scenes/scene/exit_code.hpp"
 
 namespace beamcam::scenes {
 

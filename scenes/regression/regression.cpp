@@ -11,6 +11,7 @@
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/regression/entry_test.hpp"
+#include "scenes/scene/exit_code.hpp"
 #include "sim/base/clock.hpp"
 
 namespace beamcam::scenes {
