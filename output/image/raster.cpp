@@ -8,7 +8,7 @@
 
 namespace beamcam::output {
 
-static bool is_opaque(std::span<const std::uint32_t> pixels) {
+bool is_opaque(std::span<const std::uint32_t> pixels) {
     std::uint32_t all = 0xff000000;
     for (std::uint32_t pixel : pixels) all &= pixel;
     return all >= 0xff000000;

@@ -47,6 +47,7 @@ inline StraightColor straight_color(std::uint32_t pixel) {
     return a == 0 ? StraightColor{} : StraightColor{channel(16), channel(8), channel(0), a};
 }
 
+bool is_opaque(std::span<const std::uint32_t> pixels);  // every one of them
 // Writes R, G, B, A of each pixel, in four bytes each.
 void rgba_bytes(std::span<const std::uint32_t> pixels, std::uint8_t* out);
 

@@ -18,19 +18,19 @@ class PngSink final : public PictureSink {
     PngSink(const Pictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {}
 
     Input input(Gate&) override {
-        const output::PngOptions options{std::nullopt, metadata_, output::PngCompression::quick};
-        return [this, sequence = std::make_shared<output::PngSequence>(options)](long k, const render::Image& image,
-                                                                                 const render::DirtyTiles& changed) {
-            const std::filesystem::path file = path_of(static_cast<std::size_t>(k));
-            const output::Target target = to_.files.target(file, p_.output);
+        // An unchanged frame has the file of the one before.
+        return [this, file = std::make_shared<std::string>()](long k, const render::Image& image,
+                                                              const render::DirtyTiles& changed) {
+            const std::filesystem::path path = path_of(static_cast<std::size_t>(k));
+            const output::Target target = to_.files.target(path, p_.output);
             const auto start = Clock::now();
-            if (p_.kind == Pictures::Kind::still)
-                output::write_png(target, image, {std::nullopt, metadata_});
-            else
-                output::write_file(target, sequence->encode(image, changed), output::Durability::buffered);
+            if (file->empty() || changed.any()) *file = output::encode_png(image, {std::nullopt, metadata_});
+            output::write_file(
+                target, *file,
+                p_.kind == Pictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
             const std::lock_guard lock(mutex_);
             to_.context.times.write += seconds_since(start);
-            if (p_.kind == Pictures::Kind::frames) to_.files.count_written(file);
+            if (p_.kind == Pictures::Kind::frames) to_.files.count_written(path);
         };
     }
     void finish() override {

@@ -32,23 +32,17 @@ Decoded decoded(const std::string& file) {
     return result;
 }
 
-constexpr std::array kCompressions = {PngCompression::small, PngCompression::quick};
-
 TEST(Png, DecodesToTheSamePixelsAtAnySize) {
     for (bool opaque : {true, false})
         for (auto [width, height] : {std::pair{1, 1}, {1, 7}, {7, 1}, {33, 5}, {257, 129}}) {
             const render::Image image = pattern(width, height, opaque);
-            for (PngCompression compression : kCompressions) {
-                const Decoded png = decoded(encode_png(image, {{}, {}, compression}));
-                EXPECT_EQ(png.width, width);
-                EXPECT_EQ(png.height, height);
-                EXPECT_EQ(png.rgba, rgba_bytes(image))
-                    << width << "x" << height << (opaque ? " opaque" : " transparent");
-            }
+            const Decoded png = decoded(encode_png(image));
+            EXPECT_EQ(png.width, width);
+            EXPECT_EQ(png.height, height);
+            EXPECT_EQ(png.rgba, rgba_bytes(image)) << width << "x" << height << (opaque ? " opaque" : " transparent");
         }
 }
 
-// Rows that are partly as above, and more than compresses in one go.
 TEST(Png, DecodesToTheSamePixelsWhateverTheyAre) {
     render::Image drawing = pattern(1000, 40, true), noise(900, 800);
     for (std::size_t i = 0; i < drawing.pixels.size(); ++i)
@@ -56,30 +50,9 @@ TEST(Png, DecodesToTheSamePixelsWhateverTheyAre) {
     std::uint32_t state = 1;
     for (std::uint32_t& pixel : noise.pixels) pixel = 0xff000000U | (state = state * 1664525U + 1013904223U) >> 8;
     for (const render::Image& image : {drawing, noise})
-        for (PngCompression compression : kCompressions)
-            EXPECT_EQ(decoded(encode_png(image, {{}, {}, compression})).rgba, rgba_bytes(image)) << image.width;
+        EXPECT_EQ(decoded(encode_png(image)).rgba, rgba_bytes(image)) << image.width;
 }
 
-// Rows in which what is as above and what is not change places at every distance.
-TEST(Png, DecodesToTheSamePixelsWhereverTheyDifferFromThoseAbove) {
-    std::uint32_t state = 3;
-    const auto any = [&](std::uint32_t below) { return ((state = state * 1664525U + 1013904223U) >> 8) % below; };
-    for (int width : {1, 7, 8, 9, 63, 64, 65, 333}) {
-        render::Image image(width, 120);
-        std::fill(image.pixels.begin(), image.pixels.end(), 0xfff4f1eaU);
-        for (int y = 1; y < image.height; ++y) {
-            const auto row = image.pixels.begin() + std::ptrdiff_t(y) * width;
-            std::copy_n(row - width, width, row);
-            for (int x = static_cast<int>(any(40)); x < width; x += 1 + static_cast<int>(any(1U << y % 7)))
-                row[x] = 0xff000000U | any(1U << 24);
-        }
-        for (PngCompression compression : kCompressions)
-            EXPECT_TRUE(decoded(encode_png(image, {{}, {}, compression})).rgba == rgba_bytes(image)) << width;
-    }
-}
-
-// Wherever the first pixel stands that is not opaque, and whatever is as above: all that was told till then is told
-// anew.
 TEST(Png, DecodesToTheSamePixelsWhereverOneIsNotOpaque) {
     for (std::size_t at : {0, 1, 99, 100, 131, 132, 4950, 9900, 9999})
         for (std::uint32_t other : {0x80402010U, 0xfe000000U, 0x00000000U}) {
@@ -87,66 +60,25 @@ TEST(Png, DecodesToTheSamePixelsWhereverOneIsNotOpaque) {
             std::fill(image.pixels.begin(), image.pixels.end(), 0xfff4f1eaU);
             for (std::size_t i = 4000; i < 4700; ++i) image.pixels[i] = 0xff000000U | static_cast<std::uint32_t>(i * i);
             image.pixels[at] = other;
-            for (PngCompression compression : kCompressions) {
-                const Decoded png = decoded(encode_png(image, {{}, {}, compression}));
-                EXPECT_TRUE(png.alpha);
-                EXPECT_EQ(png.rgba, rgba_bytes(image)) << at;
-            }
+            const Decoded png = decoded(encode_png(image));
+            EXPECT_TRUE(png.alpha);
+            EXPECT_EQ(png.rgba, rgba_bytes(image)) << at;
         }
 }
 
-// However a picture came about, its bytes are those of the picture alone: tiles that changed and rows below them, none,
-// all, and more tiles told than changed.
-TEST(Png, SequencesGiveTheBytesOfEachPictureAlone) {
-    for (auto [width, height] : {std::pair{200, 70}, {33, 17}, {1, 1}, {64, 32}})
-        for (bool opaque : {true, false})
-            for (PngCompression compression : kCompressions) {
-                const PngOptions options{{}, {{"Title", "one of many"}}, compression};
-                PngSequence sequence(options);
-                render::Image image = pattern(width, height, opaque);
-                for (std::size_t i = 0; i < image.pixels.size(); ++i)
-                    if (i / 3 % 5 != 0) image.pixels[i] = 0xfff4f1eaU;
-                render::DirtyTiles changed(width, height);
-                changed.add_all();
-                EXPECT_EQ(sequence.encode(image, changed), encode_png(image, options));
-                std::uint32_t state = 7;
-                const auto any = [&](int below) {
-                    return static_cast<int>((state = state * 1664525U + 1013904223U) >> 8) % below;
-                };
-                for (int round = 0; round < 60; ++round) {
-                    changed.clear();
-                    for (int spot = any(4); spot > 0; --spot) {
-                        const int x = any(width), y = any(height), right = std::min(width, x + 1 + any(40)),
-                                  bottom = std::min(height, y + 1 + any(20));
-                        const std::uint32_t ink =
-                            any(2) ? 0xfff4f1eaU : 0xff000000U | static_cast<std::uint32_t>(any(1 << 24));
-                        for (int row = y; row < bottom; ++row)
-                            std::fill_n(image.pixels.begin() + row * width + x, right - x, ink);
-                        changed.add({double(x), double(y), right - x - 0.5, bottom - y - 0.5});
-                    }
-                    ASSERT_EQ(sequence.encode(image, changed), encode_png(image, options)) << width << ' ' << round;
-                }
-            }
-}
-
-TEST(Png, DrawingsAreSmallInSequencesToo) {
+TEST(Png, CompressesDrawings) {
     render::Image image(1280, 720);
     for (std::size_t i = 0; i < image.pixels.size(); ++i) {  // a slanted bar with soft edges
         const std::size_t x = i % 1280, y = i / 1280, into = x + y - std::min(x + y, 2 * y);
         image.pixels[i] =
             0xff000000U | 0x010101U * static_cast<std::uint32_t>(into > 200 && into < 400 ? 40 + y % 5 : 240);
     }
-    const std::size_t small = encode_png(image).size(),
-                      quick = encode_png(image, {{}, {}, PngCompression::quick}).size();
-    EXPECT_LE(small, quick);
-    EXPECT_LT(quick, 20'000u);  // of 2.8 MB
+    EXPECT_LT(encode_png(image).size(), 20'000u);  // of 2.8 MB
 }
 
 TEST(Png, HasAnAlphaChannelOnlyWhereItIsNeeded) {
-    for (PngCompression compression : kCompressions) {
-        EXPECT_FALSE(decoded(encode_png(pattern(9, 9, true), {{}, {}, compression})).alpha);
-        EXPECT_TRUE(decoded(encode_png(pattern(9, 9, false), {{}, {}, compression})).alpha);
-    }
+    EXPECT_FALSE(decoded(encode_png(pattern(9, 9, true))).alpha);
+    EXPECT_TRUE(decoded(encode_png(pattern(9, 9, false))).alpha);
 }
 
 // Keyword and text of every text chunk, in libpng's reading.
@@ -188,9 +120,7 @@ TEST(Png, RefusesWhatTheFormatCannotHold) {
 }
 
 TEST(Png, SamePictureGivesTheSameBytes) {
-    for (PngCompression compression : kCompressions)
-        EXPECT_EQ(encode_png(pattern(640, 64, true), {{}, {}, compression}),
-                  encode_png(pattern(640, 64, true), {{}, {}, compression}));
+    EXPECT_EQ(encode_png(pattern(640, 64, true)), encode_png(pattern(640, 64, true)));
 }
 
 }  // namespace
