@@ -10,6 +10,7 @@
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/regression/entry_test.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/base/clock.hpp"
@@ -130,12 +131,7 @@ class Regression {
         std::vector<Group> all;
         for (const auto& test : tests_) {
             if (!shares_motion(test->entry())) continue;
-            Scene physics = test->entry().scene;  // without the keys on which the motion does not depend
-            physics.outputs.clear();
-            physics.title.clear();
-            physics.sweep.reset();
-            physics.end_time = 1;
-            const auto [found, added] = index.emplace(to_json(physics), all.size());
+            const auto [found, added] = index.emplace(motion_key(test->entry().scene.problem), all.size());
             if (added) all.emplace_back();
             all[found->second].push_back(test.get());
         }
