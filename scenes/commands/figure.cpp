@@ -16,7 +16,7 @@ namespace {
 struct FigureArguments {
     Common common;
     std::string scene, figure, file;
-    KeyOptions print{"figure"}, channels{"figure"}, axis{"figure"}, span{"figure"}, content{"figure"};
+    KeyOptions print{"figure"}, channels{"figure"}, span{"figure"};
     KeyOptions panel{"figure"};  // of the figure's only panel
     std::optional<std::string> data, caption;
     // Of "series".
@@ -30,8 +30,8 @@ struct FigureArguments {
     }
     bool describes_panel() const { return panel.any() || title; }
     bool describes_series() const {
-        return channels.any() || axis.any() || span.any() || describes_panel() || !compare.empty() || !notes.empty() ||
-               impacts || residuals || logarithmic || apart;
+        return channels.any() || span.any() || describes_panel() || !compare.empty() || !notes.empty() || impacts ||
+               residuals || logarithmic || apart;
     }
 };
 
@@ -93,11 +93,10 @@ FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
     if (args.logarithmic && args.figure != "series") throw UsageError("--log belongs to the figure series");
     const KeyOptions no_channels{"figure"};  // they are in the panel
-    auto figure =
-        std::get<FigureOutput>(read_output(output_node(args),
-                                           {&args.print, args.describes_panel() ? &no_channels : &args.channels,
-                                            &args.panel, &args.axis, &args.span, &args.content},
-                                           scene, args.scene, args.common));
+    auto figure = std::get<FigureOutput>(
+        read_output(output_node(args),
+                    {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span},
+                    scene, args.scene, args.common));
     figure.file = args.file;
     if (SeriesKeys& keys = figure.series; !keys.compare.empty())
         keys.compare.front().problem = scene.problem;  // with the values of --set
@@ -117,7 +116,7 @@ void act(const FigureArguments& given) {
     FigureArguments args = given;
     Scene scene = load_scene(args.scene, args.common);
     if (args.figure.empty() && args.describes_series()) args.figure = "series";
-    if (args.figure.empty() && args.content.value("--at")) args.figure = "strobe";
+    if (args.figure.empty() && args.print.value("--at")) args.figure = "strobe";
     if (args.figure.empty()) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
@@ -155,14 +154,14 @@ void add_print_options(Command& app, FigureArguments& args) {
 
 void add_content_options(Command& app, FigureArguments& args) {
     args.channels.add_list(app, "--channels", "channels", "CHANNEL,...");
-    args.axis.add(app, "--x", "x", "CHANNEL");
-    args.axis.add(app, "--x-low", "x_low", "V");
-    args.axis.add(app, "--x-high", "x_high", "V");
+    args.span.add(app, "--x", "x", "CHANNEL");
+    args.span.add(app, "--x-low", "x_low", "V");
+    args.span.add(app, "--x-high", "x_high", "V");
     args.span.add(app, "--from", "from", "T");
     args.span.add(app, "--to", "to", "T");
-    args.content.add(app, "--at", "at", "T");
-    args.content.add(app, "--window", "window", "T");
-    args.content.add(app, "--collision", "collision", "N");
+    args.print.add(app, "--at", "at", "T");
+    args.print.add(app, "--window", "window", "T");
+    args.print.add(app, "--collision", "collision", "N");
 }
 
 void add_series_options(Command& app, FigureArguments& args) {
