@@ -22,11 +22,6 @@ std::string names_of(const std::vector<std::string>& all) {
 
 }  // namespace
 
-const char* name(Verdict verdict) {
-    constexpr const char* kNames[] = {"identical", "equivalent", "new-renderer", "different", "missing", "not-run"};
-    return kNames[static_cast<std::size_t>(verdict)];
-}
-
 double PictureComparison::weight() const {
     return same_size() ? static_cast<double>(difference.changed) + difference.largest / 256.0 : 1e300;
 }

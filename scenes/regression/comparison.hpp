@@ -2,11 +2,13 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "output/data/table_difference.hpp"
 #include "output/image/picture_difference.hpp"
+#include "sim/base/named.hpp"
 
 namespace beamcam::scenes {
 
@@ -18,7 +20,11 @@ enum class Verdict {  // the worse, the greater
     missing,  // nothing is accepted yet
     not_run   // not compared, for example without its scene
 };
-const char* name(Verdict verdict);
+constexpr sim::Named<Verdict> kVerdicts[] = {
+    {Verdict::identical, "identical"}, {Verdict::equivalent, "equivalent"}, {Verdict::new_renderer, "new-renderer"},
+    {Verdict::different, "different"}, {Verdict::missing, "missing"},       {Verdict::not_run, "not-run"}};
+inline std::span<const sim::Named<Verdict>> names(Verdict) { return kVerdicts; }
+using sim::name;
 
 struct PictureComparison {
     std::string a, b;  // names of the two pictures

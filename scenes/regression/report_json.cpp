@@ -107,10 +107,9 @@ std::map<std::string, std::string> texts_of(const Node& object) {
 
 Verdict verdict_of(const Node& part) {
     const std::string& text = required(part, "verdict", Kind::string).text;
-    for (const Verdict verdict : {Verdict::identical, Verdict::equivalent, Verdict::new_renderer, Verdict::different,
-                                  Verdict::missing, Verdict::not_run})
-        if (text == name(verdict)) return verdict;
-    throw std::invalid_argument(fmt::format("\"{}\" is not a verdict", text));
+    const auto found = std::ranges::find(kVerdicts, text, &sim::Named<Verdict>::name);
+    if (found == std::end(kVerdicts)) throw std::invalid_argument(fmt::format("\"{}\" is not a verdict", text));
+    return found->value;
 }
 
 std::vector<std::string> words_of(const Node& part) {
