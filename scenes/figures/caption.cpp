@@ -211,13 +211,17 @@ std::string shared(const Subject& of, const Varied& varied, Facts (*list)(const 
             if (all_have([&](const Fact& other) { return std::ranges::find(other.parts, part) != other.parts.end(); }))
                 out.push_back(part);
     }
-    return fmt::format("{}", fmt::join(out, phrase(of.lang, ", ", "，")));
+    return listed(out, of.lang);
 }
 
 // Equal in the digits that the paper prints.
 bool as_printed(double value, double printed) { return std::abs(value - printed) <= 1e-4 * std::abs(printed); }
 
 }  // namespace
+
+std::string listed(const std::vector<std::string>& texts, Lang lang) {
+    return fmt::format("{}", fmt::join(texts, phrase(lang, ", ", "，")));
+}
 
 std::string number(double value, int digits) {
     const std::string text = fmt::format("{:.{}g}", std::abs(value), digits);

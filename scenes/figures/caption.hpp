@@ -35,6 +35,7 @@ std::string phrase(Lang lang, const char* en, const char* zh, const Values&... v
     else
         return fmt::format(fmt::runtime(text), values...);
 }
+std::string listed(const std::vector<std::string>& texts, Lang lang);  // "a, b"
 std::string number(double value, int digits);                          // "0.25", "2.5×10^{−3}" with a true minus
 std::string one_digit(double value);                                   // "10^{−8}", "2 × 10^{−9}"
 std::string length_text(double metres);                                // "0.25 m", below a centimetre "236 µm"

@@ -143,7 +143,7 @@ FigureDrawing prepare_deflection(const Scene&, const FigureOutput&, Studies&) { 
 
 std::optional<std::string> needs_static_bending(const Scene& scene) {
     const sim::Problem& p = scene.problem;
-    if (p.beam.model == sim::ModelKind::rigid) return "a rigid beam does not bend; choose another beam.model";
+    if (auto why = needs_bending(scene)) return why;
     if (p.gravity == 0) return "without gravity nothing bends the beam; set gravity";
     if (p.hub.radius != 0 || sim::is_prescribed(p.hub.drive))
         return "the supported beam is hinged at O; set hub.radius to 0 and hub.drive to {\"type\": \"free\"}";

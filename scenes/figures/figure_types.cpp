@@ -114,6 +114,11 @@ std::optional<std::string> needs_cam(const Scene& scene) {
     return "the scene has no cam (\"cam\": null); give it one";
 }
 
+std::optional<std::string> needs_bending(const Scene& scene) {
+    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
+    return "a rigid beam does not bend; choose another beam.model";
+}
+
 std::optional<std::string> needs_free_hub(const Scene& scene) {
     if (!sim::is_prescribed(scene.problem.hub.drive)) return std::nullopt;
     return "the hub's motion is prescribed, so it cannot fall; set hub.drive to {\"type\": \"free\"}";

@@ -68,6 +68,7 @@ std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene
 
 inline std::optional<std::string> no_refusal(const Scene&) { return std::nullopt; }
 std::optional<std::string> needs_cam(const Scene& scene);
+std::optional<std::string> needs_bending(const Scene& scene);
 std::optional<std::string> needs_free_hub(const Scene& scene);
 std::optional<std::string> needs_start_off_the_cam(const Scene& scene);
 std::optional<std::string> needs_fall(const Scene& scene);  // both of these

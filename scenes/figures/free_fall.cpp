@@ -133,8 +133,7 @@ std::string fall_caption(const Falls& falls, const Results& results, const Subje
         text +=
             phrase(lang, "$θ$ does not reach 0 before {} s. ", "{} s 之前 $θ$ 未达到 0。", number(subject.end_time, 4));
     } else {
-        text += phrase(lang, "$θ$ = 0 is reached at {}. ", "到达 $θ$ = 0 的时刻：{}。",
-                       fmt::join(times, phrase(lang, ", ", "，")));
+        text += phrase(lang, "$θ$ = 0 is reached at {}. ", "到达 $θ$ = 0 的时刻：{}。", listed(times, lang));
         if (falls.flexible && times.size() == 2)
             text += phrase(lang, "Flexibility changes the time by {} s. ", "柔性使该时刻改变 {} s。",
                            supported({*own.zero(results) - *rigid.zero(results), estimated(own).error}));

@@ -86,11 +86,6 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Stu
     });
 }
 
-std::optional<std::string> needs_bending(const Scene& scene) {
-    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
-    return "a rigid beam does not bend; choose another beam.model";
-}
-
 }  // namespace
 
 extern const FigureType kKymograph{.name = "kymograph",

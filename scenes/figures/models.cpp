@@ -75,8 +75,7 @@ std::string cut_short(const std::vector<Rung>& all, const Results& results, doub
     return phrase(lang,
                   "Curves end where the computing budget of this figure for a model is spent, or where the model "
                   "cannot be integrated further: {}. ",
-                  "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。",
-                  fmt::join(ends, phrase(lang, ", ", "，")));
+                  "曲线止于本图为每一模型所用计算量的终点，或模型无法继续之处：{}。", listed(ends, lang));
 }
 
 // States how equation and shapes, each alone, change the first rebound.

@@ -174,11 +174,6 @@ FigureDrawing prepare_energy(const Scene& scene, const FigureOutput& how, Studie
                           how.lang, studies);
 }
 
-std::optional<std::string> needs_vibration(const Scene& scene) {
-    if (scene.problem.beam.model != sim::ModelKind::rigid) return std::nullopt;
-    return "a rigid beam does not vibrate; choose another beam.model";
-}
-
 }  // namespace
 
 extern const FigureType kSeries{.name = "series",
@@ -192,6 +187,6 @@ extern const FigureType kSpeeds{
     "speeds", {"Hub angle for three speeds of the cam", "三种凸轮转速下的转角"}, needs_cam, prepare_speeds};
 extern const FigureType kEnergy{"energy", {"Energy balance", "能量账目"}, no_refusal, prepare_energy};
 extern const FigureType kTipVibration{
-    "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_vibration, prepare_tip};
+    "tip-vibration", {"Transverse vibration of the free end", "自由端的横向振动"}, needs_bending, prepare_tip};
 
 }  // namespace beamcam::scenes

@@ -125,7 +125,7 @@ std::string series_subject(const SeriesKeys& keys, Lang lang) {
             for (const sim::Channel& channel : *side) words.push_back(channel_text(channel, lang));
         }
     }
-    std::string all = fmt::format("{}", fmt::join(words, phrase(lang, ", ", "，")));
+    std::string all = listed(words, lang);
     if (lang == Lang::en) all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
     if (keys.against == "phase") return all + phrase(lang, " against the phase of the cam", "随凸轮相位的变化");
     const auto against = sim::channel_named(keys.against);

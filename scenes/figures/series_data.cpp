@@ -59,7 +59,7 @@ std::string horizon_text(const std::vector<std::pair<std::string, const sim::Res
                   "differs by more, because impacts multiply small differences. ",
                   "以浅色绘制的部分（{}）$θ$ 不能重现到 10^{{−6}} "
                   "rad：碰撞会放大微小差别，与更严容差的计算之差超过该值。",
-                  fmt::format("{}", fmt::join(times, phrase(lang, ", ", "，"))));
+                  listed(times, lang));
 }
 
 // ---- measured or foreign data ---------------------------------------------------------------------------

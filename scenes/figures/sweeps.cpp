@@ -75,7 +75,7 @@ std::string random_text(const SweptPoints& points) {
             measure_in(points.scene.units, si_unit(sim::number_key(points.scene.problem, each.key)->dimension));
         ranges.push_back(range_text(each.key, in.factor * each.from, in.factor * each.to, in.unit));
     }
-    return phrase(points.lang, " with {}", "：{}", fmt::join(ranges, phrase(points.lang, ", ", "，")));
+    return phrase(points.lang, " with {}", "：{}", listed(ranges, points.lang));
 }
 
 // The scene's problem at the ends of all ranges.
@@ -107,7 +107,7 @@ std::string class_counts(const std::map<AttractorClass, std::uint64_t>& kinds, L
     std::vector<std::string> counts;
     for (const auto& [kind, count] : kinds)
         counts.push_back(phrase(lang, "{} {}", "{1} {0}", count, class_label(kind, lang)));
-    return phrase(lang, "{}. ", "{}。", fmt::join(counts, phrase(lang, ", ", "，")));
+    return phrase(lang, "{}. ", "{}。", listed(counts, lang));
 }
 
 std::string sweep_caption(const SweptPoints& points) {
