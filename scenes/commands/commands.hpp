@@ -77,7 +77,9 @@ double signed_argument(const std::string& option, const std::string& text, const
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
 // The same, positive.
 double positive_argument(const char* option, const std::string& text, const Dimension& dimension);
-std::string ending_of(const std::string& file);  // ".png"
+// A length of time: turns of the cam if it is a plain number or an angle, or a time.
+sim::CamSpan span_argument(const char* option, const std::string& text);
+
 // Throws UsageError unless `file` ends in one of these, or unless it is "-" where that is possible.
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
 void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings);

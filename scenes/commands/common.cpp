@@ -3,8 +3,9 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
-#include <filesystem>
+#include <numbers>
 
 #include "output/files/standard_output.hpp"
 #include "render/plot/style.hpp"
@@ -12,6 +13,7 @@
 #include "scenes/format/keys.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/sweep/parts.hpp"
 
 namespace beamcam::scenes {
@@ -88,12 +90,12 @@ Scene with_default_output(Scene scene) {
 }
 
 PictureOutput film_template(const Scene& scene) {
-    using enum PictureOutput::Kind;
     for (const Output& output : scene.outputs) {
         const auto* own = std::get_if<PictureOutput>(&output);
-        if (!own || own->kind == page || own->kind == model) continue;
+        if (!own || own->is_document()) continue;
         PictureOutput film = *own;
-        if (own->kind != video) film.kind = video, film.file = default_film(scene).file;
+        if (own->kind != PictureOutput::Kind::video)
+            film.kind = PictureOutput::Kind::video, film.file = default_film(scene).file;
         film.span.poster.reset();  // one file only
         return film;
     }
@@ -151,6 +153,23 @@ double signed_argument(const std::string& option, const std::string& text, const
     return read.quantity->value;
 }
 
+sim::CamSpan span_argument(const char* option, const std::string& text) {
+    constexpr double kMost = 1e9;   // more than any integration reaches
+    constexpr double kParts = 1e9;  // of a turn: "7.1 turns" is an angle that is not exactly so many turns
+    const QuantityText read = parse_quantity(text);
+    if (!read.quantity || !(read.quantity->value >= 0 && read.quantity->value <= kMost))
+        throw UsageError(
+            fmt::format("{} {}: write turns of the cam, or a time such as \"30 s\", up to {:g}", option, text, kMost));
+    sim::CamSpan span;
+    if (same(read.quantity->dimension, dimension::kNone))
+        span.turns = read.quantity->value;
+    else if (same(read.quantity->dimension, dimension::kAngle))
+        span.turns = std::round(read.quantity->value / (2 * std::numbers::pi) * kParts) / kParts;
+    else
+        span.time = quantity_argument(option, text, dimension::kTime);
+    return span;
+}
+
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension) {
     const double value = signed_argument(option, text, dimension);
     if (!(value >= 0)) throw UsageError(fmt::format("{} {}: must not be negative", option, text));
@@ -163,17 +182,15 @@ double positive_argument(const char* option, const std::string& text, const Dime
     return value;
 }
 
-std::string ending_of(const std::string& file) { return std::filesystem::path(file).extension().string(); }
-
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
-    if (file == "-")
+    if (is_stdout(file))
         throw UsageError(fmt::format("{} -: name a file that ends in {}", option, fmt::join(endings, " or ")));
     if (std::ranges::find(endings, ending_of(file)) != endings.end()) return;
     throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
 }
 
 void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings) {
-    if (file != "-") require_ending(option, file, endings);
+    if (!is_stdout(file)) require_ending(option, file, endings);
 }
 
 }  // namespace beamcam::scenes

@@ -4,6 +4,7 @@
 #include "output/data/manifest.hpp"
 #include "output/film/video.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/scene/files.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {

@@ -16,6 +16,7 @@
 #include "output/json/tree.hpp"
 #include "render/base/error.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -96,7 +97,7 @@ void read_manifest(const std::string& file, Provenance& p) {
 }
 
 std::string lower_ending(const std::string& file) {
-    std::string ending = fs::path(file).extension().string();
+    std::string ending = ending_of(file);
     std::transform(ending.begin(), ending.end(), ending.begin(),
                    [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;

@@ -16,6 +16,7 @@
 #include "scenes/format/units.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/motions/progress.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
 #include "scenes/sweep/swept_rows.hpp"
 #include "sim/base/ode.hpp"
@@ -52,7 +53,7 @@ void need_narrow(const KeyRange& range, double start) {
                         range.key.path, kWidest, start));
 }
 
-bool is_data_file(const std::string& file) { return file == "-" || file.ends_with(".json") || is_table(file); }
+bool is_data_file(const std::string& file) { return is_stdout(file) || file.ends_with(".json") || is_table(file); }
 
 // Attributes of a NetCDF file.
 std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scene) {

@@ -81,14 +81,11 @@ Output output_for_file(const RenderArguments& args, PictureOutput film) {
     return film;
 }
 
-bool has_frames(const Output& output) {
-    return picture_of(output, PictureOutput::Kind::video) || picture_of(output, PictureOutput::Kind::frames);
-}
-
 // The output with the values of the options.
 Output with_options(const RenderArguments& args, const Output& base, const Scene& scene) {
+    const auto* pictures = std::get_if<PictureOutput>(&base);
     for (const auto& [option, given] : {std::pair{"--frames", &args.frames}, std::pair{"--shard", &args.shard}})
-        if (*given && !has_frames(base))
+        if (*given && !(pictures && pictures->has_frames()))
             throw UsageError(fmt::format("{} belongs to films and sequences; -o {} is none", option, args.file));
     Node node = to_tree(base);
     remove(node, "file");

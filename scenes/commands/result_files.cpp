@@ -2,12 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "scenes/figures/figure_files.hpp"
-#include "scenes/format/units.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -15,7 +16,7 @@ namespace {
 // The bytes of a .json, .png, .svg or .pdf file. A figure carries the scene without outputs: none of them makes it
 // again.
 std::string content_of(const Result& result, const ResultFiles& files, Scene scene, const std::string& file) {
-    if (file == "-" || file.ends_with(".json")) return result.json();
+    if (file.ends_with(".json")) return result.json();
     const render::figure::Figure figure = result.figure();
     FigureOutput how;
     how.file = file;
@@ -41,7 +42,7 @@ void require_writable(const char* option, const std::vector<std::string>& files,
                       std::initializer_list<const char*> endings, output::Manifest& manifest) {
     for (const std::string& file : files) {
         require_ending_or_stdout(option, file, endings);
-        if (file == "-") continue;
+        if (is_stdout(file)) continue;
         if (file.ends_with(".nc")) output::netcdf_library();  // fails here where it is missing
         manifest.require_replaceable(file);
         output::AtomicFile(manifest.target(file));  // created and removed: fails here where it cannot be written
@@ -56,7 +57,7 @@ void write_result(const Result& result, const ResultFiles& files, const Scene& s
     else if (!prints_data)
         print_text(result.text());
     for (const std::string& file : files.names) {
-        if (file == "-") {
+        if (is_stdout(file)) {
             print_data(result.json());
             continue;
         }
@@ -70,15 +71,11 @@ void write_result(const Result& result, const ResultFiles& files, const Scene& s
 }
 
 double transient_argument(const std::string& text, const sim::Problem& problem) {
-    const QuantityText read = parse_quantity(text);
-    const bool plain = read.quantity && same(read.quantity->dimension, dimension::kNone),
-               turns = plain || (read.quantity && same(read.quantity->dimension, dimension::kAngle));
-    if (!turns || (plain && read.quantity->value == 0)) return quantity_argument("--transient", text, dimension::kTime);
+    const sim::CamSpan span = span_argument("--transient", text);
+    if (span.time || span.turns == 0) return span.time.value_or(0);
     if (!problem.cam || problem.cam->speed == 0)
         throw UsageError(fmt::format("--transient {}: the cam does not turn; write a time such as \"30 s\"", text));
-    const double angle = plain ? 2 * std::numbers::pi * read.quantity->value : read.quantity->value;
-    if (!(angle >= 0)) throw UsageError(fmt::format("--transient {} must not be negative", text));
-    return angle / std::abs(problem.cam->speed);
+    return 2 * std::numbers::pi * span.turns / std::abs(problem.cam->speed);
 }
 
 bool is_table(const std::string& file) {

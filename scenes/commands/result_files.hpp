@@ -38,7 +38,7 @@ void require_writable(const char* option, const std::vector<std::string>& files,
 void write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
                   output::Manifest& manifest);
 
-// --transient of `lyapunov` and `orbits` [s]: turns of the cam if it is a plain number or an angle, or a time.
+// --transient of `lyapunov` and `orbits` [s], a span_argument.
 double transient_argument(const std::string& text, const sim::Problem& problem);
 
 bool is_table(const std::string& file);  // by its ending

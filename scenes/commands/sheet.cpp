@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "output/data/manifest.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/film/picture_source.hpp"
 #include "output/image/png.hpp"
 #include "render/draw/canvas.hpp"
-#include "scenes/commands/commands.hpp"
+#include "scenes/commands/result_files.hpp"
 #include "scenes/motions/progress.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -92,11 +92,10 @@ render::Image sheet_of(const SheetArguments& args) {
 }
 
 void act(const SheetArguments& args) {
-    require_ending_or_stdout("-o", args.file, {".png"});
     output::Manifest manifest(args.common.force);
-    if (args.file != "-") manifest.require_replaceable(args.file);
+    require_writable("-o", {args.file}, {".png"}, manifest);
     const std::string bytes = output::encode_png(sheet_of(args));
-    if (args.file == "-") return print_data(bytes);
+    if (is_stdout(args.file)) return print_data(bytes);
     output::write_file(manifest.target(args.file), bytes);
     manifest.save();
     inform(args.common, fmt::format("wrote {}", args.file));

@@ -58,7 +58,7 @@ std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene&
 }
 
 void require_different_files(const std::vector<Output>& outputs) {
-    const auto to_stdout = std::ranges::count_if(outputs, [](const Output& o) { return file_of(o) == "-"; });
+    const auto to_stdout = std::ranges::count_if(outputs, [](const Output& o) { return is_stdout(file_of(o)); });
     if (to_stdout > 1) throw UsageError("more than one output would go to standard output; name files for the others");
     FileClaims claims;
     for (std::size_t i = 0; i < outputs.size(); ++i) claims.add(file_of(outputs[i]), i);

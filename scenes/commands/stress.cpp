@@ -18,6 +18,7 @@
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/progress.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -157,7 +158,7 @@ std::string stress_json(const sim::Campaign& campaign, const std::vector<sim::St
 // ---- the command ---------------------------------------------------------------------------------
 
 void write(const output::Target& file, const sim::Campaign& campaign, const std::vector<sim::StressResult>& results) {
-    const std::string ending = file.path.extension().string();
+    const std::string ending = ending_of(file.path);
     if (ending == ".png")
         output::write_png(file, survival_picture(campaign, results));
     else

@@ -11,6 +11,7 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/sweep/parts.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
 #include "sim/problem/number_keys.hpp"
@@ -102,22 +103,6 @@ void explain_range(const std::string& text, const SweptKey& over) {
     output::print_message("note: --over {}: {} values; {}\n", text, *over.count,
                           third == "1" ? "1 is a step, because a range has more than one value"
                                        : "whole numbers from 2 are a number of values, and a step has a decimal point");
-}
-
-sim::CamSpan span_argument(const char* option, const std::string& text) {
-    sim::CamSpan span;
-    constexpr double kMost = 1e9;  // more than any integration reaches
-    const QuantityText read = parse_quantity(text);
-    if (!read.quantity || !(read.quantity->value >= 0 && read.quantity->value <= kMost))
-        throw UsageError(
-            fmt::format("{} {}: write turns of the cam, or a time such as \"30 s\", up to {:g}", option, text, kMost));
-    if (same(read.quantity->dimension, dimension::kNone))
-        span.turns = read.quantity->value;
-    else if (same(read.quantity->dimension, dimension::kAngle))  // "200 turns"
-        span.turns = std::round(read.quantity->value / (2 * std::numbers::pi));
-    else
-        span.time = quantity_argument(option, text, dimension::kTime);
-    return span;
 }
 
 // The scene with the options in its sweep.
@@ -226,7 +211,7 @@ void reject_unused_options(const SweepArguments& args) {
 std::vector<PlannedFile> planned_files(const Plan& plan) {
     std::vector<PlannedFile> files;
     for (const DataFile& d : plan.data)
-        if (d.file != "-") files.push_back({d.file, d.stage + (d.content.empty() ? "" : ", " + d.content)});
+        if (!is_stdout(d.file)) files.push_back({d.file, d.stage + (d.content.empty() ? "" : ", " + d.content)});
     for (const FigureFile& f : plan.figures) files.push_back({f.file, "figure, " + f.figure});
     return files;
 }

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdlib>
-#include <filesystem>
 #include <limits>
 #include <map>
 
@@ -13,14 +12,13 @@
 #include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 namespace figure = render::figure;
-
-std::string ending(const std::string& file) { return std::filesystem::path(file).extension().string(); }
 
 // https://reproducible-builds.org/specs/source-date-epoch
 std::int64_t creation_instant() {
@@ -68,7 +66,7 @@ std::string bytes_of(const figure::Figure& f, const FigureOutput& how, const std
     document.editable = how.editable;
     static const std::map<std::string, figure::Medium> kVectors{
         {".pdf", figure::Medium::pdf}, {".svg", figure::Medium::svg}, {".eps", figure::Medium::eps}};
-    if (const auto vector = kVectors.find(ending(how.file)); vector != kVectors.end())
+    if (const auto vector = kVectors.find(ending_of(how.file)); vector != kVectors.end())
         return drawn(f, how, vector->second, document, [](figure::PageCanvas& sheet) { return sheet.bytes(); });
     if (how.is_tiff())
         return output::encode_tiff(figure_image(f, how), {how.resolution(), document.title, document.creator});
@@ -107,7 +105,7 @@ std::vector<std::string> hidden_curves(const figure::Figure& f) {
 }
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {
-    how.file = how.figure + ending(how.file);
+    how.file = how.figure + ending_of(how.file);
     how.data_file.clear(), how.caption_file.clear();
     scene.outputs = {how};
     return to_json(scene);
@@ -117,7 +115,7 @@ std::string caption_text(const figure::Figure& f, const std::string& file) {
     const std::string caption = whole_caption(f);
     const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", render::to_latex(caption), f.name);
     const std::string plain = render::to_plain(caption) + "\n";
-    if (ending(file) == ".tex") return "% " + plain + latex;
+    if (ending_of(file) == ".tex") return "% " + plain + latex;
     return plain + "\n" + latex;
 }
 

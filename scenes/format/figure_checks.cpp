@@ -155,9 +155,7 @@ void check_figure(ObjectReader& r, FigureOutput& figure) {
     const Scene& scene = r.context().scene;
     if (const auto refusal = refusal_of(*type, scene))
         return r.reject("figure", " = \"{}\": {}", figure.figure, *refusal);
-    if (const std::string problem = type->of_sweep() ? problem_with_value(type->name, figure.value, scene) : "";
-        !problem.empty())
-        r.reject("value", ": {}", problem);
+    if (type->of_sweep()) r.reject_if("value", problem_with_value(type->name, figure.value, scene));
 }
 
 }  // namespace beamcam::scenes

@@ -1,10 +1,10 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <filesystem>
 
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/scene/files.hpp"
 #include "scenes/scene/film_times.hpp"
 
 namespace beamcam::scenes {
@@ -97,29 +97,25 @@ void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) 
 }
 
 void set_default_codec(PictureOutput& video) {
-    video.encoding.codec =
-        output::default_codec(std::filesystem::path(video.file).extension().string()).value_or(output::Codec::h264);
+    video.encoding.codec = output::default_codec(ending_of(video.file)).value_or(output::Codec::h264);
 }
 
 namespace {
 
 // Rules between codec, container and picture.
 void check_format(ObjectReader& r, const PictureOutput& video) {
-    const std::string ending = std::filesystem::path(video.file).extension().string();
+    const std::string ending = ending_of(video.file);
     const output::Codec codec = video.encoding.codec;
-    const auto reject = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.reject(key, ": {}", problem);
-    };
     if (const std::string problem = output::format_problem(ending, codec, video.view.transparent); !problem.empty())
         return r.fail(r.place(output::goes_into(codec, ending) ? "background" : "codec"), "codec",
                       fmt::format("{}: {}", r.object_name(), problem));
-    reject("size", output::size_problem(codec, video.size.width, video.size.height));
-    reject("fps", output::rate_problem(codec, video.span.fps.value()));
+    r.reject_if("size", output::size_problem(codec, video.size.width, video.size.height));
+    r.reject_if("fps", output::rate_problem(codec, video.span.fps.value()));
     if (r.has("preset") && codec != output::Codec::h264)
-        reject("preset", fmt::format("only H.264 has presets, {} has none; remove the key", title(codec)));
+        r.reject("preset", ": only H.264 has presets, {} has none; remove the key", title(codec));
     const auto quality = output::quality_scale(codec);
     if (r.has("crf") && !quality)
-        reject("crf", fmt::format("{} has no crf; remove the key", title(codec)));
+        r.reject("crf", ": {} has no crf; remove the key", title(codec));
     else if (quality && video.encoding.crf.value_or(0) > quality->worst)
         r.reject("crf", " = {} is outside 0 … {}, the range of {}", *video.encoding.crf, quality->worst, title(codec));
 }

@@ -85,6 +85,9 @@ class ObjectReader final : public SceneVisitor {
     void reject(std::string_view key, fmt::format_string<Values...> why, Values&&... values) {
         fail(place(key), key, path(key) + fmt::format(why, std::forward<Values>(values)...));
     }
+    void reject_if(std::string_view key, const std::string& problem) {  // there is one: "KEY: problem"
+        if (!problem.empty()) reject(key, ": {}", problem);
+    }
     template <class... Values>  // "KEY = VALUE<why>"
     void reject_value(const Node& value, std::string_view key, fmt::format_string<Values...> why, Values&&... values) {
         fail(value, key,

@@ -57,10 +57,6 @@ static void visit(SceneVisitor& v, SweptKey& over) {
 
 namespace {
 
-constexpr sim::Named<SeedKind> kSeedKinds[] = {{SeedKind::same, "same"},
-                                               {SeedKind::carry_up, "carry-up"},
-                                               {SeedKind::carry_down, "carry-down"},
-                                               {SeedKind::random, "random"}};
 constexpr int kMostRandom = 1'000'000;
 std::string set_section(std::string_view channel, sim::Sampling& sampling, const sim::Problem& problem) {
     const std::vector<std::string> known = channel_names(all_channels(problem));
@@ -103,8 +99,7 @@ void visit_section(SceneVisitor& v, sim::Sampling& sampling) {
     v.choice("direction", sampling.rising, {{true, "rising"}, {false, "falling"}},
              "Direction in which the channel passes the value; not used for cam_angle.");
     v.check([&sampling, channel](ObjectReader& r) {
-        const std::string problem = set_section(channel, sampling, r.context().scene.problem);
-        if (!problem.empty()) r.reject("section", ": {}", problem);
+        r.reject_if("section", set_section(channel, sampling, r.context().scene.problem));
     });
 }
 
@@ -146,8 +141,6 @@ bool is_random(const SweepSeeds& seeds) {
 }
 
 }  // namespace
-
-const char* name(SeedKind kind) { return kSeedKinds[static_cast<std::size_t>(kind)].name; }
 
 void visit(SceneVisitor& v, Sweep& sweep) {
     List over = SceneVisitor::items_of(sweep.over);

@@ -13,7 +13,6 @@ namespace beamcam::scenes {
 std::string parse_sample(std::string_view text, const sim::Problem& problem, sim::Sampling& sampling);
 // "same", "carry-up,carry-down", "random:8".
 std::string parse_seeds(std::string_view text, SweepSeeds& seeds);
-const char* name(SeedKind kind);
 
 // The errors of a sweep of this problem, each with its key ("over.0.key").
 struct SweepProblem {

@@ -18,7 +18,7 @@ bool lacks_metadata(const fs::path& file) {
     static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp",
                                                     ".vtt", ".srt", ".html", ".eps", ".tif",  ".tiff",
                                                     ".glb", ".nc",  ".tex",  ".txt", ".md"};
-    return std::ranges::find(kEndings, file.extension().string()) != std::end(kEndings);
+    return std::ranges::find(kEndings, ending_of(file)) != std::end(kEndings);
 }
 
 }  // namespace

@@ -1,5 +1,4 @@
 // Outputs "video", "frames", "still", "page" and "model": pictures of the mechanism and its charts.
-#include <filesystem>
 
 #include "output/film/video_format.hpp"
 #include "scenes/format/checks.hpp"
@@ -7,6 +6,7 @@
 #include "scenes/outputs/picture_keys.hpp"
 #include "scenes/plan/output_times.hpp"
 #include "scenes/plan/planner.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 
@@ -36,7 +36,7 @@ void visit_video(SceneVisitor& v, PictureOutput& video) {
         "Impacts and texts of the film as a file beside it, fall.vtt or fall.srt, or as a track in it that players "
         "show on demand (.mp4, .mov, .mkv, .webm).");
     v.check([&video](ObjectReader& r) {
-        const std::string ending = std::filesystem::path(video.file).extension().string();
+        const std::string ending = ending_of(video.file);
         if (video.subtitles == Subtitles::track && (ending == ".gif" || ending == ".apng" || ending == ".webp"))
             r.fail(r.place("subtitles"), "subtitles",
                    ending +
@@ -116,7 +116,7 @@ void PictureOutput::plan(Planner& planner, std::size_t output) const {
     p.output = output;
     double end = span.to.value_or(planner.scene().end_time);
     if (kind == Kind::video) p.poster_file = poster_file(*this), p.subtitles_file = subtitles_file(*this);
-    if (kind == Kind::page || kind == Kind::model) p.view.style = render::Style::flat;
+    if (is_document()) p.view.style = render::Style::flat;
     if (kind == Kind::page) p.span.fps = rate_of_page(span.fps, span.from, end);
     if (kind == Kind::still) {
         if (at.kind == Instant::Kind::last) p.at = {.kind = Instant::Kind::time, .t = planner.scene().end_time};

@@ -15,8 +15,6 @@
 
 namespace beamcam::scenes {
 
-inline bool is_stdout(const std::string& file) { return file == "-"; }
-
 // Times of the stages [s], for -v; drawing is summed over threads.
 struct Times {
     double simulate = 0, draw = 0, read_back = 0, convert = 0, encode = 0, write = 0;

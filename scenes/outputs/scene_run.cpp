@@ -17,6 +17,7 @@
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/plan/estimate.hpp"
+#include "scenes/scene/files.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
@@ -228,9 +229,7 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
     if (!p.omitted_panels.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, p.omitted_panels, why_panels_are_omitted(p.size));
     constexpr std::size_t kFewFrames = 12;
-    if (const std::size_t frames = plan_.times(p).size();
-        (p.kind == Pictures::Kind::video || p.kind == Pictures::Kind::frames) && p.span.real_time() &&
-        frames < kFewFrames)
+    if (const std::size_t frames = plan_.times(p).size(); p.has_frames() && p.span.real_time() && frames < kFewFrames)
         context_.print(
             "warning: {} has only {}; \"duration\": \"4 s\" (speed {:.2g}) would show its {:g} s in slow motion\n",
             p.file, counted(frames, "frame"), (p.end_time - p.span.from) / 4, p.end_time - p.span.from);
@@ -239,7 +238,7 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
                        fmt::join(p.unreached_events, " or "));
     if (const std::string lost = characters_without_font(p, scene_); !lost.empty())
         context_.print("warning: {}\n", lost);
-    if (p.kind == Pictures::Kind::page || p.kind == Pictures::Kind::model) return;  // without text
+    if (p.is_document()) return;
     if (!context_.options.verbose || context_.options.quiet) return;
     if (const std::string what = omitted_text(p, scene_); !what.empty())
         context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));

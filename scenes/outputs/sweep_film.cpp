@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
 #include <iterator>
 #include <optional>
 #include <vector>
@@ -20,6 +19,7 @@
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/outputs/sweep_shots.hpp"
 #include "scenes/plan/planner.hpp"
+#include "scenes/scene/files.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
@@ -138,7 +138,7 @@ class SweepFilm {
         output::VideoOptions options;
         options.width = how_.size.width, options.height = how_.size.height;
         options.fps = how_.fps;
-        options.codec = *output::default_codec(std::filesystem::path(how_.file).extension().string());
+        options.codec = *output::default_codec(ending_of(how_.file));
         options.crf = how_.crf;
         options.metadata = film_metadata(to_json(grid_.scene()), scene_.title);
         return options;
@@ -224,21 +224,18 @@ void judge(ObjectReader& r, SweepFilmOutput& film) {
     if (r.diagnostics().any()) return;
     if (!scene.sweep || scene.sweep->over.size() != 1)
         return r.reject_object("type", ": the scene has no key \"sweep\" over one key; add it, or remove this output");
-    const output::Codec codec = *output::default_codec(std::filesystem::path(film.file).extension().string());
-    const auto reject = [&](const char* key, const std::string& problem) {
-        if (!problem.empty()) r.reject(key, ": {}", problem);
-    };
-    reject("size", output::size_problem(codec, film.size.width, film.size.height));
+    const output::Codec codec = *output::default_codec(ending_of(film.file));
+    r.reject_if("size", output::size_problem(codec, film.size.width, film.size.height));
     if (std::max(film.size.width, film.size.height) < kLongSide ||
         std::min(film.size.width, film.size.height) < kShortSide)
-        reject("size", fmt::format("{}x{} is too small for a diagram beside the beam; use at least {}x{}",
-                                   film.size.width, film.size.height, kLongSide, kShortSide));
+        r.reject("size", ": {}x{} is too small for a diagram beside the beam; use at least {}x{}", film.size.width,
+                 film.size.height, kLongSide, kShortSide);
     if (const std::string missing = omitted_texts(film.size); !missing.empty())
         r.diagnostics().warning(r.place("size").place,
                                 fmt::format("{} is too small to show {}; increase \"size\"", r.object_name(), missing));
-    reject("value", problem_with_value("bifurcation", film.value, scene));
-    reject("fps", output::rate_problem(codec, film.fps.value()));
-    if (film.crf && !output::quality_scale(codec)) reject("crf", "this codec has no crf; remove the key");
+    r.reject_if("value", problem_with_value("bifurcation", film.value, scene));
+    r.reject_if("fps", output::rate_problem(codec, film.fps.value()));
+    if (film.crf && !output::quality_scale(codec)) r.reject("crf", ": this codec has no crf; remove the key");
 }
 
 }  // namespace

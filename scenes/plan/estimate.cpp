@@ -2,10 +2,10 @@
 
 #include <fmt/format.h>
 
-#include <filesystem>
 #include <optional>
 
 #include "scenes/motions/identity.hpp"
+#include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
 
@@ -17,12 +17,10 @@ std::vector<std::string> picture_work(const Pictures& p, int threads) {
 }
 
 std::vector<std::string> figure_work(const FigureFile& f) {
-    return {fmt::format("figure {} {}", f.figure, std::filesystem::path(f.file).extension().string()), "figure"};
+    return {fmt::format("figure {} {}", f.figure, ending_of(f.file)), "figure"};
 }
 
-std::vector<std::string> data_work(const DataFile& d) {
-    return {"numbers of " + std::filesystem::path(d.file).extension().string()};
-}
+std::vector<std::string> data_work(const DataFile& d) { return {"numbers of " + ending_of(d.file)}; }
 
 namespace {
 

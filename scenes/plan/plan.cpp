@@ -86,7 +86,7 @@ std::string omitted_text(const Pictures& p, const Scene& scene) {
 }
 
 std::string characters_without_font(const PictureOutput& p, const Scene& scene) {
-    if (p.kind == PictureOutput::Kind::page || p.kind == PictureOutput::Kind::model) return {};  // without text
+    if (p.is_document()) return {};
     std::string written = scene.title;
     for (const FilmEvent& event : p.span.events) written += event.text;
     for (const Compared& motion : p.compare) written += motion.label;

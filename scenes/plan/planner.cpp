@@ -61,14 +61,14 @@ std::optional<std::pair<sim::Channel, sim::Channel>> drawn_curve(const std::vect
 
 // Shards divide films, sequences and sweeps.
 bool is_shared(const Output& output) {
-    using enum PictureOutput::Kind;
-    return picture_of(output, video) || picture_of(output, frames) || std::holds_alternative<SweepOutput>(output);
+    const auto* pictures = std::get_if<PictureOutput>(&output);
+    return (pictures && pictures->has_frames()) || std::holds_alternative<SweepOutput>(output);
 }
 
 // The number of the first frame, and how many there are; nullopt if that depends on events.
 std::optional<std::pair<long, long>> known_numbers(const Pictures& p, const FilmTimes& times) {
     if (p.times_known) return std::pair(times.first, static_cast<long>(std::ssize(times.frames)));
-    if (p.kind != Pictures::Kind::video && p.kind != Pictures::Kind::frames) return std::nullopt;
+    if (!p.has_frames()) return std::nullopt;
     const auto numbers = frame_numbers(p.span, p.end_time);
     return numbers ? std::optional(std::pair(numbers->first, numbers->second - numbers->first)) : std::nullopt;
 }

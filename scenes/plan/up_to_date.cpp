@@ -21,7 +21,7 @@ class UpToDateCheck {
     UpToDate run(const Cache* cache, bool ignore_files) {
         const double until = whole_.simulation ? whole_.simulation->request.end_time : 0;
         for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
-            if (file_of(scene_.outputs[i]) != "-") found_.inputs[i] = inputs_key(scene_, i, until, part_of(i));
+            if (!is_stdout(file_of(scene_.outputs[i]))) found_.inputs[i] = inputs_key(scene_, i, until, part_of(i));
         found_.motion = motion_key(scene_.problem);
         found_.existing.until = until;
         found_.existing.keeps = cache && cache->limit() > 0;
@@ -48,7 +48,7 @@ class UpToDateCheck {
     }
 
     bool is_up_to_date(const std::string& file, std::size_t output) {
-        return file != "-" && manifest_.is_up_to_date(place_of(directory_, file), found_.inputs[output]);
+        return !is_stdout(file) && manifest_.is_up_to_date(place_of(directory_, file), found_.inputs[output]);
     }
 
     void check_files() {

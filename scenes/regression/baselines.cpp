@@ -233,7 +233,7 @@ class Reader {
                 entry, node,
                 fmt::format("{}: films are compared before they are encoded; write \"type\": \"frames\"", path));
         }
-        if (picture_of(entry.output(), page) || picture_of(entry.output(), model))
+        if (const auto* pictures = std::get_if<PictureOutput>(&entry.output()); pictures && pictures->is_document())
             return reject(entry, node, fmt::format("{}: this type has no pictures; write \"type\": \"frames\"", path));
         if (const PictureOutput* sequence = picture_of(entry.output(), frames)) {
             const double last = sequence->span.to.value_or(entry.scene.end_time);

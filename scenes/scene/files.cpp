@@ -84,6 +84,8 @@ std::string problem_with_file(std::string_view file) {
     return {};
 }
 
+std::string ending_of(const std::filesystem::path& file) { return file.extension().string(); }
+
 bool is_numbered(std::string_view file) { return file.find('#') != std::string_view::npos; }
 
 std::string problem_with_numbering(std::string_view file) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -15,6 +16,8 @@ std::string problem_with_file(std::string_view file);
 // Why `file` is not a valid name of a sequence, which needs one run of '#' in its last part; empty if it is valid.
 std::string problem_with_numbering(std::string_view file);
 bool is_numbered(std::string_view file);
+inline bool is_stdout(std::string_view file) { return file == "-"; }
+std::string ending_of(const std::filesystem::path& file);  // ".png"
 
 // "a-####.png" and 12 give "a-0012.png"; longer numbers get more digits.
 std::string numbered_file(std::string_view pattern, long number);

@@ -44,6 +44,8 @@ struct PictureOutput : Picture {
     Subtitles subtitles = Subtitles::none;  // a file beside it
     bool chapters = false;                  // in it, at impacts
 
+    bool has_frames() const { return kind == Kind::video || kind == Kind::frames; }
+    bool is_document() const { return kind == Kind::page || kind == Kind::model; }  // it plays the motion, without text
     static PictureOutput of(Kind kind);
     Extent extent() const;
     void visit(SceneVisitor& v);

@@ -2,9 +2,11 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "sim/base/named.hpp"
 #include "sim/sweep/sampling.hpp"
 
 namespace beamcam::scenes {
@@ -33,6 +35,12 @@ enum class SeedKind {
     carry_down,  // the same in decreasing order
     random
 };
+constexpr sim::Named<SeedKind> kSeedKinds[] = {{SeedKind::same, "same"},
+                                               {SeedKind::carry_up, "carry-up"},
+                                               {SeedKind::carry_down, "carry-down"},
+                                               {SeedKind::random, "random"}};
+inline std::span<const sim::Named<SeedKind>> names(SeedKind) { return kSeedKinds; }
+using sim::name;
 
 struct SweepSeeds {
     std::vector<SeedKind> kinds{SeedKind::same};  // one motion each; `random` motions for SeedKind::random

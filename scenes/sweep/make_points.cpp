@@ -6,7 +6,6 @@
 #include <mutex>
 #include <optional>
 
-#include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/version.hpp"

@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "output/files/digest.hpp"
-#include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/problem/number_keys.hpp"

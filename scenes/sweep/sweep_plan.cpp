@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "output/json/tree.hpp"
-#include "scenes/format/sweep_keys.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "sim/base/counted.hpp"
 

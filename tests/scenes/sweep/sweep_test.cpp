@@ -261,6 +261,17 @@ TEST(SweepCommand, RejectsWithAMessage) {
     }
 }
 
+TEST(SweepCommand, TurnsWithTheirUnitAreAsManyAsThePlainNumber) {
+    const Folder folder;
+    folder.write("s.json", kSweptScene);
+    const auto rows = [&](const std::string& transient) {
+        return shell(folder, "$BEAMCAM sweep s.json -q --over cam.speed=48 --keep 2 --transient " + transient).out;
+    };
+    EXPECT_EQ(rows("'7.2 turns'"), rows("7.2"));
+    EXPECT_EQ(rows("'2592 deg'"), rows("7.2"));
+    EXPECT_NE(rows("7.2"), rows("7"));
+}
+
 TEST(SweepCommand, PlansPointsSecondsAndBytes) {
     Folder folder;
     folder.write("s.json", kSweptScene);
