@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "output/json/tree.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_files.hpp"
@@ -71,11 +72,7 @@ void add_stripes(const GridOutcomes& outcomes, std::size_t rows, std::size_t col
 std::string markup_of(const std::string& plain) {
     constexpr const char* kSuperscripts[] = {"⁰", "¹", "²", "³", "⁴", "⁵", "⁶", "⁷", "⁸", "⁹"};
     std::string text = render::escaped(plain);
-    for (int digit = 0; digit < 10; ++digit) {
-        const std::string from = kSuperscripts[digit], to = fmt::format("^{{{}}}", digit);
-        for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size())
-            text.replace(at, from.size(), to);
-    }
+    for (int digit = 0; digit < 10; ++digit) replace_all(text, kSuperscripts[digit], fmt::format("^{{{}}}", digit));
     return text;
 }
 std::vector<std::string> markup_of(const std::vector<std::string>& names) {

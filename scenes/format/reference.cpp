@@ -70,7 +70,7 @@ std::string default_text(const DescribedKey& key) {
 namespace {
 
 std::string escaped_for_table(std::string text) {
-    for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2) text.insert(at, "\\");
+    replace_all(text, "|", "\\|");
     return text;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "output/json/tree.hpp"
 #include "render/plot/ticks.hpp"
 #include "render/plot/user_text.hpp"
 #include "scenes/figures/caption.hpp"
@@ -83,11 +84,13 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
 // The text of a cue: without empty lines, which would end it, and without markup.
 static std::string cue_text(std::string text, bool vtt) {
     for (std::size_t at = 0; (at = text.find("\n\n", at)) != std::string::npos;) text.erase(at, 1);
-    for (std::size_t at = 0; vtt && (at = text.find_first_of("&<>", at)) != std::string::npos; ++at)
-        text.replace(at, 1, text[at] == '&' ? "&amp;" : text[at] == '<' ? "&lt;" : "&gt;");
-    // SubRip has no escapes: an invisible character makes a tag plain text.
-    for (std::size_t at = 0; !vtt && (at = text.find('<', at)) != std::string::npos; ++at)
-        text.insert(at + 1, "\u2060");
+    if (vtt) {
+        replace_all(text, "&", "&amp;");
+        replace_all(text, "<", "&lt;");
+        replace_all(text, ">", "&gt;");
+    } else {  // SubRip has no escapes: an invisible character makes a tag plain text
+        replace_all(text, "<", "<\u2060");
+    }
     return text;
 }
 
