@@ -190,8 +190,8 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
 
 }  // namespace
 
-figure::Figure bifurcation(const SweptPoints& points, const std::string& value) {
-    return diagram_of(points, value, as_numbered(points), [](auto...) {});
+figure::Figure bifurcation(const SweptPoints& points, const FigureOutput& how) {
+    return diagram_of(points, how.value, as_numbered(points), [](auto...) {});
 }
 
 GrowingDiagram::GrowingDiagram(const Swept& swept, const FigureOutput& how, const std::vector<std::size_t>& place) {

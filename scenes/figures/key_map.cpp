@@ -102,8 +102,8 @@ std::string unknown_cells_text(const SweptPoints& points, const std::string& val
 
 }  // namespace
 
-figure::Figure key_map(const SweptPoints& points, const std::string& chosen) {
-    const std::string value = chosen.empty() ? kMapValues[0] : chosen;
+figure::Figure key_map(const SweptPoints& points, const FigureOutput& how) {
+    const std::string value = how.value.empty() ? kMapValues[0] : how.value;
     const output::SweepAxis &across = points.axis(0), &up = points.axis(1);
     const std::vector<std::size_t> column = ranks(across.values), row = ranks(up.values);
     figure::Panel panel{

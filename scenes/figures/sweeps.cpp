@@ -231,10 +231,6 @@ std::optional<std::string> needs_impacts(const Scene& scene) {
     return "its samples are no impacts; set sweep.sample to \"impacts\"";
 }
 
-figure::Figure draw_bifurcation(const SweptPoints& points, const FigureOutput& how) {
-    return bifurcation(points, how.value);
-}
-figure::Figure draw_map(const SweptPoints& points, const FigureOutput& how) { return key_map(points, how.value); }
 figure::Figure draw_poincare(const SweptPoints& points, const FigureOutput&) {
     return points.of_impacts() ? sample_plane(points, "cam_phase", "v_n_before", false)
                                : sample_plane(points, "theta", "theta_dot", false);
@@ -248,17 +244,17 @@ figure::Figure draw_impact_map(const SweptPoints& points, const FigureOutput&) {
 extern const FigureType kBifurcation{.name = "bifurcation",
                                      .title = {"Bifurcation diagram", "分岔图"},
                                      .refusal = needs_one_key,
-                                     .draw = draw_bifurcation,
+                                     .draw = bifurcation,
                                      .keys = {"value"}};
 extern const FigureType kBasins{.name = "basins",
                                 .title = {"Basins of attraction", "吸引域"},
                                 .refusal = needs_two_starts,
-                                .draw = draw_map,
+                                .draw = key_map,
                                 .keys = {"value"}};
 extern const FigureType kMap{.name = "map",
                              .title = {"Map of two keys", "双参数图"},
                              .refusal = needs_two_keys,
-                             .draw = draw_map,
+                             .draw = key_map,
                              .keys = {"value"}};
 extern const FigureType kPoincare{
     .name = "poincare", .title = {"Poincaré section", "Poincaré 截面"}, .refusal = needs_sweep, .draw = draw_poincare};

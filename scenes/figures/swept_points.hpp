@@ -67,16 +67,16 @@ bool all_empty(const std::vector<render::figure::Cloud>& clouds);
 // ---- the diagrams of one key and of two --------------------------------------------------------------
 
 // The bifurcation diagram: samples over one parameter, the largest exponent where it is known, and a strip with the
-// class of each motion. `value`: a column of the samples; empty: the default one. Throws PictureError for a column that
-// they do not have.
-render::figure::Figure bifurcation(const SweptPoints& points, const std::string& value);
+// class of each motion. `how.value`: a column of the samples; empty: the default one. Throws PictureError for a column
+// that they do not have.
+render::figure::Figure bifurcation(const SweptPoints& points, const FigureOutput& how);
 
 // Values of a map besides the columns of the samples; the first is the default.
 inline constexpr const char* kMapValues[] = {"class", "exponent", "impacts_per_period"};
 
-// A map over two keys: the class of each motion, or a number of it, as colours. `value`: one of these values or a
+// A map over two keys: the class of each motion, or a number of it, as colours. `how.value`: one of these values or a
 // column of the samples, whose mean is shown; empty: the class. Throws PictureError for another, or where no point has
 // the number.
-render::figure::Figure key_map(const SweptPoints& points, const std::string& value);
+render::figure::Figure key_map(const SweptPoints& points, const FigureOutput& how);
 
 }  // namespace beamcam::scenes
