@@ -1,6 +1,8 @@
 // Output "figure": a figure for print, made by its type.
 #include <fmt/format.h>
 
+#include <functional>
+
 #include "render/plot/style.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/format/checks.hpp"
@@ -65,27 +67,15 @@ static const std::string& constraint_of_figures() {
     return kText;
 }
 
-// The keys of the figure "series"; the other figures have some of them.
-static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string& figure) {
-    const FigureType* type = figure_type(figure);
-    const bool windows = type && type->takes("window");
-    const auto key = [type](const char* name) { return sim::written_if(type && type->takes(name), name); };
-    const auto bound = [&](const char* name) { return series.at ? sim::written_if(false, name) : key(name); };
-    if (windows && series.panels.empty()) series.panels.emplace_back();
-    v.value("channels",
-            windows ? channels_format(series.panels.front().channels) : grouped_channels_format(series.panels),
-            "Of \"series\": the channels, with one panel for each unit, in place of \"panels\". Of \"spectrogram\": "
-            "one channel.");
+// A key of figures; only those that have it write it.
+using KeyOfFigure = std::function<sim::Key(const char* name)>;
+
+static void visit_abscissa(SceneVisitor& v, SeriesKeys& series, const KeyOfFigure& key) {
     const DimensionOf of_abscissa = [&series](const ObjectReader& r) -> std::optional<sim::Dimension> {
         if (series.against == "frequency") return dim::kFrequency;
         const auto channel = sim::channel_named(series.against);
         return channel ? dimension_of(*channel, r.context().scene.problem) : dim::kNone;  // of turns
     };
-    List panels = SceneVisitor::items_of(series.panels);
-    panels.max_size = 8, panels.of = "panels";
-    panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
-    v.list(key("panels"), panels, "Of \"series\": the panels, from top to bottom.");
-    v.exclusive("channels", "panels");
     v.value(key("x"), abscissa_format(series.against),
             "Of \"series\": the abscissa: \"t\", \"turns\" of the cam, its \"phase\" (fraction of a turn), "
             "\"frequency\" (amplitude spectra with a Hann window), or a channel.");
@@ -93,6 +83,11 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
             "Of \"series\": lower end of the abscissa; a plain number is in SI units, or in turns.");
     v.value(key("x_high"), quantity_format(series.x_high, of_abscissa),
             "Of \"series\": upper end of the abscissa; a plain number is in SI units, or in turns.");
+}
+
+// The part of the motion.
+static void visit_interval(SceneVisitor& v, SeriesKeys& series, const KeyOfFigure& key) {
+    const auto bound = [&](const char* name) { return series.at ? sim::written_if(false, name) : key(name); };
     v.value(bound("from"), bound_format(series.from, series.from_event),
             fmt::format("Of {}: first instant. Events are those of the first motion of the figure.",
                         list_of_figures_with("from"))
@@ -103,6 +98,25 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
             "with the bodies to scale and the contact force.");
     v.exclusive("at", "from");
     v.exclusive("at", "to");
+}
+
+// The keys of the figure "series"; the other figures have some of them.
+static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string& figure) {
+    const FigureType* type = figure_type(figure);
+    const bool windows = type && type->takes("window");
+    const KeyOfFigure key = [type](const char* name) { return sim::written_if(type && type->takes(name), name); };
+    if (windows && series.panels.empty()) series.panels.emplace_back();
+    v.value("channels",
+            windows ? channels_format(series.panels.front().channels) : grouped_channels_format(series.panels),
+            "Of \"series\": the channels, with one panel for each unit, in place of \"panels\". Of \"spectrogram\": "
+            "one channel.");
+    List panels = SceneVisitor::items_of(series.panels);
+    panels.max_size = 8, panels.of = "panels";
+    panels.example = "[{\"channels\": [\"theta\"], \"right\": [\"contact_force\"]}, {\"channels\": [\"gap\"]}]";
+    v.list(key("panels"), panels, "Of \"series\": the panels, from top to bottom.");
+    v.exclusive("channels", "panels");
+    visit_abscissa(v, series, key);
+    visit_interval(v, series, key);
     v.boolean(key("impacts"), series.impacts, "Of \"series\": vertical lines at the beginnings of impacts.");
     v.number(key("window"), series.window, dim::kTime, sim::kPositive,
              "Of \"spectrogram\": length of the windows, rounded to a power of two of samples.");
