@@ -86,7 +86,7 @@ void act(const AccuracyArguments& args) {
     const sim::AccuracyRequest request = request_of(args, scene);
     output::Manifest manifest(args.common.force);
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
-    Progress progress(run_options(args.common, "").progress);
+    Progress progress(progress_style(args.common));
     progress.begin("accuracy", 100, "%");
     const sim::Accuracy found =
         sim::assess(scene.problem, request, [&](double share) { return progress.reach(100 * share); });

@@ -67,7 +67,8 @@ Scene load_scene(const std::string& path, const Common& common);
 Scene with_default_output(Scene scene);
 // The look of new films of a scene: its first film, sequence or still picture, else the default film.
 PictureOutput film_template(const Scene& scene);
-RunOptions run_options(const Common& common, std::string directory);  // with the resolved style of progress
+ProgressStyle progress_style(const Common& common);                   // resolved; none with -q
+RunOptions run_options(const Common& common, std::string directory);  // with this style
 void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool json);
 void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const Common& common);  // -n: the plans
 

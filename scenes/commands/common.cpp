@@ -102,10 +102,14 @@ PictureOutput film_template(const Scene& scene) {
     return default_film(scene);
 }
 
+ProgressStyle progress_style(const Common& common) {
+    return common.quiet ? ProgressStyle::none : resolve(common.progress);
+}
+
 RunOptions run_options(const Common& common, std::string directory) {
     RunOptions options = common;
     options.directory = std::move(directory);
-    options.progress = common.quiet ? ProgressStyle::none : resolve(common.progress);
+    options.progress = progress_style(common);
     return options;
 }
 

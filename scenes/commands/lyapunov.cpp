@@ -58,7 +58,7 @@ void act(const LyapunovArguments& args) {
     request.duration = args.duration ? positive_argument("--duration", *args.duration, dimension::kTime) : 100;
     output::Manifest manifest(args.common.force);
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
-    Progress progress(run_options(args.common, "").progress);
+    Progress progress(progress_style(args.common));
     const auto reached = [&](double t) { return progress.reach(t); };
     progress.begin("exponents", request.transient + request.duration, "s");
     sim::Exponents found = sim::lyapunov_exponents(scene.problem, request, reached);

@@ -209,7 +209,7 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
     }
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
     const sim::OrbitRequest request = request_of(args, problem);
-    Progress progress(run_options(args.common, "").progress);
+    Progress progress(progress_style(args.common));
     table.orbits = sim::find_orbits(problem, request, search_progress(progress, request.transient));
     if (range) {
         progress.begin("branches", std::nullopt, "points");

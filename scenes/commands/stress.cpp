@@ -33,7 +33,7 @@ std::vector<sim::StressResult> run_cases(const sim::Campaign& campaign, const Co
     const std::size_t count = campaign.cases.size();
     std::vector<sim::StressResult> results(count);
     std::atomic<long> done = 0;
-    Progress progress(run_options(common, "").progress);
+    Progress progress(progress_style(common));
     progress.begin("stress", static_cast<double>(count), "cases");
     fan_out(count, common.threads, [&](std::size_t k) {
         results[k] = sim::run_case(campaign.cases[k]);
