@@ -7,6 +7,7 @@
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
+#include "scenes/motions/identity.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -32,7 +33,7 @@ std::string common_facts(const std::vector<SeriesMotion>& motions, const render:
         motions.size() == 1 || (first.problem.cam && std::ranges::all_of(motions, [&](const SeriesMotion& each) {
                                     sim::Problem other = each.problem;
                                     if (other.cam) other.cam->speed = first.problem.cam->speed;
-                                    return Studies::key(other) == Studies::key(first.problem);
+                                    return motion_key(other) == motion_key(first.problem);
                                 }));
     if (!alike) return phrase(lang, "Of {}: ", "{}：", first.label) + facts({first.problem, units, lang});
     Varied varied;

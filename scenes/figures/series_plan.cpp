@@ -4,6 +4,7 @@
 
 #include "scenes/figures/series.hpp"
 #include "scenes/figures/series_data.hpp"
+#include "scenes/motions/identity.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -19,9 +20,9 @@ std::vector<SeriesMotion> motions_of(const Scene& scene, const SeriesKeys& keys)
 
 // Data belong to the scene's own motion; if it is not shown, they are compared with the first.
 std::size_t motion_measured(const Scene& scene, const std::vector<SeriesMotion>& motions) {
-    const std::string own = Studies::key(scene.problem);
+    const std::string own = motion_key(scene.problem);
     for (std::size_t k = 0; k < motions.size(); ++k)
-        if (Studies::key(motions[k].problem) == own) return k;
+        if (motion_key(motions[k].problem) == own) return k;
     return 0;
 }
 

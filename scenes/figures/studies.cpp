@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <stdexcept>
 
-#include "scenes/scene/scene.hpp"
+#include "scenes/motions/identity.hpp"
 
 namespace beamcam::scenes {
 
@@ -15,18 +15,12 @@ std::vector<double> instants(const Instants& grid) {
     return times;
 }
 
-std::string Studies::key(const sim::Problem& problem) {
-    Scene scene;
-    scene.problem = problem;
-    return to_json(scene);
-}
-
 std::size_t Studies::of(const sim::Problem& problem, double end_time) {
-    const std::string physics = key(problem);
-    const auto found = std::ranges::find(keys_, physics);
+    const std::string motion = motion_key(problem);
+    const auto found = std::ranges::find(keys_, motion);
     const auto index = static_cast<std::size_t>(found - keys_.begin());
     if (found == keys_.end()) {
-        keys_.push_back(physics);
+        keys_.push_back(motion);
         users_.push_back(0);
         all_.push_back({problem});
     }

@@ -38,7 +38,7 @@ class Studies {
   public:
     // The figure that the next studies are for.
     void name_figure(std::string name) { figure_ = std::move(name); }
-    // The study of this physics, at least until `end_time` [s]. Apexes and zero crossings of θ only where `apexes` and
+    // The study of this motion, at least until `end_time` [s]. Apexes and zero crossings of θ only where `apexes` and
     // `zero_crossings` are called.
     std::size_t of(const sim::Problem& problem, double end_time);
     // A table of these instants in the study; tables of equal instants are one, with the channels of both.
@@ -60,13 +60,10 @@ class Studies {
     sim::Request& request(std::size_t i) { return all_[i].request; }
     std::vector<Study> take() { return std::move(all_); }
 
-    // Equal for problems of equal physics: all their parameters as text.
-    static std::string key(const sim::Problem& problem);
-
   private:
     std::string figure_;
     std::vector<Study> all_;
-    std::vector<std::string> keys_;  // of all
+    std::vector<std::string> keys_;  // motion_key of all
     std::vector<int> users_;         // of each
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };

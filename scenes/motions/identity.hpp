@@ -1,5 +1,5 @@
-// Keys of results: identity of the program, of a motion, and of the inputs of an output. Equal keys mean equal bits;
-// a key that misses an input would reuse an outdated result.
+// Identity of the program and of a motion. Equal keys mean equal bits; a key that misses an input would reuse an
+// outdated result.
 #pragma once
 
 #include <string>
@@ -14,9 +14,5 @@ const std::string& program_identity();
 // SHA-256 of everything that determines the motion: the physics with resolved defaults and the solver's settings. It
 // excludes the end time, because a shorter run is a prefix of a longer one.
 std::string motion_key(const sim::Problem& problem);
-
-// SHA-256 of everything that the files of one output depend on. `until`: end of the run, for outputs about the whole
-// run. `part`: the frames of a film; empty: all.
-std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part);
 
 }  // namespace beamcam::scenes

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "render/base/error.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/scene/time_map.hpp"
 #include "sim/observe/recorder_set.hpp"
 #include "sim/observe/request.hpp"
@@ -90,8 +91,8 @@ void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& 
         return made;
     };
     figure.studies = studies.take();
-    const std::string own = Studies::key(scene.problem);
-    for (Study& study : figure.studies) study.of_scene = Studies::key(study.problem) == own;
+    const std::string own = motion_key(scene.problem);
+    for (Study& study : figure.studies) study.of_scene = motion_key(study.problem) == own;
 }
 
 static bool needs_apexes(const FigureOutput& how) {

@@ -38,7 +38,7 @@ struct ExistingWork {
     std::map<std::size_t, std::string> finished;   // outputs whose files are up to date, and the files
     std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the up-to-date frames
     bool keeps = false;                            // trajectories are cached
-    std::map<std::string, double> kept_until;      // ends of the cached trajectories, by Studies::key [s]
+    std::map<std::string, double> kept_until;      // ends of the cached trajectories, by motion_key [s]
     double until = 0;                              // end of a run for all outputs, up-to-date ones included [s]
 };
 

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "scenes/motions/identity.hpp"
 #include "scenes/motions/motion_store.hpp"
 #include "scenes/plan/output_times.hpp"
 #include "sim/base/counted.hpp"
@@ -108,7 +109,7 @@ void Planner::finish_simulation() {
 
 // On entry `keep` is true if the motion is worth caching.
 void Planner::resolve_cache_use(Simulation& simulation) const {
-    const auto kept = existing_.kept_until.find(Studies::key(simulation.problem));
+    const auto kept = existing_.kept_until.find(motion_key(simulation.problem));
     simulation.from_cache = kept != existing_.kept_until.end() && kept->second >= simulation.request.end_time &&
                             simulation.until_events.empty();
     simulation.keep = simulation.keep && existing_.keeps && !simulation.from_cache;
@@ -194,9 +195,9 @@ void Planner::add_study(const Study& study, const std::string& file, const std::
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
     }
-    const std::string key = Studies::key(study.problem);
+    const std::string key = motion_key(study.problem);
     auto same =
-        std::ranges::find_if(plan_.others, [&](const Simulation& other) { return Studies::key(other.problem) == key; });
+        std::ranges::find_if(plan_.others, [&](const Simulation& other) { return motion_key(other.problem) == key; });
     if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem});
     same->simulate_until(end_of(study.request), file);
     if (!label.empty()) same->label = label;

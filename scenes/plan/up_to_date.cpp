@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "scenes/motions/identity.hpp"
+#include "scenes/plan/inputs_key.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
@@ -32,11 +33,10 @@ class UpToDateCheck {
 
   private:
     void check_cache(const Cache& cache) {
-        const auto check = [&](const sim::Problem& problem, const std::string& key) {
-            if (const auto until = cache.reach(key)) found_.existing.kept_until[Studies::key(problem)] = *until;
-        };
-        check(scene_.problem, found_.motion);
-        for (const Simulation& other : whole_.others) check(other.problem, motion_key(other.problem));
+        std::vector<std::string> motions{found_.motion};
+        for (const Simulation& other : whole_.others) motions.push_back(motion_key(other.problem));
+        for (const std::string& motion : motions)
+            if (const auto until = cache.reach(motion)) found_.existing.kept_until[motion] = *until;
     }
 
     std::string part_of(std::size_t output) const {

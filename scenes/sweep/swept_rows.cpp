@@ -11,6 +11,7 @@
 #include "output/data/tables.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/format/reader.hpp"
+#include "scenes/motions/identity.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/problem/number_keys.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -90,7 +91,7 @@ std::string differences_from_sweep(const sim::Problem& problem, const std::strin
     like.solver = problem.solver;
     for (const SweptKey& over : of_sweep->sweep->over)
         if (const auto here = sim::number_key(problem, over.key)) set_number(like, over.key, here->value);
-    if (Studies::key(like) == Studies::key(problem)) return "";
+    if (motion_key(like) == motion_key(problem)) return "";
     std::vector<std::string> paths;
     for (const sim::NumberKey& key : sim::number_keys(like)) {
         const auto here = sim::number_key(problem, key.path);

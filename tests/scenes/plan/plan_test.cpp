@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "scenes/motions/identity.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/run/simulate.hpp"
 #include "tests/scenes/support.hpp"
@@ -242,7 +243,7 @@ TEST(PlanText, AMotionThatTwoPicturesCompareIsSimulatedOnceAndMayBeCached) {
          "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]}]})");
     ExistingWork existing;
     existing.keeps = true;
-    existing.kept_until[Studies::key(scene.problem)] = 0.4;
+    existing.kept_until[motion_key(scene.problem)] = 0.4;
     const Plan p = plan(scene, {}, existing);
     EXPECT_FALSE(p.simulation);
     ASSERT_EQ(p.others.size(), 2u);
@@ -253,7 +254,7 @@ TEST(PlanText, AMotionThatTwoPicturesCompareIsSimulatedOnceAndMayBeCached) {
 
 TEST(PlanText, AKeptMotionCostsTimeAndNoSteps) {
     ExistingWork existing;
-    existing.kept_until[Studies::key(scene_of(kTwo).problem)] = 0.6;
+    existing.kept_until[motion_key(scene_of(kTwo).problem)] = 0.6;
     Plan p = plan(scene_of(kTwo), {}, existing);
     p.simulation->cost = Cost{0.65, 14000};
     EXPECT_THAT(to_text(p), HasSubstr("; from the cache; about 0.65 s\n"));
@@ -269,7 +270,7 @@ TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
     existing.finished = {{1, "t.csv"}};
     existing.frames[0] = {0, 1, 2, 7};
     existing.keeps = true;
-    double& kept_until = existing.kept_until[Studies::key(scene_of(kTwo).problem)];
+    double& kept_until = existing.kept_until[motion_key(scene_of(kTwo).problem)];
     kept_until = 0.6;
     EXPECT_EQ(text_with(existing), R"(to do
   simulate  first-order, 2 hub-beam modes, compliant contact; until 0.5 s, needed by f-##.png; from the cache
