@@ -18,7 +18,7 @@ struct AccuracyArguments {
     std::string scene;
     ResultFiles files;
     std::optional<std::string> until, target, longest;
-    int repeats = 5;
+    sim::AccuracyRequest request;
 };
 
 std::string seconds_text(double seconds) {
@@ -73,10 +73,9 @@ std::string accuracy_text(const sim::Accuracy& a) {
 }
 
 sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scene) {
-    sim::AccuracyRequest request;
+    sim::AccuracyRequest request = args.request;
     request.end_time = args.until ? positive_argument("--until", *args.until, dimension::kTime) : scene.end_time;
     if (args.target) request.target = positive_argument("--target", *args.target, dimension::kAngle);
-    request.repeats = args.repeats;
     if (args.longest) request.longest_run = positive_argument("--longest", *args.longest, dimension::kTime);
     return request;
 }
@@ -110,7 +109,7 @@ void add_accuracy(Grammar& grammar) {
         "--target", &args.target, "ANGLE",
         "Error for which settings are recommended: of theta; of a driven hub, of the tip deflection over the length "
         "(default: 1e-4 rad)");
-    app.option("--repeats", &args.repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
+    app.option("--repeats", &args.request.repeats, "N", "Timings of each row (default: 5)").range(1, 1000);
     app.option("--longest", &args.longest, "T", "Leave out runs that take longer than this (default: 2 s)");
 }
 

@@ -3,7 +3,7 @@
 
 #include "output/data/manifest.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/plan/inputs_key.hpp"
+#include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/version.hpp"
 #include "scenes/sweep/parts.hpp"
 #include "sim/base/counted.hpp"

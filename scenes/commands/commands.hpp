@@ -54,6 +54,8 @@ Selection shard_argument(const std::string& text);  // "2/3", "auto"; throws Usa
 
 // ---- steps that several commands share ----------------------------------------------------------
 
+std::string lowered(std::string text);  // in lower case (ASCII)
+
 // A message on standard error, unless -q.
 void inform(const Common& common, const std::string& text);
 // The work for each file; an unreadable one is reported, and the others follow. Returns the exit code.

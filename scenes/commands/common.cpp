@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <cstdlib>
 #include <numbers>
@@ -62,6 +63,11 @@ void add_work(Command& app, Common& common) {
     app.flag("--no-cache", common.no_cache, "Neither read nor store trajectories (see beamcam cache --help)");
     app.flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
     app.flag("--json", common.json, "With -n: print the plan as JSON");
+}
+
+std::string lowered(std::string text) {
+    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return text;
 }
 
 void inform(const Common& common, const std::string& text) {

@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <filesystem>
 #include <map>
 
@@ -33,13 +32,10 @@ struct Provenance {
 
 // ---- reading ---------------------------------------------------------------------------------------
 
-// Of a key in any case: containers change the case.
+// Of a key in lower case: containers change the case.
 std::string find(const std::map<std::string, std::string>& metadata, std::string_view key) {
     for (const auto& [name, value] : metadata)
-        if (name.size() == key.size() && std::equal(name.begin(), name.end(), key.begin(), [](char a, char b) {
-                return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
-            }))
-            return value;
+        if (lowered(name) == key) return value;
     return {};
 }
 
@@ -96,13 +92,6 @@ void read_manifest(const std::string& file, Provenance& p) {
     p.facts["changed_since"] = record->unchanged ? "no" : "yes";
 }
 
-std::string lower_ending(const std::string& file) {
-    std::string ending = ending_of(file);
-    std::transform(ending.begin(), ending.end(), ending.begin(),
-                   [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending;
-}
-
 void read_table(const std::string& file, Provenance& p) {
     read_manifest(file, p);
     const output::ColumnTable table = output::read_table(file, output::Texts::kept);
@@ -135,7 +124,7 @@ Provenance provenance_of(const std::string& file) {
     if (!fs::exists(file, error)) throw output::read_error(file, ENOENT);
     Provenance p;
     p.file = file;
-    const std::string ending = lower_ending(file);
+    const std::string ending = lowered(ending_of(file));
     const auto listed = std::ranges::find(kListedKinds, ending, [](const auto& each) { return each.first; });
     if (output::png_kind(file) != output::PngKind::none && ending != ".apng") {
         read_png_info(file, p);

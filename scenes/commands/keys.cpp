@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "scenes/commands/commands.hpp"
@@ -16,11 +15,6 @@ struct KeysArguments {
     std::string pattern;
     bool json = false, markdown = false;
 };
-
-std::string lowered(std::string text) {
-    std::ranges::transform(text, text.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return text;
-}
 
 // Whether the text contains the words of the pattern in this order; words are separated by blanks or '*'.
 bool matches(const std::string& text, const std::string& pattern) {

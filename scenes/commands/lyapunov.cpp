@@ -18,7 +18,7 @@ struct LyapunovArguments {
     std::string scene;
     ResultFiles files;
     std::optional<std::string> transient, duration;
-    int count = 0, blocks = 20;
+    sim::ExponentsRequest request{.count = 0};
 };
 
 std::string verdict(const sim::Exponents& e) {
@@ -51,11 +51,9 @@ std::string exponents_text(const sim::Exponents& e) {
 void act(const LyapunovArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     if (const auto refusal = sim::tangent_refusal(scene.problem)) throw UsageError(*refusal);
-    sim::ExponentsRequest request;
-    request.count = args.count;
-    request.blocks = args.blocks;
+    sim::ExponentsRequest request = args.request;
     request.transient = args.transient ? transient_argument(*args.transient, scene.problem) : 20;
-    request.duration = args.duration ? positive_argument("--duration", *args.duration, dimension::kTime) : 100;
+    if (args.duration) request.duration = positive_argument("--duration", *args.duration, dimension::kTime);
     output::Manifest manifest(args.common.force);
     require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
     Progress progress(progress_style(args.common));
@@ -71,9 +69,9 @@ void act(const LyapunovArguments& args) {
     write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
                   [&] { return exponents_figure(found, subject_of(scene, args.files.lang)); }},
                  args.files, scene, args.common, manifest);
-    if (std::cmp_greater(args.count, found.lambda.size()))
+    if (std::cmp_greater(request.count, found.lambda.size()))
         inform(args.common,
-               fmt::format("note: the motion has {}, not {}", counted(found.lambda.size(), "exponent"), args.count));
+               fmt::format("note: the motion has {}, not {}", counted(found.lambda.size(), "exponent"), request.count));
     for (const std::string& warning : found.warnings) inform(args.common, "warning: " + warning);
 }
 
@@ -89,11 +87,11 @@ void add_lyapunov(Grammar& grammar) {
     add_scene(app, args.scene, args.common);
     add_result_options(app, args.files, args.common,
                        "Write the result, too: .json, or the convergence as .png, .svg or .pdf (repeatable)");
-    app.option("--count", &args.count, "K", "Compute the K largest only (default: all)").range(1, 82);
+    app.option("--count", &args.request.count, "K", "Compute the K largest only (default: all)").range(1, 82);
     app.option("--transient", &args.transient, "T",
                "Time left out at the start: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
     app.option("--duration", &args.duration, "T", "Averaging time (default: 100 s)");
-    app.option("--blocks", &args.blocks, "N",
+    app.option("--blocks", &args.request.blocks, "N",
                "Number of blocks of that time; their scatter gives the error (default: 20)")
         .range(2, 1000);
 }

@@ -29,8 +29,9 @@ struct OrbitsArguments {
     std::string scene;
     ResultFiles files;
     std::optional<std::string> transient, over, at, scene_file, sweep_file;
-    int turns = 0, most_turns = 8, impacts = -1, doublings = 0, most_points = 2000, row = 0;
-    double step = 0.01;
+    sim::OrbitRequest search;
+    sim::ContinuationRequest branches;
+    int impacts = -1, row = 0;
 };
 
 // The scene's value if it lies in the range, else its middle.
@@ -90,7 +91,8 @@ void search_elsewhere(output::BranchTable& table, const sim::Family& family, con
 // Follows the first orbit without a phase of rest on the cam, and the first with one.
 void follow_branches(output::BranchTable& table, const sim::Family& family, const KeyRange& range,
                      const sim::OrbitRequest& request, const OrbitsArguments& args, const sim::Progress& progress) {
-    const sim::ContinuationRequest how{range.from, range.to, args.step, args.most_points, args.doublings};
+    sim::ContinuationRequest how = args.branches;
+    how.from = range.from, how.to = range.to;
     const auto problem_at = [&](double value) {
         try {
             return family(value);
@@ -154,7 +156,7 @@ void reject_unused_options(const OrbitsArguments& args) {
     for (const std::string& file : args.files.names)
         if (!args.over && !is_data_file(file))
             throw UsageError(fmt::format("-o {}: a branch diagram needs --over", file));
-    if (!args.over && (args.at || args.doublings > 0))
+    if (!args.over && (args.at || args.branches.doublings > 0))
         throw UsageError("--at and --doublings belong to branches; add --over KEY=FROM:TO");
     if (args.row > 0 && !args.sweep_file) throw UsageError("--row: name the table with --sweep");
     if (args.sweep_file && !args.over && args.row == 0)
@@ -172,10 +174,8 @@ void require_writable_files(const OrbitsArguments& args, output::Manifest& manif
 }
 
 sim::OrbitRequest request_of(const OrbitsArguments& args, const sim::Problem& problem) {
-    sim::OrbitRequest request;
+    sim::OrbitRequest request = args.search;
     if (args.transient) request.transient = transient_argument(*args.transient, problem);
-    request.turns = args.turns;
-    request.most_turns = args.most_turns;
     if (args.impacts >= 0) request.impacts = args.impacts;
     return request;
 }
@@ -278,19 +278,21 @@ void add_orbits(Grammar& grammar) {
                "too, the first orbit that rests on the cam for a part of its period");
     app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
-    app.option("--turns", &args.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
+    app.option("--turns", &args.search.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
         .range(1, 1000);
-    app.option("--most-turns", &args.most_turns, "N", "Longest period to try without --turns (default: 8)")
+    app.option("--most-turns", &args.search.most_turns, "N", "Longest period to try without --turns (default: 8)")
         .range(1, 1000);
     app.option("--impacts", &args.impacts, "M", "Number of impacts of the orbit in a period (default: any)")
         .range(0, 100000);
     app.option("--transient", &args.transient, "T",
                "Time left out before the search: turns of the cam (200) or a time (\"30 s\") (default: 20 s)");
-    app.option("--doublings", &args.doublings, "K", "Number of successive period doublings to follow (default: 0)")
+    app.option("--doublings", &args.branches.doublings, "K",
+               "Number of successive period doublings to follow (default: 0)")
         .range(0, 20);
-    app.option("--step", &args.step, "SHARE", "Longest step along a branch, as a share of the range (default: 0.01)")
+    app.option("--step", &args.branches.step, "SHARE",
+               "Longest step along a branch, as a share of the range (default: 0.01)")
         .range(1e-6, 0.5);
-    app.option("--most-points", &args.most_points, "N",
+    app.option("--most-points", &args.branches.most_points, "N",
                "Largest number of points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
     app.option("--sweep", &args.sweep_file, "FILE",

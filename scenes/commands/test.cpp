@@ -26,28 +26,22 @@ constexpr sim::Named<Annotations> kAnnotations[] = {
 struct TestArguments {
     Common common;
     std::string baselines;
-    std::vector<std::string> update, only, tolerance;
+    RegressionOptions test;  // those that options set directly
+    std::vector<std::string> tolerance;
     std::optional<std::string> report, junit;
-    NewRenderer on_new_renderer = NewRenderer::fail;
     Annotations annotate = Annotations::automatic;
-    bool add_digest = false, strict = false;
 };
 
 constexpr sim::Named<NewRenderer> kOnNewRenderer[] = {
     {NewRenderer::fail, "fail"}, {NewRenderer::warn, "warn"}, {NewRenderer::accept, "accept"}};
 
 RegressionOptions options_of(const TestArguments& args) {
-    if (!args.update.empty() && !args.only.empty())
+    if (!args.test.update.empty() && !args.test.only.empty())
         throw UsageError("--update and --only exclude each other; --update runs only the entries that it names");
-    if (!args.update.empty() && args.add_digest)
+    if (!args.test.update.empty() && args.test.add_digest)
         throw UsageError(
             "--update and --add-digest exclude each other: one replaces the expected pictures, the other adds to them");
-    RegressionOptions options;
-    options.only = args.only;
-    options.update = args.update;
-    options.add_digest = args.add_digest;
-    options.rule.strict = args.strict;
-    options.rule.new_renderer = args.on_new_renderer;
+    RegressionOptions options = args.test;
     options.tolerance = tolerance_argument(args.tolerance);
     if (args.report) options.report = *args.report;
     options.run = run_options(args.common, "");
@@ -87,8 +81,8 @@ void report_to_github(const TestArguments& args, const RegressionResult& result,
 
 // The patterns of --update, with `all` and `failed` resolved.
 std::vector<std::string> entries_to_update(const TestArguments& args, RegressionOptions options) {
-    if (args.update == std::vector<std::string>{"all"}) return {"*"};
-    if (args.update != std::vector<std::string>{"failed"}) return args.update;
+    if (args.test.update == std::vector<std::string>{"all"}) return {"*"};
+    if (args.test.update != std::vector<std::string>{"failed"}) return args.test.update;
     options.update.clear();
     options.report.reset();
     std::vector<std::string> failed;
@@ -124,7 +118,7 @@ int act(const TestArguments& args) {
     output::Manifest manifest(args.common.force);
     require_replaceable(args, manifest);
     options.update = entries_to_update(args, options);
-    if (options.update.empty() && !args.update.empty()) {
+    if (options.update.empty() && !args.test.update.empty()) {
         inform(args.common, "no entry fails; nothing is updated");
         return kDone;
     }
@@ -132,7 +126,7 @@ int act(const TestArguments& args) {
     write_reports(args, result, options.rule, manifest);
     print_result(args, result, options.rule);
     report_to_github(args, result, options.rule);
-    bool fine = !result.changed || (options.update.empty() && !args.add_digest);  // a change must be checked
+    bool fine = !result.changed || (options.update.empty() && !args.test.add_digest);  // a change must be checked
     for (const EntryResult& entry : result.entries)
         if (entry.could_not_run()) return entry.exit_code;
     for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry);
@@ -148,20 +142,20 @@ void add_test(Grammar& grammar) {
                                                             act);
     app.examples = {"test baselines.json --report report", "test baselines.json --update 'fall-*'"};
     app.positional("BASELINES", &args.baselines, "The file of baselines, JSON; - is standard input").required();
-    app.option("--only,--filter", &args.only, "NAME...",
+    app.option("--only,--filter", &args.test.only, "NAME...",
                "Test only these entries; patterns such as 'fall-*' are allowed")
         .several();
-    app.option("--update", &args.update, "NAME...",
+    app.option("--update", &args.test.update, "NAME...",
                "Replace the references of these entries by the present pictures and motions (exit code 7 if that "
                "changes any); patterns, all and failed are allowed")
         .several();
-    app.flag("--add-digest", args.add_digest,
+    app.flag("--add-digest", args.test.add_digest,
              "Accept the pictures of this machine in addition to the others, where they are equivalent, or where no "
              "picture of its libraries and fonts is accepted yet (exit code 7)");
-    app.choice("--on-new-renderer", args.on_new_renderer, kOnNewRenderer, "WHAT",
+    app.choice("--on-new-renderer", args.test.rule.new_renderer, kOnNewRenderer, "WHAT",
                "Verdict on pictures of libraries or fonts of which no picture is accepted yet: fail; warn: similar "
                "pictures pass; accept: they pass and are accepted (default: fail)");
-    app.flag("--strict", args.strict, "Fail entries that are only equivalent");
+    app.flag("--strict", args.test.rule.strict, "Fail entries that are only equivalent");
     app.option("--tolerance", &args.tolerance, "KEY=X,...",
                "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
                "(repeatable)")

@@ -11,6 +11,10 @@
 
 namespace beamcam::scenes {
 
+// SHA-256 of everything that the files of one output depend on: an input that it misses would keep an outdated file.
+// `until`: end of the run, for outputs about the whole run. `part`: the frames of a film; empty: all.
+std::string inputs_key(const Scene& scene, std::size_t output, double until, const std::string& part);
+
 struct UpToDate {
     ExistingWork existing;
     std::vector<std::string> inputs;  // key of each output of the scene; empty for standard output

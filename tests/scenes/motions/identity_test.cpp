@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "scenes/plan/inputs_key.hpp"
+#include "scenes/plan/up_to_date.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes {
