@@ -2,7 +2,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <numbers>
 
 #include "output/files/numbers.hpp"
 #include "scenes/commands/commands.hpp"

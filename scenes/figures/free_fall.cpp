@@ -1,6 +1,5 @@
 // Falling without a cam: the hub angle of the flexible and the rigid beam.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,5 @@
 // The models of the beam compared: how much the choice of model matters.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <cmath>
 

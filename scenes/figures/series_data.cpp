@@ -1,7 +1,6 @@
 #include "scenes/figures/series_data.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>

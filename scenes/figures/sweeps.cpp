@@ -1,7 +1,6 @@
 #include "scenes/figures/sweeps.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <map>

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
-#include <filesystem>
 
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/value_formats.hpp"

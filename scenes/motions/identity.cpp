@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 #include <link.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <set>
 #include <string_view>
