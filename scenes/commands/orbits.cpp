@@ -24,6 +24,8 @@
 namespace beamcam::scenes {
 namespace {
 
+constexpr int kMostFollowed = 16;  // orbits at the start of --over
+
 struct OrbitsArguments {
     Common common;
     std::string scene;
@@ -65,11 +67,9 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scen
             {"beamcam_program", program_identity()}};
 }
 
-// The first orbit with a phase of rest on the cam, or the first without.
-const sim::PeriodicOrbit* first_of(const std::vector<sim::PeriodicOrbit>& orbits, bool resting) {
-    for (const sim::PeriodicOrbit& orbit : orbits)
-        if (orbit.chatters() == resting) return &orbit;
-    return nullptr;
+// True without an orbit that never rests on the cam: there is only the motion's own, which does.
+bool all_rest(const std::vector<sim::PeriodicOrbit>& orbits) {
+    return std::ranges::all_of(orbits, &sim::PeriodicOrbit::chatters);
 }
 
 // Searches at other values of the range if there is no orbit to continue at the start.
@@ -81,14 +81,15 @@ void search_elsewhere(output::BranchTable& table, const sim::Family& family, con
         const sim::Problem problem = family(value);
         if (std::ranges::any_of(sim::validate(problem), &sim::Issue::fatal)) continue;  // the initial state
         std::vector<sim::PeriodicOrbit> found = sim::find_orbits(problem, request, progress);
-        if (!first_of(found, false)) continue;
+        if (all_rest(found)) continue;
         table.start = value;
         table.orbits = std::move(found);
         return;
     }
 }
 
-// Follows the first orbit without a phase of rest on the cam, and the first with one.
+// Follows the orbits found, first those of short periods, whose period doublings may lead to the others; those that
+// rest on the cam last. An orbit on a branch already followed is left out.
 void follow_branches(output::BranchTable& table, const sim::Family& family, const KeyRange& range,
                      const sim::OrbitRequest& request, const OrbitsArguments& args, const sim::Progress& progress) {
     sim::ContinuationRequest how = args.branches;
@@ -100,16 +101,25 @@ void follow_branches(output::BranchTable& table, const sim::Family& family, cons
             throw sim::StepFailure(impossible.what());
         }
     };
-    const auto follow = [&](double value, const sim::PeriodicOrbit* orbit) {
-        if (!orbit) return;
-        for (sim::Branch& branch : sim::continue_orbit(problem_at, {value, *orbit}, how, progress))
-            table.branches.push_back(std::move(branch));
+    const auto passes = [](const sim::Branch& branch, const sim::PeriodicOrbit& orbit) {
+        return std::ranges::any_of(branch.at_start, [&](const auto& other) { return sim::same_orbit(orbit, other); });
+    };
+    const auto follow = [&](double value, std::vector<sim::PeriodicOrbit> orbits, bool resting) {
+        std::ranges::stable_sort(orbits, {}, &sim::PeriodicOrbit::turns);
+        int followed = 0;
+        for (const sim::PeriodicOrbit& orbit : orbits) {
+            if (orbit.chatters() != resting) continue;
+            if (std::ranges::any_of(table.branches, [&](const auto& branch) { return passes(branch, orbit); })) continue;
+            if (++followed > kMostFollowed) return;
+            for (sim::Branch& branch : sim::continue_orbit(problem_at, {value, orbit}, how, progress))
+                table.branches.push_back(std::move(branch));
+        }
     };
     const double start = table.start;
     const std::vector<sim::PeriodicOrbit> found = table.orbits;
-    if (!first_of(found, false)) search_elsewhere(table, family, range, request, progress);
-    follow(table.start, first_of(table.orbits, false));
-    follow(start, first_of(found, true));
+    if (all_rest(found)) search_elsewhere(table, family, range, request, progress);
+    follow(table.start, table.orbits, false);
+    follow(start, found, true);
 }
 
 // The scene that begins on the orbit, with one film of the second period, which loops. The film looks like the scene's
@@ -177,6 +187,7 @@ sim::OrbitRequest request_of(const OrbitsArguments& args, const sim::Problem& pr
     sim::OrbitRequest request = args.search;
     if (args.transient) request.transient = transient_argument(*args.transient, problem);
     if (args.impacts >= 0) request.impacts = args.impacts;
+    request.coexisting = args.over.has_value();
     return request;
 }
 
@@ -274,8 +285,10 @@ void add_orbits(Grammar& grammar) {
         app, args.files, args.common,
         "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
     app.option("--over", &args.over, "KEY=FROM:TO",
-               "Follow the orbit over this key of the scene, also through folds, for example cam.speed=40:60; follow, "
-               "too, the first orbit that rests on the cam for a part of its period");
+               fmt::format("Follow the orbits found at the start, stable or not, at most {}, over this key of the scene, "
+                           "also through folds, for example cam.speed=40:60. A branch ends when its motions have taken "
+                           "about solver.max_steps steps",
+                           kMostFollowed));
     app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
     app.option("--turns", &args.search.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")

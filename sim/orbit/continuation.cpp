@@ -13,6 +13,7 @@
 #include "sim/orbit/branch_arc.hpp"
 #include "sim/orbit/constants.hpp"
 #include "sim/orbit/contact_pattern.hpp"
+#include "sim/run/constants.hpp"
 
 namespace beamcam::sim {
 namespace {
@@ -70,10 +71,18 @@ Eigen::VectorXd cubic(const ArcPoint& a, const ArcPoint& b, double s) {
            u * u * ((3 - 2 * u) * (chord - length * a.tangent) + length * (u - 1) * (slope - a.tangent));
 }
 
+// Of the motions of a branch; they report it by their calls of `progress`.
+struct Work {
+    long most_steps, steps = 0;
+    bool spent() const { return steps > most_steps; }
+};
+
 class Continuation {
   public:
-    Continuation(BranchArc arc, const ContinuationRequest& request, const Progress& progress)
-        : arc_(std::move(arc)), request_(request), progress_(progress) {}
+    // `start`: the share of the range at which passages are located.
+    Continuation(BranchArc arc, const ContinuationRequest& request, double start, const Progress& progress,
+                 const Work& work)
+        : arc_(std::move(arc)), request_(request), start_(start), progress_(progress), work_(work) {}
 
     // Appends points from `from` on, without `from` itself.
     void follow(ArcPoint from, Branch& branch, std::string& end);
@@ -90,7 +99,9 @@ class Continuation {
 
     BranchArc arc_;
     const ContinuationRequest& request_;
+    double start_;
     const Progress& progress_;
+    const Work& work_;
 };
 
 std::optional<ArcPoint> Continuation::root(const ArcPoint& a, const ArcPoint& b, const Test& test) const {
@@ -130,6 +141,9 @@ void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
     if (changes(doubling_test)) locate(a, b, OrbitChange::period_doubling, doubling_test, branch);
     if (!folds && changes(branching_test)) locate(a, b, OrbitChange::branching, branching_test, branch);
     if (crosses_circle(a, b)) locate(a, b, OrbitChange::neimark_sacker, circle_test, branch);
+    const Test beyond_start = [this](const ArcPoint& p) { return p.z[p.z.size() - 1] - start_; };
+    if (changes(beyond_start))
+        if (auto passage = root(a, b, beyond_start)) branch.at_start.push_back(std::move(passage->orbit));
 }
 
 // Classifies the change within `step`, which is too short to be divided. True if the branch continues beyond it.
@@ -192,6 +206,10 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
         if (progress_ && !progress_(arc_.parameter(from.z))) throw Interrupted();
         end = "the range ends";
         if (leaves_range(from)) return;
+        if (work_.spent()) {
+            end = fmt::format("its motions have taken {} steps; a larger solver.max_steps allows more", work_.steps);
+            return;
+        }
         if (const double largest = from.orbit.largest_multiplier(); largest > kMostUnstable) {
             end = fmt::format("the orbit is so unstable that rounding hides it: its largest multiplier is {:.1e}",
                               largest);
@@ -256,22 +274,34 @@ std::optional<ArcPoint> doubled(const BranchArc& once, const BranchArc& twice, c
 
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress) {
-    const SectionScale scale = section_scale(for_orbits(family(start.parameter)), start.orbit,
-                                             [&](double) { return !progress || progress(start.parameter); });
+    const Problem at_start = family(start.parameter);
+    Work work{at_start.solver.max_steps};
+    const Progress counting = [&](double parameter) {
+        work.steps += kStepsPerReport;
+        return !progress || progress(parameter);
+    };
+    const SectionScale scale =
+        section_scale(for_orbits(at_start), start.orbit, [&](double) { return counting(start.parameter); });
     std::vector<Branch> branches(1);
     const auto run = [&](const BranchArc& arc, ArcPoint at, bool both, Branch& branch) {
+        work.steps = 0;
         branch.points.push_back(arc.branch_point(at));
+        const auto follow = [&](ArcPoint from, std::string& end) {
+            Continuation(arc, request, arc.share(start.parameter), progress, work)
+                .follow(std::move(from), branch, end);
+        };
         if (both) {
+            branch.at_start.push_back(at.orbit);
             ArcPoint back = at;
             back.tangent *= -1;
-            Continuation(arc, request, progress).follow(back, branch, branch.first_end);
+            follow(std::move(back), branch.first_end);
             std::ranges::reverse(branch.points);
             std::ranges::reverse(branch.special);
         }
-        Continuation(arc, request, progress).follow(std::move(at), branch, branch.last_end);
+        follow(std::move(at), branch.last_end);
     };
     {
-        const BranchArc arc(family, request, start.orbit, start.orbit.turns, scale, progress);
+        const BranchArc arc(family, request, start.orbit, start.orbit.turns, scale, counting);
         const Eigen::Index n = scale.units.size();
         const auto first = arc.correct(arc.place(start), Eigen::VectorXd::Unit(n + 1, n));
         if (!first) return {};
@@ -281,8 +311,8 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
         const std::vector<SpecialPoint> special = branches[i].special;
         for (const SpecialPoint& point : special) {
             if (point.change != OrbitChange::period_doubling) continue;
-            const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale, progress);
-            const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale, progress);
+            const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale, counting);
+            const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale, counting);
             if (auto at = doubled(once, twice, point)) run(twice, *at, false, branches.emplace_back());
         }
     }

@@ -129,11 +129,6 @@ std::optional<Place> thrown(const Problem& problem, double section, double perio
     return Place{section_after(problem, section, kRise * period), risen.end};
 }
 
-bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
-    return a.turns == b.turns && a.impacts.size() == b.impacts.size() &&
-           std::fabs(a.slowest_impact() - b.slowest_impact()) < kSameOrbit * a.slowest_impact();
-}
-
 // The orbit once more, from the middle of its longest flight; a throw leaves it anywhere.                       (S75)
 PeriodicOrbit centred(const Problem& problem, const PeriodicOrbit& orbit, const OrbitRequest& request,
                       const Progress& progress) {
@@ -141,14 +136,15 @@ PeriodicOrbit centred(const Problem& problem, const PeriodicOrbit& orbit, const 
     return orbit_through(problem, middle, request, progress).value_or(orbit);
 }
 
-// Orbits with few impacts that may coexist with a motion that chatters or cannot be integrated.
+// Orbits with few impacts that may coexist with the motion. If the motion has none of its own, throws are tried until
+// there is one.
 std::vector<PeriodicOrbit> orbits_by_throws(const Problem& problem, std::size_t size, const OrbitRequest& request,
-                                            const Progress& progress) {
+                                            bool needed, const Progress& progress) {
     std::vector<PeriodicOrbit> found;
     OrbitRequest one = request;
     one.turns = std::max(1, request.turns);
     const double period = cam_period(problem) * one.turns;
-    for (int i = 0; i < 2 * kThrows && (i < kThrows || found.empty()); ++i) {
+    for (int i = 0; i < 2 * kThrows && (i < kThrows || (needed && found.empty())); ++i) {
         const double section = 2 * std::numbers::pi * (i + (i < kThrows ? 0 : 0.5)) / kThrows;
         try {
             const auto place = thrown(problem, section, period, size, progress);
@@ -170,6 +166,11 @@ double PeriodicOrbit::slowest_impact() const {
     double slowest = impacts.empty() ? 0 : impacts.front().approach;
     for (const OrbitImpact& impact : impacts) slowest = std::min(slowest, impact.approach);
     return slowest;
+}
+
+bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {
+    return a.turns == b.turns && a.impacts.size() == b.impacts.size() &&
+           std::fabs(a.slowest_impact() - b.slowest_impact()) < kSameOrbit * a.slowest_impact();
 }
 
 std::optional<std::string> orbit_refusal(const Problem& problem) {
@@ -199,9 +200,10 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& given, const OrbitRequest&
             found.push_back(std::move(*orbit));
     } catch (const SolverError&) {  // the motion cannot be integrated, but orbits may exist
     }
-    if (!found.empty() && !found.front().chatters()) return found;
-    for (PeriodicOrbit& orbit : orbits_by_throws(problem, begin.y.size(), request, progress))
-        found.push_back(std::move(orbit));
+    const bool flies = !found.empty() && !found.front().chatters();
+    if (flies && found.front().stable() && !request.coexisting) return found;
+    for (PeriodicOrbit& orbit : orbits_by_throws(problem, begin.y.size(), request, !flies, progress))
+        if (found.empty() || !same_orbit(found.front(), orbit)) found.push_back(std::move(orbit));
     return found;
 }
 

@@ -47,13 +47,17 @@ struct OrbitRequest {
     int turns = 0;          // of the period; 0: the smallest number up to `most_turns`
     int most_turns = 8;
     std::optional<int> impacts = {};  // only orbits with this number of impacts
+    bool coexisting = false;          // search beside a stable orbit, too
 };
 
-// The orbit to which the motion tends, if there is one without chatter that matches the request. Otherwise also orbits
-// found from throws of the beam off the cam, stable ones first. Throws Interrupted; std::invalid_argument where
+// The orbit near the motion, if there is one that matches the request. If it is unstable or chatters, or if coexisting
+// orbits are requested, also orbits found from throws of the beam off the cam, stable ones first. Throws Interrupted; std::invalid_argument where
 // `orbit_refusal` has a reason.
 std::vector<PeriodicOrbit> find_orbits(const Problem& problem, const OrbitRequest& request,
                                        const Progress& progress = {});
+
+// The same period and the same impacts.
+bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b);
 
 // The same orbit with its section in the middle of its longest flight. Throws SolverError, Interrupted.
 PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit, const Progress& progress = {});

@@ -57,9 +57,11 @@ TEST(OrbitsCommand, ABranchMayStartAtTheLeastValueOfItsKey) {
     const Finished done =
         shell(folder, "$BEAMCAM orbits s.json --over hub.inertia=0:0.005 --impacts 1 --transient 0 -q --json");
     const nlohmann::json table = nlohmann::json::parse(done.out);
-    ASSERT_EQ(table["branches"].size(), 1u);
-    EXPECT_EQ(table["branches"][0]["points"].front()["value"], 0);
-    EXPECT_EQ(table["branches"][0]["points"].back()["value"], 0.005);
+    ASSERT_EQ(table["branches"].size(), 2u);  // from the stable and from the unstable orbit
+    for (const auto& branch : table["branches"]) {
+        EXPECT_EQ(branch["points"].front()["value"], 0);
+        EXPECT_EQ(branch["points"].back()["value"], 0.005);
+    }
 }
 
 TEST(OrbitsCommand, AStepIsANumber) {
@@ -216,12 +218,12 @@ TEST(OrbitsCommand, FollowsAMotionThatRestsOnTheCamBesideOneThatDoesNot) {
         shell(folder, "$BEAMCAM orbits s.json --over cam.speed=44:54 --transient '20 s' -q --json " + kFallsToRest);
     ASSERT_EQ(done.code, 0) << done.err;
     const nlohmann::json table = nlohmann::json::parse(done.out);
-    ASSERT_EQ(table["branches"].size(), 2u);
+    ASSERT_EQ(table["branches"].size(), 3u);  // two arise at a fold below the range
     double released = 0, doubled = 0;
     for (const auto& event : table["events"]) {
         if (event["kind"] == "release") released = event["value"];
         if (event["kind"] == "period-doubling") doubled = event["value"];
-        EXPECT_EQ(event["branch"], event["kind"] == "release" ? 1 : 0);
+        EXPECT_EQ(event["branch"], event["kind"] == "release" ? 2 : 0);
     }
     EXPECT_NEAR(released, 52.317, 2e-3);
     EXPECT_NEAR(doubled, 50.86885, 1e-4);
@@ -243,6 +245,31 @@ TEST(OrbitsCommand, AVeryUnstableBranchIsFollowedInLongStepsAndSaysWhyItEnds) {
             return;
         }
     FAIL() << "no branch of 16 turns";
+}
+
+// The fold lies below the range, and near the motion at its middle there is an orbit of four impacts.
+TEST(OrbitsCommand, FollowsAllOrbitsAtTheStartEachBranchOnce) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done =
+        shell(folder, "$BEAMCAM orbits s.json --over cam.speed=46:60 --at 53 --transient '20 s' -q --json");
+    ASSERT_EQ(done.code, 0) << done.err;
+    const nlohmann::json table = nlohmann::json::parse(done.out);
+    int single = 0, doublings = 0;
+    for (const auto& branch : table["branches"]) single += branch["impacts"] == 1;
+    for (const auto& event : table["events"])
+        if (event["kind"] == "period-doubling" && event["impacts"] == 1) {
+            ++doublings;
+            EXPECT_NEAR(event["value"], 50.86885, 1e-4);
+        }
+    EXPECT_EQ(single, 2);  // from the two orbits that arise at the fold
+    EXPECT_EQ(doublings, 1);
+    // Where the range contains the fold they are one.
+    const nlohmann::json whole = nlohmann::json::parse(
+        shell(folder, "$BEAMCAM orbits s.json --over cam.speed=41:60 --at 53 --transient '20 s' -q --json").out);
+    single = 0;
+    for (const auto& branch : whole["branches"]) single += branch["impacts"] == 1;
+    EXPECT_EQ(single, 1);
 }
 
 // Below the fold there is no orbit to begin with.

@@ -154,6 +154,40 @@ TEST(Continuation_, ABranchMayStartAtTheLastValueWithAProblem) {
     }
 }
 
+// From the fold on, the two orbits at the start are one branch.
+TEST(Continuation_, ABranchKnowsItsOrbitsAtTheParameterOfItsStart) {
+    const PressedBeam b;
+    const Family family = [&](double w) { return b.problem(w); };
+    const auto branches = branches_of(family, 45, {41, 53, 0.02, 500, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    const std::vector<PeriodicOrbit>& passages = branches[0].at_start;
+    const auto passed = [&](const auto& condition) { return std::ranges::any_of(passages, condition); };
+    EXPECT_TRUE(passed([](const PeriodicOrbit& orbit) { return orbit.stable(); }));
+    EXPECT_TRUE(passed([](const PeriodicOrbit& orbit) { return !orbit.stable(); }));
+    OrbitRequest search{.transient = 0};
+    search.coexisting = true;
+    for (const PeriodicOrbit& found : find_orbits(family(45), search))
+        if (!found.chatters() && found.impacts.size() == 1) {
+            EXPECT_TRUE(passed([&](const PeriodicOrbit& orbit) { return same_orbit(orbit, found); }));
+        }
+}
+
+TEST(Continuation_, ABranchEndsWhenItsMotionsHaveTakenTheirSteps) {
+    const PressedBeam b;
+    const Family family = [&](double w) {
+        Problem p = b.on_orbit(w);
+        p.contact.model = ContactModel::compliant;
+        p.contact.stiffness = 1e7;
+        p.solver.max_steps = 5000;
+        return p;
+    };
+    const auto branches = branches_of(family, 48, {47, 49, 0.001, 5000, 0});
+    ASSERT_EQ(branches.size(), 1u);
+    EXPECT_LT(branches[0].points.size(), 500u);
+    EXPECT_NE(branches[0].last_end.find("a larger solver.max_steps allows more"), std::string::npos)
+        << branches[0].last_end;
+}
+
 // Over the speed the impact turns with the cam by more than half a turn, past any fixed section.
 TEST(Continuation_, TheSectionStaysInFlight) {
     const Family family = [](double speed) {
@@ -244,6 +278,15 @@ TEST(Orbits_, ChatteringAttractorComesWithTheOrbitsBesideIt) {
     EXPECT_TRUE(found[1].stable());
     EXPECT_EQ(found[1].impacts.size(), 1u);
     EXPECT_LT(found[1].residual, 1e-10);
+}
+
+// At 53 rad/s the motion is chaotic. The orbit near it says nothing about those from which it has branched off.
+TEST(Orbits_, AnUnstableOrbitNearTheMotionComesWithTheOrbitsBesideIt) {
+    const auto found = find_orbits(PressedBeam().problem(53), {});
+    ASSERT_GE(found.size(), 2u);
+    EXPECT_FALSE(found[0].stable());
+    for (std::size_t i = 1; i < found.size(); ++i) EXPECT_FALSE(same_orbit(found[0], found[i]));
+    EXPECT_TRUE(std::ranges::any_of(found, [](const auto& orbit) { return orbit.impacts.size() == 1; }));
 }
 
 TEST(Orbits_, ProblemsWithoutAPeriodAreRejectedWithAMessage) {
