@@ -1,11 +1,11 @@
 #include "output/data/point_store.hpp"
 
 #include <fcntl.h>
-#include <fmt/format.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
+#include <system_error>
 
 #include "output/files/digest.hpp"
 
@@ -39,14 +39,15 @@ std::uint64_t rest_of(const Head& head) { return (head.samples + head.state) * s
 
 PointStore::PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity, bool replace)
     : path_(std::move(file)), file_(path_, O_RDWR | O_CREAT), places_(points, 0), numbers_(points, 0) {
-    if (!file_) fail("cannot be made");
+    if (!file_) throw write_error(path_, errno);
     if (!file_.try_lock() && errno == EWOULDBLOCK)
         throw IoError(path_.string() + ": another beamcam is making these points");
     open_again(std::string(kMagic) + identity + "\n", replace);
 }
 
-void PointStore::fail(const char* what) const {
-    throw IoError(fmt::format("{}: {} ({})", path_.string(), what, std::strerror(errno)));
+PointStore::~PointStore() {
+    std::error_code ignored;
+    if (count_ == 0 && file_) std::filesystem::remove(path_, ignored);
 }
 
 void PointStore::open_again(const std::string& head, bool replace) {
@@ -61,8 +62,10 @@ void PointStore::open_again(const std::string& head, bool replace) {
         if (end != other.npos && size > end + 1 && !replace)
             throw IoError(path_.string() +
                           ": has points of another sweep, or of another version of beamcam; --force discards them");
-        if (ftruncate(file_.number(), 0) != 0 || !file_.write_at(0, head)) fail("cannot be written");
-        return;
+        if (ftruncate(file_.number(), 0) == 0 && file_.write_at(0, head)) return;
+        const IoError error = write_error(path_, errno);
+        remove();
+        throw error;
     }
     while (end_ + sizeof(Head) <= size) {
         std::string text = text_at(end_, sizeof(Head));
@@ -79,7 +82,7 @@ void PointStore::open_again(const std::string& head, bool replace) {
         if (crc32(0, text.data(), text.size()) != found.checksum) break;
         place(found.point, found.samples, whole);
     }
-    if (end_ < size && ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) fail("cannot be written");
+    if (end_ < size && ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) throw write_error(path_, errno);
 }
 
 // The point is at the end of the file, which grows by its size.
@@ -92,7 +95,7 @@ void PointStore::place(std::uint64_t point, std::uint64_t samples, std::uint64_t
 
 std::string PointStore::text_at(std::uint64_t at, std::size_t size) const {
     std::string text(size, '\0');
-    if (file_.read_at(at, text.data(), size) != static_cast<std::ptrdiff_t>(size)) fail("cannot be read");
+    if (file_.read_at(at, text.data(), size) != static_cast<std::ptrdiff_t>(size)) throw read_error(path_, errno);
     return text;
 }
 
@@ -123,7 +126,7 @@ StoredPoint PointStore::read(std::uint64_t point) const {
 void PointStore::add(const StoredPoint& point) {
     const std::string text = text_of(point);
     const std::lock_guard lock(mutex_);
-    if (!file_.write_at(end_, text)) fail("cannot be written");
+    if (!file_.write_at(end_, text)) throw write_error(path_, errno);
     place(point.point, point.samples.size(), text.size());
 }
 

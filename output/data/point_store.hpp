@@ -44,6 +44,9 @@ class PointStore {
     // `identity` names the sweep. Throws IoError, also when another program has the file open, the file is no store of
     // points, or it has points of another sweep and these are not to be replaced.
     PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity, bool replace = false);
+    ~PointStore();  // removes a file without points
+    PointStore(const PointStore&) = delete;
+    PointStore& operator=(const PointStore&) = delete;
 
     bool has(std::uint64_t point) const { return places_[point] != 0; }
     std::uint64_t count() const { return count_; }
@@ -55,7 +58,6 @@ class PointStore {
   private:
     void open_again(const std::string& head, bool replace);
     void place(std::uint64_t point, std::uint64_t samples, std::uint64_t size);
-    [[noreturn]] void fail(const char* what) const;
     std::string text_at(std::uint64_t at, std::size_t size) const;
 
     std::filesystem::path path_;

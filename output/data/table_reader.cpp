@@ -41,15 +41,19 @@ class CsvParser {
     }
 
   private:
-    [[noreturn]] void refuse(std::size_t column, const std::string& what) const {
-        throw IoError(file_ + ":" + std::to_string(line_) + ":" + std::to_string(column) + ": " + what);
+    // At this byte of the row, counted from 1; cells with line breaks may precede it.
+    [[noreturn]] void refuse(std::size_t byte, const std::string& what) const {
+        const std::string_view before = row_.substr(0, byte - 1);
+        const auto breaks = static_cast<std::size_t>(std::ranges::count(before, '\n'));
+        const std::size_t column = before.size() - (before.rfind('\n') + 1) + 1;  // npos + 1 is 0
+        throw IoError(file_ + ":" + std::to_string(line_ + breaks) + ":" + std::to_string(column) + ": " + what);
     }
 
     bool next_line(std::string_view& line) {
         if (at_ >= text_.size()) return false;
         const std::size_t end = end_of_line();
         line_ += lines_;
-        line = text_.substr(at_, end - at_);
+        row_ = line = text_.substr(at_, end - at_);
         lines_ = 1 + static_cast<std::size_t>(std::ranges::count(line, '\n'));
         at_ = end + 1;
         if (line.ends_with('\r')) line.remove_suffix(1);
@@ -162,6 +166,7 @@ class CsvParser {
     const std::string& file_;
     Texts texts_;
     std::size_t at_ = 0, line_ = 0, lines_ = 1;  // of the file: the first of this row, their number in it
+    std::string_view row_;
     ColumnTable table_;
     std::set<std::string> known_;  // its names
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <map>
 #include <numeric>
 #include <optional>
@@ -106,12 +107,19 @@ Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<st
 }
 
 figure::Panel exponents_panel(std::vector<figure::Cloud> clouds) {
-    return {.y = {.label = "$λ_1$ / s^{−1}"},
-            .clouds = std::move(clouds),
-            .rules = {{.at = 0}},
-            .legend = figure::Legend::none,
-            .share = 0.35,
-            .name = "exponent"};
+    constexpr double kMargin = 0.1;  // of the range: in this low panel the usual margin is narrower than a dot
+    double low = std::numeric_limits<double>::infinity(), high = -low;
+    for (const figure::Cloud& cloud : clouds)
+        for (const double exponent : cloud.y) low = std::min(low, exponent), high = std::max(high, exponent);
+    figure::Panel panel{.y = {.label = "$λ_1$ / s^{−1}"},
+                        .clouds = std::move(clouds),
+                        .rules = {{.at = 0}},
+                        .legend = figure::Legend::none,
+                        .share = 0.35,
+                        .name = "exponent"};
+    const double margin = kMargin * (high - low);
+    if (margin > 0) panel.y.from = low - margin, panel.y.to = high + margin;
+    return panel;
 }
 
 // A cloud without points, which names the colour of dots of all starts at one place.

@@ -1,11 +1,9 @@
 #include "output/data/netcdf/chunk_file.hpp"
 
-#include <fmt/format.h>
 #include <hdf5.h>
 #include <libdeflate.h>
 
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "output/files/errors.hpp"
@@ -57,9 +55,8 @@ ChunkFile::~ChunkFile() {
 }
 
 void ChunkFile::need(bool done) const {
-    if (!done)
-        throw IoError(fmt::format("{}: cannot be written{}", named_.string(),
-                                  errno != 0 ? fmt::format(" ({})", std::strerror(errno)) : ""));
+    if (!done && errno != 0) throw write_error(named_, errno);
+    if (!done) throw IoError(named_.string() + ": cannot be written");
 }
 
 std::size_t ChunkFile::variable(const std::string& name) {

@@ -3,13 +3,16 @@
 #include <fmt/format.h>
 #include <netcdf.h>
 
+#include <cerrno>
+
 #include "output/files/errors.hpp"
 
 namespace beamcam::output {
 
 std::shared_ptr<NcFile> NcFile::create(const std::filesystem::path& file, const std::filesystem::path& named) {
     auto made = std::make_shared<NcFile>(named);
-    made->need(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &made->id), "cannot be created");
+    errno = 0;
+    made->need_written(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &made->id));
     return made;
 }
 
@@ -26,11 +29,16 @@ NcFile::~NcFile() {
 void NcFile::close() {
     const int closed = nc_close(id);
     id = -1;
-    need(closed, "cannot be written");
+    need_written(closed);
 }
 
 void NcFile::need(int status, const char* what) const {
     if (status != NC_NOERR) throw IoError(fmt::format("{}: {} ({})", named.string(), what, nc_strerror(status)));
+}
+
+void NcFile::need_written(int status) const {
+    if (status == NC_EHDFERR && errno != 0) throw write_error(named, errno);
+    need(status, "cannot be written");
 }
 
 int NcFile::variable(const std::string& name) const {
@@ -48,7 +56,7 @@ std::string NcFile::text(int variable, const char* attribute) const {
 }
 
 void NcFile::set(int variable, const char* attribute, const std::string& value) const {
-    need(nc_put_att_text(id, variable, attribute, value.size(), value.c_str()), "cannot be written");
+    need_written(nc_put_att_text(id, variable, attribute, value.size(), value.c_str()));
 }
 
 std::string udunits(const std::string& unit) {

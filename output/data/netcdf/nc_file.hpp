@@ -23,6 +23,8 @@ class NcFile {
     void close();
     // Throws IoError unless the status is that of success.
     void need(int status, const char* what = "is not a sweep of beamcam") const;
+    // The same while writing. HDF5 does not name the reason of its failure, but the system does.
+    void need_written(int status) const;
     int variable(const std::string& name) const;
     std::string text(int variable, const char* attribute) const;  // empty: there is none
     void set(int variable, const char* attribute, const std::string& value) const;

@@ -1,4 +1,5 @@
 // The module: sweeps and tables as NetCDF-4 files.
+#include <hdf5.h>
 #include <netcdf.h>
 
 #include "output/data/netcdf/nc_file.hpp"
@@ -9,7 +10,7 @@ namespace beamcam::output {
 namespace {
 
 void write_columns(const NcFile& file, const ColumnTable& table) {
-    const auto need = [&file](int status) { file.need(status, "cannot be written"); };
+    const auto need = [&file](int status) { file.need_written(status); };
     int row = 0;
     need(nc_def_dim(file.id, "row", table.rows(), &row));
     std::vector<int> ids;
@@ -49,6 +50,9 @@ std::optional<ColumnTable> read_columns(const NcFile& file) {
 
 class Library final : public NetcdfLibrary {
   public:
+    // Files are closed before. At exit HDF5 would close a file again that it could not write, and crash.
+    Library() { H5dont_atexit(); }
+
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const SweepData& data) const override {
         write_nc_sweep(file, named, data);

@@ -48,7 +48,7 @@ class SweepWriter {
     }
 
   private:
-    void need(int status) const { file_->need(status, "cannot be written"); }
+    void need(int status) const { file_->need_written(status); }
 
     int dimension(const std::string& name, std::uint64_t size) {
         int id = 0;

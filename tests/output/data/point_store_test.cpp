@@ -1,12 +1,14 @@
 #include "output/data/point_store.hpp"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <filesystem>
 #include <fstream>
 #include <thread>
 
 #include "output/files/atomic_file.hpp"
+#include "output/files/interrupt.hpp"
 #include "tests/output/scratch.hpp"
 
 namespace beamcam::output {
@@ -112,6 +114,33 @@ TEST(PointStore, LeavesAloneAFileThatIsNoStore) {
     // The program was killed while it wrote the head.
     write_file(scratch / "a.part", "beamcam po");
     EXPECT_EQ(PointStore(scratch / "a.part", 4, "sweep").count(), 0u);
+}
+
+TEST(PointStore, LeavesAFileOnlyIfItHasPoints) {
+    const Scratch scratch;
+    { const PointStore store(scratch / "a.part", 4, "sweep"); }
+    EXPECT_FALSE(std::filesystem::exists(scratch / "a.part"));
+}
+
+// A limit on the file size stands for the full disk.
+TEST(PointStore, KeepsThePointsThatAFullDiskHasRoomFor) {
+    for (const rlim_t room : {1, 100, 1000}) {
+        const Scratch scratch;
+        const int code = exit_code_of([&] {
+            install_handlers();
+            const rlimit limit = {room, room};
+            setrlimit(RLIMIT_FSIZE, &limit);
+            try {
+                PointStore store(scratch / "a.part", 400, "sweep");
+                for (std::uint64_t k = 0; k < 400; ++k) store.add(point(k));
+            } catch (const IoError& full) {
+                return std::string(full.what()).find("a.part: File too large; ") != std::string::npos ? 0 : 1;
+            }
+            return 2;
+        });
+        EXPECT_EQ(code, 0) << room;
+        EXPECT_EQ(std::filesystem::exists(scratch / "a.part"), room == 1000);
+    }
 }
 
 TEST(PointStore, TakesPointsOfManyThreads) {

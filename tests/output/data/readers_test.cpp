@@ -305,6 +305,9 @@ TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
     EXPECT_THAT(io_error_of([] { parse_csv("a,b\n1,\"2\n\"\nx,1\n", "q.csv", Texts::rejected); }),
                 ::testing::StartsWith("q.csv:2:3: "));
     EXPECT_THAT(io_error_of([] { parse_csv("a,\"b\nc\"\nx,1\n", "q.csv"); }), ::testing::StartsWith("q.csv:3:1: "));
+    EXPECT_THAT(io_error_of([] { parse_csv("a,\"b\nc\",5\n1,2,3\n", "q.csv"); }), ::testing::StartsWith("q.csv:2:4: "));
+    EXPECT_THAT(io_error_of([] { parse_csv("a,note,b\n1,\"one\ntwo\",inf\n", "q.csv", Texts::kept); }),
+                ::testing::StartsWith("q.csv:3:6: "));
     const ColumnTable excel = parse_csv("\xEF\xBB\xBF\"t\", x\r\n1,+2\r\n3,\r\n", "e.csv");
     EXPECT_EQ(*excel.find("t"), (std::vector<double>{1, 3}));
     EXPECT_EQ(excel.find("x")->front(), 2);

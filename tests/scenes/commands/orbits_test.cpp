@@ -152,6 +152,17 @@ TEST(OrbitsCommand, FindsFoldAndPeriodDoublingOverTheSpeed) {
     EXPECT_THAT(testing::slurp((folder / "b.pdf").string()), StartsWith("%PDF"));
 }
 
+// HDF5 used to crash when the program ended after that.
+TEST(OrbitsCommand, ANetcdfFileThatFindsNoRoomIsAnError) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const Finished done = shell(
+        folder, "ulimit -f 4; $BEAMCAM orbits s.json --over cam.speed=43:48 --impacts 1 --transient 0 -q -o b.nc");
+    EXPECT_EQ(done.code, 6);
+    EXPECT_THAT(done.err, HasSubstr("cannot write b.nc: File too large; the file is larger than this disk"));
+    EXPECT_FALSE(std::filesystem::exists(folder / "b.nc"));
+}
+
 TEST(OrbitsCommand, DrawsBranchesOverTheImpactsOfASweep) {
     const Folder folder;
     folder.write("s.json", kPressed);
