@@ -56,6 +56,7 @@ inline constexpr int kMostNewtonCoupled = 14;  // where sweeps cost more, and a 
 inline constexpr double kFlightRounding = 1e-12, kContactRounding = 1e-11;
 inline constexpr double kNegligibleChange = 1e-6;  // of the tolerance: the rounding of a motion that has hardly begun
 inline constexpr double kDepthRounding = 4e-16;    // of the beam's length: two roundings of a gap
+inline constexpr double kTravelRounding = 4e-16;   // of the way of the disc's centre: of the time and of the angle
 // Where the damping of a contact decays by more than kFastDecay within a step, an error of a rate becomes a force that
 // no polynomial follows: the iteration may leave only a share of kContactShare. So it is from kSteadyDecay on where the
 // force varies by less than kSteadyForce: in a lasting contact it is the only error. Contractions vary from sweep to

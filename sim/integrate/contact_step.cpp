@@ -139,7 +139,10 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         by_depth[k] = at.by_depth;
         by_rate[k] = at.by_rate;
     }
-    force_rounding_ = kDepthRounding * form_.length * largest(by_depth);
+    // After hours the disc's place is uncertain by its travel within the rounding of the time.
+    const Cam& cam = *step_.system.problem().cam;
+    const double travel = std::fabs(cam.speed * cam.eccentricity * step_.time[kNodes - 1]);
+    force_rounding_ = std::max(kDepthRounding * form_.length, kTravelRounding * travel) * largest(by_depth);
     if (held_) force_rounding_ /= kNodeGap * mobility_contact_;  // which changes the rate from node to node
     decays_ = held_ ? 0 : largest(by_rate) * mobility_contact_;
     Lanes ahead;

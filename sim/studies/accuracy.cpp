@@ -104,13 +104,13 @@ class Assessment {
     }
 
     // Rows are in descending order of accuracy. Compares the variant of each with the first one that runs, which is
-    // returned; over [0, until], or if that is affordable only for a part, over the longest one, at least `shortest`.
+    // returned, and its run in `truth`; over [0, until], or if that is affordable only for a part, over the longest one,
+    // at least `shortest`.
     template <class Row, class VariantOf>
     const Row* compare_with_first(std::vector<Row>& rows, const VariantOf& variant_of, double share, double runs,
-                                  double shortest, double& until) {
+                                  double shortest, double& until, TrialRun& truth) {
         const double limit = runs * request_.longest_run;
         const Row* first = nullptr;
-        TrialRun truth;
         for (Row& row : rows) {
             const double more = 0.15 / static_cast<double>(rows.size());
             trials_.begin(share, more);
@@ -145,7 +145,7 @@ class Assessment {
             return variant;
         };
         double until = 0;
-        if (const ModesRow* first = compare_with_first(out_.modes, variant_of, 0.6, kModesRuns, 1, until))
+        if (const ModesRow* first = compare_with_first(out_.modes, variant_of, 0.6, kModesRuns, 1, until, most_modes_))
             out_.most_modes = first->modes;
         std::ranges::reverse(out_.modes);
     }
@@ -163,8 +163,9 @@ class Assessment {
             return variant;
         };
         out_.models_until = out_.until;
+        TrialRun best;
         if (const ModelRow* first =
-                compare_with_first(out_.models, variant_of, 0.75, kModelRuns, kShortestPart, out_.models_until))
+                compare_with_first(out_.models, variant_of, 0.75, kModelRuns, kShortestPart, out_.models_until, best))
             out_.best_model = first->model;
         std::ranges::reverse(out_.models);
     }
@@ -198,12 +199,12 @@ class Assessment {
     // ---- the recommendation ----------------------------------------------------------------------
 
     // The smallest number of shapes that stays within the target for as long (within 2 %) as any number does, and the
-    // loosest tolerance of `auto` whose error is at most half the target.
+    // loosest tolerance of `auto` whose error is at most half the target and with which these shapes do the same.
     void recommend() {
         Recommendation r;
         r.modes = problem_.beam.modes;
         r.until = out_.until;
-        double error = 0, farthest = out_.until;
+        double farthest = out_.until;
         if (!out_.modes.empty()) {
             farthest = 0;
             const ModesRow* last = nullptr;
@@ -215,29 +216,16 @@ class Assessment {
                 if (!row.error || row.trusted_until < kAsFar * farthest) continue;
                 r.modes = row.modes;
                 r.until = std::min(r.until, row.trusted_until);
-                error = std::min(*row.error, request_.target);
                 break;
             }
         }
+        trials_.begin(0.97, 0.03);
         for (const WorkRow& row : out_.work) {
             if (row.method != Method::automatic || !row.error || *row.error > request_.target / 2) continue;
             r.rtol = row.rtol;
-            error = std::max(error, *row.error);
-            break;
+            if (measure_combination(r)) break;
         }
-        if (r.rtol == 0 || r.until <= 0) return;
-        Problem chosen = with(r.rtol);
-        set_shapes(chosen, chosen.beam.model, chosen.beam.basis, r.modes);
-        trials_.begin(0.97, 0.03);
-        const double limit = kReferenceRuns * request_.longest_run;
-        try {
-            const auto timing = trials_.time(chosen, r.until, limit, request_.repeats, limit * request_.repeats);
-            if (!timing) return;
-            r.seconds = timing->median;
-        } catch (const SolverError&) {
-            return;
-        }
-        r.error = error;
+        if (r.seconds == 0) return;
         const std::string shapes = problem_.beam.model == ModelKind::rigid ? "" : " and " + counted(r.modes, "mode");
         const std::string within = fmt::format("{} to {:g} rad", out_.of_tip ? "the tip's δ/L" : "θ", request_.target);
         if (r.until < out_.until && farthest < out_.until)
@@ -247,11 +235,29 @@ class Assessment {
         out_.recommendation = std::move(r);
     }
 
+    // Tolerance and shapes were tried one by one. False if both together fail, or leave the target earlier.
+    bool measure_combination(Recommendation& r) {
+        Problem chosen = with(r.rtol);
+        set_shapes(chosen, chosen.beam.model, chosen.beam.basis, r.modes);
+        const TrialRun& truth = out_.most_modes > 0 ? most_modes_ : reference_;
+        const double limit = kReferenceRuns * request_.longest_run;
+        AccuracyRow row;
+        trials_.measure(row, chosen, truth, out_.until, limit, 1);
+        if (!row.error || row.trusted_until < kAsFar * r.until || row.trusted_until <= 0) return false;
+        const double until = std::min(r.until, row.trusted_until);
+        const auto timing = trials_.time(chosen, until, limit, request_.repeats, limit * request_.repeats);
+        if (!timing) return false;
+        r.until = until;
+        r.error = std::min(*row.error, request_.target);
+        r.seconds = timing->median;
+        return true;
+    }
+
     const Problem& problem_;
     const AccuracyRequest& request_;
     Trials trials_;
     Accuracy out_;
-    TrialRun reference_;
+    TrialRun reference_, most_modes_;  // the latter: with the number of modes `Accuracy::most_modes`
 };
 
 }  // namespace

@@ -63,7 +63,7 @@ struct Recommendation {
     int modes = 0;
     double until = 0;    // [s]
     double seconds = 0;  // run time to there
-    double error = 0;    // estimated [rad]
+    double error = 0;    // measured with both, at most the target [rad]
     std::string text;
 };
 

@@ -971,6 +971,14 @@ TEST(ExponentialContact, DoesNotResolveTheRoundingOfItsForce) {
     }
 }
 
+// Nor that of the time: from 1024 s on its steps were twelve times as short.
+TEST(ExponentialContact, DoesNotResolveTheRoundingOfTheTime) {
+    Problem p;
+    p.solver.method = Method::automatic;
+    const long before = run(p, 1000).counters.steps, after = run(p, 1100).counters.steps;
+    EXPECT_LT(after - before, before / 5);
+}
+
 TEST(ExponentialContact, KeepsTheLedger) {
     for (int seed = 1; seed <= seeds(12); ++seed) {
         const Problem p = seed % 3 == 0 ? random_contact_of_other_models(static_cast<unsigned>(seed))

@@ -184,6 +184,36 @@ TEST(Accuracy, SaysIfNoSettingsReachTheTarget) {
     EXPECT_EQ(assess(p, request).recommendation->text.find("rtol "), 0U);
 }
 
+// Each within the target, rtol 1e-3 and twelve modes leave it together before the end of the time stated for both.
+TEST(Accuracy, RecommendsAToleranceAndModesThatWereMeasuredTogether) {
+    SKIP_UNDER_SANITIZERS();
+    const Problem p;
+    AccuracyRequest request;
+    request.end_time = 0.7;
+    request.repeats = 1;
+    request.longest_run = 30;
+    request.methods = {Method::automatic};
+    request.models = {ModelKind::first_order};
+    const Accuracy found = assess(p, request);
+    ASSERT_TRUE(found.recommendation);
+    const auto angles = [&](int modes, double rtol) {
+        Problem variant = p;
+        variant.beam.modes = modes;
+        variant.solver.atol *= rtol / p.solver.rtol;
+        variant.solver.rtol = rtol;
+        Request samples;
+        samples.end_time = found.recommendation->until;
+        TableRequest table;
+        table.channels = {{ChannelKind::theta, 0}};
+        for (int k = 0; k <= 1000; ++k) table.times.push_back(samples.end_time * k / 1000);
+        samples.tables.push_back(std::move(table));
+        return simulate(variant, samples).tables[0].values[0];
+    };
+    const auto truth = angles(found.most_modes, p.solver.rtol),
+               mine = angles(found.recommendation->modes, found.recommendation->rtol);
+    for (std::size_t k = 0; k < truth.size(); ++k) ASSERT_LE(std::fabs(mine[k] - truth[k]), 1.1 * request.target) << k;
+}
+
 TEST(Accuracy, StopsWhenAsked) {
     EXPECT_THROW(assess(falling(), quick(0.1), [](double share) { return share < 0.2; }), Interrupted);
 }
