@@ -64,7 +64,10 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
     for (std::size_t i = 0; i < time.size(); ++i) {
         if (time[i] < c.t_start || time[i] > last) continue;
         const bool touches = force[i] > 0 && std::isfinite(x[i]);
-        s.add((time[i] - c.t_start) * duration.factor, touches ? x[i] * factor : std::nan(""));
+        const double since = (time[i] - c.t_start) * duration.factor;
+        // The end of a step is sampled again as the beginning of the next one.
+        if (!s.x.empty() && s.x.back() == since && (!touches || std::isfinite(s.y.back()))) continue;
+        s.add(since, touches ? x[i] * factor : std::nan(""));
         s.value.push_back(touches ? force[i] : std::nan(""));
         touching += touches;
     }

@@ -203,6 +203,8 @@ TEST(ContactPlaces, OfAnInstantAreOnePoint) {
         std::ranges::sort(times);
         EXPECT_EQ(std::ranges::adjacent_find(times), times.end());
     }
+    const std::vector<double>& first = figure.panels[0].insets.at(0).panel.at(0).series.at(0).x;
+    EXPECT_EQ(std::ranges::adjacent_find(first), first.end());  // with gaps where the contact is interrupted
 }
 
 TEST(Figures, EnergiesAreThoseThatTheSceneHas) {
