@@ -36,6 +36,7 @@ constexpr std::string_view kNoMemory =
     "(-j 1), or raise the limit (ulimit -v)\n";
 constexpr std::string_view kNoThread = "beamcam: a library ended because no thread can be started; ";
 int exit_code_of_crash = 0;
+std::atomic<pid_t> crashed_thread{0};
 alignas(16) std::array<std::byte, 64 * 1024> handler_stack;
 
 // Removes the temporary files of this process and ends it. Safe in signal handlers.
@@ -47,23 +48,31 @@ alignas(16) std::array<std::byte, 64 * 1024> handler_stack;
     _exit(exit_code);
 }
 
-extern "C" void on_signal(int) {
-    if (signals_seen.fetch_add(1) > 0) end(130);
-}
-
-extern "C" void on_crash(int signal_number) {
-    if (render::memory_is_short()) end(exit_code_of_crash, {kNoMemory});
-    if ((signal_number == SIGTRAP || signal_number == SIGABRT) && render::threads_are_short())
-        end(exit_code_of_crash, {kNoThread, render::kThreadRemedy, "\n"});
-    raise(signal_number);  // with the default action: SA_RESETHAND
-}
-
 void handle(int signal_number, void (*handler)(int), unsigned flags) {
     struct sigaction action = {};
     action.sa_handler = handler;
     sigemptyset(&action.sa_mask);
     action.sa_flags = static_cast<int>(flags);
     sigaction(signal_number, &action, nullptr);
+}
+
+extern "C" void on_signal(int) {
+    if (signals_seen.fetch_add(1) > 0) end(130);
+}
+
+// Several threads may crash at once: the first one ends the program, and the others wait.
+extern "C" void on_crash(int signal_number) {
+    pid_t first = 0;
+    const pid_t self = gettid();
+    if (crashed_thread.compare_exchange_strong(first, self)) {
+        if (render::memory_was_short()) end(exit_code_of_crash, {kNoMemory});
+        if ((signal_number == SIGTRAP || signal_number == SIGABRT) && render::threads_are_short())
+            end(exit_code_of_crash, {kNoThread, render::kThreadRemedy, "\n"});
+    } else if (first != self) {
+        while (true) pause();
+    }
+    handle(signal_number, SIG_DFL, 0);
+    raise(signal_number);
 }
 
 bool is_ignored(int signal_number) {
@@ -91,7 +100,7 @@ void install_crash_handlers(int exit_code) {
     render::watch_threads_of_glib();
     const stack_t stack = {handler_stack.data(), 0, handler_stack.size()};
     sigaltstack(&stack, nullptr);
-    constexpr unsigned kFlags = SA_ONSTACK | SA_NODEFER | SA_RESETHAND;
+    constexpr unsigned kFlags = SA_ONSTACK | SA_NODEFER;
     for (const int signal_number : {SIGTRAP, SIGABRT}) handle(signal_number, on_crash, kFlags);  // raised by libraries
     if (!memory_is_limited()) return;
     for (const int signal_number : {SIGSEGV, SIGBUS, SIGILL}) handle(signal_number, on_crash, kFlags);

@@ -1,5 +1,6 @@
 #include "render/base/limits.hpp"
 
+#include <fcntl.h>
 #include <glib.h>
 #include <pthread.h>
 #include <sys/mman.h>
@@ -8,8 +9,10 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
+#include <charconv>
 #include <cstddef>
 #include <latch>
 #include <string_view>
@@ -26,6 +29,22 @@ rlim_t limit() noexcept {
     getrlimit(RLIMIT_AS, &space);
     getrlimit(RLIMIT_DATA, &data);
     return std::min(space.rlim_cur, data.rlim_cur);
+}
+
+// The largest address space of this process until now [bytes]; 0 if unknown. Safe in signal handlers.
+rlim_t largest_space() noexcept {
+    std::array<char, 4096> text{};
+    const int status = open("/proc/self/status", O_RDONLY | O_CLOEXEC);
+    if (status < 0) return 0;
+    const ssize_t size = read(status, text.data(), text.size());
+    close(status);
+    constexpr std::string_view kName = "VmPeak:";
+    std::string_view rest(text.data(), size > 0 ? static_cast<std::size_t>(size) : 0);
+    rest.remove_prefix(std::min(rest.find(kName), rest.size()));
+    rest.remove_prefix(std::min(rest.find_first_of("0123456789"), rest.size()));
+    rlim_t kilobytes = 0;
+    std::from_chars(rest.data(), rest.data() + rest.size(), kilobytes);
+    return kilobytes * 1024;
 }
 
 extern "C" void* wait_for_end(void* end) {
@@ -55,6 +74,12 @@ bool has_memory(std::size_t bytes) noexcept {
 bool memory_is_short() noexcept {
     const rlim_t most = limit();
     return most != RLIM_INFINITY && !has_memory(std::max<std::size_t>(most / 2, 64 * kMiB));
+}
+
+bool memory_was_short() noexcept {
+    rlimit space = {};
+    if (memory_is_short()) return true;
+    return getrlimit(RLIMIT_AS, &space) == 0 && space.rlim_cur != RLIM_INFINITY && largest_space() > space.rlim_cur / 2;
 }
 
 std::string out_of_memory_message() {

@@ -12,6 +12,9 @@ bool has_memory(std::size_t bytes) noexcept;
 // Whether there is a limit (ulimit -v, ulimit -d) with less than half of it left. Safe in signal handlers.
 bool memory_is_short() noexcept;
 
+// Whether it is or was so at any time: other threads may have released memory since a library failed.
+bool memory_was_short() noexcept;
+
 // "not enough memory; this process may use 512 MiB (ulimit -v) …"
 std::string out_of_memory_message();
 

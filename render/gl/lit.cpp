@@ -63,6 +63,13 @@ std::vector<std::string> modules() {
 // not start.
 int threads_of_mesa() { return std::min(static_cast<int>(std::thread::hardware_concurrency()), 32) + 4; }
 
+// Whether Mesa and LLVM can be loaded. With them the smallest picture needed an address space of 360 MB, 90 MB of which
+// the program had before.
+bool has_memory_for_mesa() {
+    static const bool loads = has_memory(std::size_t{256} << 20);
+    return loads;
+}
+
 }  // namespace
 
 const std::vector<std::string>& ignored_gl_settings() {
@@ -74,13 +81,14 @@ std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
     ignored_gl_settings();  // sets the environment before Mesa reads it
     if (!can_start_threads(threads_of_mesa()))
         throw ThreadError(fmt::format("no thread can be started for OpenGL; {}", kThreadRemedy));
+    if (!has_memory_for_mesa()) throw std::bad_alloc();
     std::string reasons;
     for (const std::string& name : modules()) {
         try {
             const auto* library = static_cast<const LitLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
             return library->make_renderer(width, height);
         } catch (const GlError& error) {
-            if (memory_is_short()) throw std::bad_alloc();  // Mesa does not report it
+            if (memory_was_short()) throw std::bad_alloc();  // Mesa does not report it
             reasons += fmt::format("\n{}", error.what());
         } catch (const ModuleError& error) {
             reasons += fmt::format("\n{}", error.what());

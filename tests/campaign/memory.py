@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Runs all kinds of outputs with less and less memory (ulimit -v). Each run must succeed or end with a message about memory and
-a documented exit code, without a signal, an endless loop or an incomplete file.
+a documented exit code, without a signal, an endless loop or an incomplete file. Finished frames may remain: the next run resumes.
 
 memory.py PROGRAM [--steps MB,MB,…]
 """
@@ -14,9 +14,10 @@ import sys
 import tempfile
 
 DOCUMENTED = {0, 5, 6}
-STEPS = [20, 40, 60, 80, 100, 130, 160, 200, 250, 300, 350, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
+STEPS = [20, 40, 60, 80, 100, 115, 130, 160, 200, 250, 300, 330, 360, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
 LONGEST = 120  # [s]
 NOTES = re.compile(r"\.beamcam\.(json|[0-9a-f]+\.journal)")  # of the program, for its next run
+FRAME, END_OF_PNG = re.compile(r"a-\d\d\.png"), b"IEND\xaeB`\x82"
 SIZE = '"size": [1280, 720]'
 FLAT, LIT, SOLID = ('"view": {"style": "%s"}' % style for style in ("flat", "lit", "solid"))
 OUTPUTS = {
@@ -38,6 +39,20 @@ OUTPUTS = {
 }
 
 
+def run(program, folder, megabytes=None):
+    """beamcam run s.json, with a limited address space."""
+    def limit():
+        if megabytes:
+            resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
+    return subprocess.run([program, "run", "s.json", "-o", "out", "-q", "--no-cache"], cwd=folder, capture_output=True, text=True,
+                          errors="replace", timeout=LONGEST, env={**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")},
+                          preexec_fn=limit)
+
+
+def is_finished_frame(file):
+    return FRAME.fullmatch(file.name) and file.read_bytes().endswith(END_OF_PNG)
+
+
 def main():
     parser = argparse.ArgumentParser()
     parser.add_argument("program")
@@ -48,18 +63,18 @@ def main():
         row = []
         for megabytes in map(int, args.steps.split(",")):
             with tempfile.TemporaryDirectory() as scratch:
-                folder, limit = pathlib.Path(scratch), megabytes << 20
+                folder = pathlib.Path(scratch)
                 (folder / "s.json").write_text(f'{{"time": {{"end": 0.3}}, "outputs": [{output}]}}', encoding="utf-8")
                 try:
-                    done = subprocess.run([program, "run", "s.json", "-o", "out", "-q", "--no-cache"], cwd=folder, capture_output=True,
-                                          text=True, errors="replace", timeout=LONGEST,
-                                          env={**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")},
-                                          preexec_fn=lambda: resource.setrlimit(resource.RLIMIT_AS, (limit, limit)))
+                    done = run(program, folder, megabytes)
                 except subprocess.TimeoutExpired:
                     row.append("…")
                     problems.append(f"{name} with {megabytes} MB: no end within {LONGEST} s")
                     continue
-                left = [p.name for p in folder.glob("out/*") if done.returncode and not NOTES.fullmatch(p.name)]
+                kept = [p for p in folder.glob("out/*") if done.returncode and not NOTES.fullmatch(p.name)]
+                left = [p.name for p in kept if not is_finished_frame(p)]
+                if kept and (again := run(program, folder)).returncode:
+                    problems.append(f"{name} with {megabytes} MB: not resumed: {again.stderr[-300:]}")
                 loader = done.returncode == 127  # the program itself does not fit
                 row.append("-" if loader else str(done.returncode))
                 if not loader and (done.returncode not in DOCUMENTED or left or (done.returncode and "memory" not in done.stderr)):

@@ -5,7 +5,9 @@
 #include <sys/stat.h>
 
 #include <functional>
+#include <latch>
 #include <memory>
+#include <thread>
 
 #include "tests/output/scratch.hpp"
 
@@ -222,6 +224,31 @@ TEST(Interrupt, SecondSignalRemovesWhatIsHalfWrittenAndEndsWith130) {
     });
     EXPECT_EQ(code, 130);
     EXPECT_EQ(scratch.names(), Names{"done.txt"});
+}
+
+// Threads of a library, such as those of an encoder, fail together when memory is short.
+TEST(Interrupt, ThreadsThatCrashTogetherEndWithTheExitCodeAndNoFiles) {
+    for (int repeat = 0; repeat < 50; ++repeat) {
+        Scratch scratch;
+        const int code = exit_code_of([&] {
+            install_crash_handlers(6);
+            const AtomicFile file(scratch / "a.txt");
+            std::latch together(9);
+            std::vector<std::jthread> threads;
+            for (int i = 0; i < 8; ++i)
+                threads.emplace_back([&] {
+                    together.arrive_and_wait();
+                    raise(SIGTRAP);
+                });
+            const rlimit none_left = {1 << 20, 1 << 20};
+            setrlimit(RLIMIT_AS, &none_left);
+            together.count_down();
+            threads.clear();
+            return 1;
+        });
+        ASSERT_EQ(code, 6);
+        ASSERT_EQ(scratch.names(), Names{});
+    }
 }
 
 TEST(Interrupt, AnIgnoredHangupStaysIgnored) {
