@@ -32,8 +32,11 @@ void check_picture(ObjectReader& r, Picture& picture);
 void check_layout(ObjectReader& r, const Picture& picture);
 void check_speed(ObjectReader& r, const Speed& speed);  // `r` reads "speed"
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
-// A time after the end of the scene extends the motion; it may also be a slip of the unit. `t` in s.
-void warn_after_end(ObjectReader& r, const char* key, double t);
+// The latest end of a motion [s]: there a double resolves a tenth of a millisecond.
+inline constexpr double kLatestEnd = 1e12;
+// A time after the end of the scene extends the motion; it may also be a slip of the unit. `t` in s, rejected if later
+// than `kLatestEnd`.
+void check_end(ObjectReader& r, const char* key, double t);
 void set_default_codec(PictureOutput& video);  // that of its ending
 void check_video(ObjectReader& r, PictureOutput& video);
 void check_figure(ObjectReader& r, FigureOutput& figure);

@@ -33,8 +33,8 @@ void require_one_unit(ObjectReader& r, const char* key, const std::vector<sim::C
 // The interval that it shows. The times of events are unknown here.
 void check_interval(ObjectReader& r, const FigureOutput& figure) {
     const SeriesKeys& series = figure.series;
-    if (series.to) warn_after_end(r, "to", *series.to);
-    if (series.at && series.at->kind == Instant::Kind::time) warn_after_end(r, "at", series.at->t);
+    if (series.to) check_end(r, "to", *series.to);
+    if (series.at && series.at->kind == Instant::Kind::time) check_end(r, "at", series.at->t);
     if (series.needs_events() || series.at) return;
     const double end = series.to.value_or(r.context().scene.end_time);
     if (!(series.from < end || (figure.figure == "strobe" && series.to && series.from == end)))

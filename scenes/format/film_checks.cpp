@@ -74,9 +74,11 @@ void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, do
 
 }  // namespace
 
-void warn_after_end(ObjectReader& r, const char* key, double t) {
+void check_end(ObjectReader& r, const char* key, double t) {
     const double end = r.context().scene.end_time;
-    if (t > end && !r.diagnostics().failed(r.path(key)) && !r.diagnostics().failed("time"))
+    if (t > kLatestEnd)
+        r.reject(key, " = {:g} s is later than {:g} s; write the number of seconds", t, kLatestEnd);
+    else if (t > end && !r.diagnostics().failed(r.path(key)) && !r.diagnostics().failed("time"))
         r.warn(key, " = {:g} s is after the end of the scene, time.end = {:g} s: the motion is computed until then", t,
                end);
 }
@@ -86,7 +88,7 @@ void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture) 
     if (diagnostics.failed(r.path("from")) || diagnostics.failed(r.path("to")) || diagnostics.failed("time")) return;
     if (const std::string problem = problem_with_span(span, r.context().scene.end_time); !problem.empty())
         return r.reject_object("to", ": {}", problem);
-    if (span.to) warn_after_end(r, "to", *span.to);
+    if (span.to) check_end(r, "to", *span.to);
     check_instants(r, span, picture.view, span.to.value_or(r.context().scene.end_time));
     const sim::Problem& shown = picture.compare.empty() ? r.context().scene.problem : picture.compare.front().problem;
     for (std::size_t i = 0; i < span.events.size() && !shown.cam; ++i)

@@ -50,11 +50,10 @@ void visit(SceneVisitor& v, Scene& scene) {
            "Title of pictures; formulas are between dollar signs: $\\omega_1 = \\frac{a}{b}$, $\\dot\\theta$.");
     v.check([&scene](ObjectReader& r) { check_words(r, "title", scene.title); });
     v.problem(scene.problem);
-    // At the latest end a double resolves a tenth of a millisecond.
     const auto time = [&scene](sim::Visitor& inside) {
         inside.number(
             "end", scene.end_time, sim::dimension::kTime,
-            {0, 1e12, true, false, "must be positive and at most 1e12 s; write the number of seconds to simulate"},
+            {0, kLatestEnd, true, false, "must be positive and at most 1e12 s; write the number of seconds to simulate"},
             "End of the simulation, which starts at 0.");
     };
     v.object("time", time, "Duration of the simulation.", nullptr);

@@ -74,7 +74,7 @@ void visit_still(SceneVisitor& v, PictureOutput& p) {
     visit_picture(v, p);
     v.value(required("at", "\"370 ms\""), instant_format(p.at), "The instant of the picture.");
     v.check([&p](ObjectReader& r) {
-        if (p.at.kind == Instant::Kind::time) warn_after_end(r, "at", p.at.t);
+        if (p.at.kind == Instant::Kind::time) check_end(r, "at", p.at.t);
     });
 }
 

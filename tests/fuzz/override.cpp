@@ -14,7 +14,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     }
     const scenes::Reading reading = scenes::read_scene({"fuzz.json", "{}", true}, overrides);
     bool refused = false;
-    for (const scenes::Message& message : reading.messages) {
+    for (const Message& message : reading.messages) {
         fuzz::claim(!message.text.empty(), "a message says something");
         fuzz::claim(message.place.source <= overrides.size(), "and points at an override");
         refused = refused || message.fatal;

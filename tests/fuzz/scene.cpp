@@ -8,7 +8,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     using namespace beamcam;
     const scenes::Reading reading = scenes::read_scene({"fuzz.json", std::string(fuzz::text_of(data, size)), true});
     bool refused = false;
-    for (const scenes::Message& message : reading.messages) {
+    for (const Message& message : reading.messages) {
         fuzz::claim(!message.text.empty(), "a message says something");
         refused = refused || message.fatal;
     }

@@ -176,6 +176,15 @@ TEST(Films, ATimeAfterTheEndOfTheSceneIsAWarning) {
     EXPECT_EQ(warnings_of(R"({"type": "still", "at": 0.1}, {"type": "video", "to": 0.1})"), "");
 }
 
+TEST(Films, ATimeAfterTheLatestPossibleEndIsRejected) {
+    for (const char* output : {R"({"type": "still", "at": 1e100})", R"({"type": "figure", "figure": "strobe", "at": 1e100})",
+                               R"({"type": "figure", "figure": "kymograph", "to": 1e100})"}) {
+        const Reading reading = testing::read(R"({"outputs": [)" + std::string(output) + "]}");
+        EXPECT_FALSE(reading.scene.has_value());
+        EXPECT_THAT(reading.report(), HasSubstr("= 1e+100 s is later than 1e+12 s; write the number of seconds"));
+    }
+}
+
 // The default motion touches at 0.277 s (impact 1) and again from 0.768 s (collision 2).
 TEST(Films, AShortenedFilmLeavesOutTheEventsThatItDoesNotReach) {
     SKIP_UNDER_SANITIZERS();
