@@ -85,7 +85,7 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
         }
         if (has_only_nodes(kind)) {
             if (promising) search_parts(s, channels_[c], sign, e);
-            if (step_.balance()) continue;  // of both signs
+            if (step_.balance() || !is_among_most_promising(high, candidates.steps)) continue;  // of both signs
         }
         if (!kept) kept = keep(s);
         if (kept->kind != SegmentKind::none)
@@ -93,6 +93,15 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
         else
             search_parts(s, channels_[c], sign, e);
     }
+}
+
+// Whether a step with that bound belongs to the most promising ones; makes room for it.
+bool ExtremaFinder::is_among_most_promising(double high, std::vector<Candidate>& steps) {
+    if (steps.size() < kMostPromising) return true;
+    const auto least = std::ranges::min_element(steps, {}, &Candidate::high);
+    if (!(high > least->high)) return false;
+    steps.erase(least);
+    return true;
 }
 
 // Where the value is an estimate, the true one if the estimate is better.
@@ -115,6 +124,11 @@ bool ExtremaFinder::offer_nodes(const SegmentInterval& s, const Lanes& nodes, Ex
     return better;
 }
 
+// Where bounds exclude too few steps, closer ones cost less than to search these.
+bool ExtremaFinder::many_kept(std::size_t c) const {
+    return std::ranges::any_of(candidates_[c], [](const auto& of) { return of.steps.size() > kMostPromising; });
+}
+
 // Bounds of the channel, from the cheapest on; nothing as soon as the best values beat them. Offers the values at the
 // nodes if they are known.
 std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInterval& s, std::size_t c, Extremum& e) {
@@ -133,7 +147,7 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     if (modes.known_at_nodes(channel, nodes) && offer_nodes(s, nodes, e) && is_beaten(range, channel.kind, e))
         return std::nullopt;
     if (step_.polynomial() && !traits(channel.kind).separation) return step_.sampled_range(s, channel);
-    if (mode) return range;
+    if (mode) return many_kept(c) ? modes.crest_range(channel, first_[c], last_[c]).value_or(range) : range;
     const ModalChannels::Range closer = modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
     return ModalChannels::Range{std::max(range.low, closer.low), std::min(range.high, closer.high)};
 }

@@ -64,6 +64,8 @@ class ExtremaFinder {
     ModalChannels::Range residual_range(const SegmentInterval& s, std::size_t channel);
     void collect(const SegmentInterval& s, std::size_t channel, const ModalChannels::Range& range,
                  std::shared_ptr<const KeptStep>& kept, Extremum& e);
+    bool many_kept(std::size_t channel) const;
+    static bool is_among_most_promising(double high, std::vector<Candidate>& steps);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void drop_beaten(const std::vector<Extremum>& extrema);
     void search_kept(std::vector<Extremum>& extrema);

@@ -18,7 +18,7 @@ ModalChannels::ModalChannels(System& system, const ModeBasis& basis)
 
 void ModalChannels::set(const PartBounds::Part& part) {
     bounds_.set(part);
-    separation_.reset();
+    turning_.reset();
     forced_.reset();
 }
 
@@ -92,6 +92,18 @@ std::optional<UndampedMode> ModalChannels::undamped_mode(Channel channel) const 
         other += std::fabs(basis_.share(j, i) - (i == j ? 1 : 0)) * part.modes->modes[i].amplitude;
     const UndampedMode mode(*part.modes, j, basis_.modes[j].omega, part.from - part.elapsed, other);
     return mode.has_crests() ? std::optional(mode) : std::nullopt;
+}
+
+std::optional<ModalChannels::Range> ModalChannels::crest_range(Channel channel, double first, double last) const {
+    const std::optional<UndampedMode> mode = undamped_mode(channel);
+    if (!mode) return {};
+    Range range{std::min(first, last), std::max(first, last)};
+    const PartBounds::Part& part = bounds_.part;
+    mode->each_crest(1, part.from, part.to,
+                     [&](double, double, double high) { range.high = std::max(range.high, high); });
+    mode->each_crest(-1, part.from, part.to,
+                     [&](double, double, double high) { range.low = std::min(range.low, -high); });
+    return range;
 }
 
 bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {

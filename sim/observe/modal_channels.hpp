@@ -68,6 +68,8 @@ class ModalChannels {
     double longest_arm() const { return bounds_.arm; }  // of the contact, from the root
     // What rounding of the beam's place and of terms that cancel changes it by.
     double rounding(ChannelKind kind) const;
+    // Bounds of q by the crests of the mode that it is, from its values at the ends; nothing without crests.
+    std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
     // The variation of an estimate by all its modes and what is left, the frame's; false where its nodes bound it
@@ -80,12 +82,12 @@ class ModalChannels {
     const ForcedAcceleration& forced() const;
     double drift(ChannelKind kind) const;
     double line_strays(Channel channel, double length) const;
-    double pull() const;  // largest of gravity, per arm (S41)
+    Range pull(ChannelKind kind) const;
     double strays_between_nodes(Channel channel, const Variation& polynomial) const;
     template <class Add>
     void each_unresolved(Channel channel, Add&& add) const;
     Range contact_range(Channel channel) const;
-    Range separation_range() const;
+    Range turning_range() const;
     double contact_value(ChannelKind kind, int sample) const;
 
     System& system_;
@@ -93,7 +95,7 @@ class ModalChannels {
     const std::vector<ModeBasis::Mode>& modes_ = basis_.modes;
     PartBounds bounds_;
     ChannelSensitivity sensitivity_;
-    mutable std::optional<Range> separation_;  // both channels have the same
+    mutable std::optional<Range> turning_;  // `turning_range`, which both separations share
     mutable std::optional<ForcedAcceleration> forced_;
     double cam_speed_ = 0, disc_speed_ = 0;
 };

@@ -55,13 +55,18 @@ double ModalChannels::drift(ChannelKind kind) const {
     return 0;
 }
 
-// |cos θ| is at most that in the middle of the angles of the hub, and the distance of their ends from it.
-double ModalChannels::pull() const {
+// Of gravity in the separation, at any place that the contact may have (S41). cos θ differs from that in the middle of
+// the angles of the hub by the distance of their ends from it at most.
+ModalChannels::Range ModalChannels::pull(ChannelKind kind) const {
     const MotionBounds& motion = *bounds_.part.motion;
-    const double middle = 0.5 * (motion.angle_low + motion.angle_high),
+    const double middle = std::cos(0.5 * (motion.angle_low + motion.angle_high)),
                  around = 0.5 * (motion.angle_high - motion.angle_low) + bounds_.alpha;
-    const double cosine = std::min(1.0, std::fabs(std::cos(middle)) + around);
-    return 1.5 * sensitivity_.gravity() / basis_.length * cosine;
+    const double sign = kind == ChannelKind::separation ? 1 : -1,
+                 per_place = sign * 1.5 * system_.problem().gravity / basis_.length;
+    const double low = std::max(-1.0, middle - around), high = std::min(1.0, middle + around);
+    const double near = per_place * bounds_.nearest, far = per_place * bounds_.farthest;
+    const auto [first, last] = std::minmax({near * low, near * high, far * low, far * high});
+    return {first, last};
 }
 
 // Largest distance of the channel from the line between two of its values that are `length` apart in time.
@@ -150,8 +155,9 @@ double ModalChannels::strays_between_nodes(Channel channel, const Variation& pol
 ModalChannels::Range ModalChannels::range(Channel channel, double first, double last) const {
     const ChannelKind kind = channel.kind;
     if (traits(kind).separation) {
-        const double most = bounds_.arm * (bounds_.hub_acceleration + pull());
-        return {-most, most};
+        const double most = bounds_.arm * bounds_.hub_acceleration;
+        const Range pulled = pull(kind);
+        return {pulled.low - most, pulled.high + most};
     }
     Range range{std::min(first, last), std::max(first, last)};
     const MotionBounds& motion = *bounds_.part.motion;
@@ -190,7 +196,10 @@ double ModalChannels::estimate_error(Channel channel) const {
     const double fastest = bounds_.part.motion->theta_dot;
     if (channel.kind == ChannelKind::energy_kinetic)
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
-    if (traits(channel.kind).separation) return bounds_.arm * ((accelerated_by_modes() ? forced().error : 0) + pull());
+    if (traits(channel.kind).separation) {
+        const Range pulled = pull(channel.kind);
+        return bounds_.arm * (accelerated_by_modes() ? forced().error : 0) + std::max(-pulled.low, pulled.high);
+    }
     double error = 0;
     if (traits(channel.kind).of_tip)
         sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations&) {
@@ -220,8 +229,9 @@ double ModalChannels::rounding(ChannelKind kind) const {
 
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
     if (traits(channel.kind).separation && (bounds_.part.modes->resolved || !system_.drive().prescribed())) {
-        if (!separation_) separation_ = separation_range();
-        return separation_;
+        if (!turning_) turning_ = turning_range();
+        const Range pulled = pull(channel.kind);
+        return Range{turning_->low + pulled.low, turning_->high + pulled.high};
     }
     Lanes nodes;
     if (!at_nodes(channel, nodes)) return {};
@@ -236,10 +246,10 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
     return Range{range.low - stray, range.high + stray};
 }
 
-// θ̈ = Θ̈ + h·q̈ times the arm, and gravity. Lines through the nodes of the step; before the first node and after the
+// θ̈ = Θ̈ + h·q̈ times the arm. Lines through the nodes of the step; before the first node and after the
 // last the line through the two nearest goes on: there vibrations leave it by at most 5/4 of what they do between
 // nodes.
-ModalChannels::Range ModalChannels::separation_range() const {
+ModalChannels::Range ModalChannels::turning_range() const {
     const ModalBounds& modes = *bounds_.part.modes;
     const double length = kWidestNodeGap * modes.h, least = kFollowedRadians / modes.h;
     Lanes nodes{}, vibrations{}, unresolved{};
@@ -271,7 +281,7 @@ ModalChannels::Range ModalChannels::separation_range() const {
     add_on_line(last);
     for (int k = 0; k < kNodes; ++k)
         if (at[k] > first && at[k] < last) add(nodes[k]);
-    return {-bounds_.arm * (stray - range.low + pull()), bounds_.arm * (range.high + stray + pull())};
+    return {-bounds_.arm * (stray - range.low), bounds_.arm * (range.high + stray)};
 }
 
 double ModalChannels::contact_value(ChannelKind kind, int k) const {

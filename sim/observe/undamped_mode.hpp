@@ -38,7 +38,8 @@ class UndampedMode {
 };
 
 // Within 1 rad of a crest of the vibration q̈ <= −kaω², k = cos 1 − |p̈|/aω²: from a point with the slope r on, q rises
-// by at most ½r²/(kaω²), and is smaller by 2e beyond the distance (2r + 2√(kaω²e))/(kaω²).
+// by at most ½r²/(kaω²) and, at the distance d from the end of the interval, rd; it is smaller by 2e beyond the
+// distance (2r + 2√(kaω²e))/(kaω²).
 template <class Visit>
 void UndampedMode::each_crest(double sign, double from, double to, Visit&& visit) const {
     const double period = 2 * std::numbers::pi / frequency_, reach = 1 / frequency_;
@@ -52,9 +53,10 @@ void UndampedMode::each_crest(double sign, double from, double to, Visit&& visit
         const auto [value, rate] = followed(t);
         const double x = frequency_ * (t - crest);
         const double slope = sign * rate - amplitude_ * frequency_ * std::sin(x);
+        const double rise = slope > 0 ? std::min(0.5 * slope / bend, high - t) : std::max(0.5 * slope / bend, low - t);
         const double around = 2 * (std::fabs(slope) + std::sqrt(bend * error_)) / bend;
         visit(std::max(low, t - around), std::min(high, t + around),
-              sign * value + amplitude_ * std::cos(x) + 0.5 * slope * slope / bend + error_);
+              sign * value + amplitude_ * std::cos(x) + slope * rise + error_);
     }
 }
 
