@@ -30,22 +30,34 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
     if (channels_.empty()) return;
     halvings_left_ += kHalvingsPerStep;
     step_.begin(s);
-    const bool follows = last_time_ == s.from;
+    const bool contact = contact_may_exceed(extrema), follows = last_time_ == s.from && (contact_known_ || !contact);
     if (follows)
         std::swap(first_, last_);
     else
-        step_.values(s, s.from, channels_, nullptr, first_);
-    step_.values(s, s.to, channels_, balance, last_);
+        step_.values(s, s.from, channels_, nullptr, contact, first_);
+    step_.values(s, s.to, channels_, balance, contact, last_);
     last_time_ = s.to;
+    contact_known_ = contact;
     std::shared_ptr<const KeptStep> kept;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
-        if (std::isnan(first_[c])) continue;
+        if (std::isnan(first_[c]) || std::isnan(last_[c])) continue;
         if (!follows && !traits(channels_[c].kind).estimated()) offer(extrema[c], s.from, first_[c]);
         offer_end(s, c, extrema[c]);
         if (const auto range = range_within(s, c, extrema[c])) collect(s, c, *range, kept, extrema[c]);
     }
     if (kept_numbers_ > drop_at_) drop_beaten(extrema);
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
+}
+
+// Whether a channel of the contact may exceed its best value in this step: far from the cam none does, and where the
+// contact would be is not evaluated.
+bool ExtremaFinder::contact_may_exceed(const std::vector<Extremum>& extrema) {
+    if (step_.polynomial() || step_.system().phase().touching || !step_.system().has_cam()) return true;
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+        const ChannelKind kind = channels_[c].kind;
+        if (traits(kind).follows_contact() && !is_beaten(step_.modes().flight_range(kind), kind, extrema[c])) return true;
+    }
+    return false;
 }
 
 // Most steps of a contact promise more than those before, until the next one. What the best values have beaten since

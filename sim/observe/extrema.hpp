@@ -56,6 +56,7 @@ class ExtremaFinder {
         double promise = 0;  // the highest bound at which a costly channel was evaluated
     };
 
+    bool contact_may_exceed(const std::vector<Extremum>& extrema);
     static bool less_promising(const Candidate& a, const Candidate& b);
     void offer_end(const SegmentInterval& s, std::size_t channel, Extremum& e);
     bool has_only_nodes(ChannelKind kind) const;
@@ -88,6 +89,7 @@ class ExtremaFinder {
     std::vector<Channel> channels_;
     std::vector<double> first_, last_;  // all channels at the ends of the step
     double last_time_ = -1;             // of `last_`, while the phase lasts
+    bool contact_known_ = true;         // in `last_`
     long incomplete_ = 0, halvings_left_ = kHalvingsOfRun, evaluations_ = 0;
 
     std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum; in time

@@ -54,6 +54,8 @@ class ModalChannels {
     bool at_nodes(Channel channel, Lanes& values) const;
     // The values of a channel at the nodes that need no evaluation, if there are any.
     bool known_at_nodes(Channel channel, Lanes& values) const;
+    // Of a channel of the contact in flight, without any value.
+    Range flight_range(ChannelKind kind) const;
     // Of a channel within that part, from its values at the ends.
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.

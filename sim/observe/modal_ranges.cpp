@@ -181,8 +181,14 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
     return within(kind, range);
 }
 
+ModalChannels::Range ModalChannels::flight_range(ChannelKind kind) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return traits(kind).of_gap && kind != ChannelKind::gap ? Range{0, 0} : within(kind, {-kInfinity, kInfinity});
+}
+
 // The arc jumps at the mark on the disc.
 ModalChannels::Range ModalChannels::within(ChannelKind kind, const Range& range) const {
+    if (kind == ChannelKind::gap) return {std::max(range.low, bounds_.gap_low), std::min(range.high, bounds_.gap_high)};
     if (kind == ChannelKind::contact_x)
         return {std::max(range.low, bounds_.nearest), std::min(range.high, bounds_.farthest)};
     if (kind != ChannelKind::contact_s) return range;

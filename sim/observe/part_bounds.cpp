@@ -59,7 +59,9 @@ void PartBounds::place_contact() {
     const Vec2 disc = system_.cam(part.from).disc, along = unit(angle);
     const double root = system_.problem().hub.radius, foot = dot(disc, along),
                  on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * part.length();
-    away = norm(disc - on_beam * along) + turn * basis_.reach + moved + deflection;
+    const double distance = norm(disc - on_beam * along);
+    away = distance + turn * basis_.reach + moved + deflection;
+    bound_gap(distance, norm(disc - root * along), turn, moved);
     const double turned = turn * norm(disc) + moved, across = std::fabs(dot(disc, perp(along))) + turned;
     const double shortened = 1 - 0.5 * inclination * inclination;
     const bool steep = !(inclination < 1);
@@ -69,6 +71,19 @@ void PartBounds::place_contact() {
     nearest = steep ? 0 : on(foot - root - shift);
     farthest = steep ? basis_.length : on((foot - root + shift) / shortened);
     arm = farthest > 0 ? farthest + deflection : 0;
+}
+
+// From the distances of the disc's centre, which moves, from a straight beam in the middle of the angles and from its
+// root; the frame turns. Every point of the bent beam is next to one of the straight beam, and the other way round but
+// for what the beam shortens by; and the root is no farther than its distance.
+void PartBounds::bound_gap(double distance, double to_root, double turn, double moved) {
+    const double root = std::fabs(system_.problem().hub.radius),
+                 touching = system_.problem().cam->radius + system_.offset() - system_.phase().gap_offset;
+    const double shortened = 0.5 * root * alpha * alpha, around = turn * basis_.reach + moved + deflection + shortened;
+    gap_low = distance - around - touching;
+    gap_high = std::min(distance + around + 0.5 * basis_.length * inclination * inclination,
+                        to_root + root * (turn + alpha) + shortened + moved) -
+               touching;
 }
 
 // The law is convex in the penetration and linear in its rate: its slopes just beyond the deepest and fastest point are

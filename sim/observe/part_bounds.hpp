@@ -38,6 +38,7 @@ class PartBounds {
     double arm = 0;                    // of the contact's distance from the root
     double lever() const { return std::min(basis_.reach, basis_.reach - basis_.length + arm); }  // from the axis
     double away = 0;                                        // of the distance from the disc's centre to the beam
+    double gap_low = 0, gap_high = 0;                       // of the gap, without an evaluation
     bool foot_moves() const { return nearest < farthest; }  // else it stays at an end of the beam
     double foot_speed = 0, slide = 0;  // of the contact along a straight beam, and along the bent one
     // Of the normal force while they touch, and of its derivatives.
@@ -46,6 +47,7 @@ class PartBounds {
   private:
     void sum_modes();
     void place_contact();
+    void bound_gap(double distance, double to_root, double turn, double moved);
     void bound_force();
 
     System& system_;

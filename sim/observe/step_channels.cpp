@@ -249,16 +249,18 @@ double StepChannels::share_hub_acceleration(Instant& shared) {
 }
 
 void StepChannels::values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                          const System::EnergyBalance* balance, std::vector<double>& out) {
+                          const System::EnergyBalance* balance, bool contact, std::vector<double>& out) {
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
-    if (probing_ && evaluator_.system().has_cam()) probe_contact(t);
+    if (contact && probing_ && evaluator_.system().has_cam()) probe_contact(t);
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (channels[c].kind == ChannelKind::q)
             out[c] = y_[static_cast<std::size_t>(channels[c].index)];
         else if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
+        else if (!contact && traits(channels[c].kind).follows_contact())
+            out[c] = kNan;
         else if (!traits(channels[c].kind).estimated())
             out[c] = evaluator_.value(channels[c]);
         else if (!traits(channels[c].kind).separation)

@@ -41,9 +41,10 @@ class StepChannels {
 
     double value(const SegmentInterval& s, Channel channel, double t);
     // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
-    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available.
+    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available. `contact`:
+    // else those of the contact are undefined.
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                const System::EnergyBalance* balance, std::vector<double>& out);
+                const System::EnergyBalance* balance, bool contact, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
