@@ -20,9 +20,10 @@ void ModalBounds::Mode::set_frequencies(double third, double fourth) {
 }
 
 // Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
-// by those of its Legendre polynomials; x = q − f/ω² and ẋ at the start and the nodes, and the largest √(x² + (ẋ/ω)²).
+// by those of its Legendre polynomials, |P_j⁽ᵐ⁾| ≤ (j + m)!/(m!(j − m)!hᵐ), and of ω² times the distance of the motion
+// that follows it without vibration or damping from f/ω², Σ |f⁽ᵐ⁾|/ωᵐ for even m; x = q − f/ω² and ẋ at the start and the nodes, and the largest √(x² + (ẋ/ω)²).
 struct ExponentialSegment::ForcingBounds {
-    Lanes mean{}, range{}, rate{}, second{}, vibration{};
+    Lanes mean{}, range{}, rate{}, second{}, behind{}, vibration{};
     Lanes x[kPoints] = {}, dx[kPoints] = {};
 };
 
@@ -37,6 +38,11 @@ ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t
         out.rate += c * j * (j + 1) / h;
         out.second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
     }
+    const Lanes per_radian = 1 / (h * h * group.square);
+    const Lanes fourth = 1680 * magnitude(legendre[4]) + 15120 * magnitude(legendre[5]) +
+                         75600 * magnitude(legendre[6]) + 277200 * magnitude(legendre[7]),
+                sixth = 665280 * magnitude(legendre[6]) + 8648640 * magnitude(legendre[7]);
+    out.behind = out.second / group.square + per_radian * per_radian * (fourth + per_radian * sixth);
     const Lanes* forcing = lanes_f_.data() + g * kNodes;
     Lanes value[kPoints] = {}, slope[kPoints] = {};
     for (std::size_t l = 0; l < kNodes; ++l) {
@@ -134,7 +140,7 @@ void ExponentialSegment::set_decays(std::size_t i, ModalBounds::Mode& mode) cons
     if (!(d.slow * h < kResolvedRadians)) mode.swings[1] = free_part(d.slow, 1, (v0[i] + d.fast * q0[i]) / d.apart());
 }
 
-// Of the modes of a group, from q = x + f/ω². Lanes without stiffness divide by zero; their NaN is passed over.
+// Of the modes of a group, from q = x + f/ω². Undamped, the free vibration has the same amplitude all the time. Lanes without stiffness divide by zero; their NaN is passed over.
 void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing, ModalBounds::Mode* modes) const {
     const OscillatorLanes& o = form_->groups[g];
     const std::size_t first = g * kNodes, count = std::min(n_ - first, static_cast<std::size_t>(kNodes));
@@ -147,7 +153,14 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
         force[lane] = largest_[i].force;
         if (decays(form_->oscillators[i])) set_distance_of_decays(i, forcing, x);
     }
-    const Lanes mean = forcing.mean / o.square, range = forcing.range / o.square + x.value;
+    const Lanes free = free_vibrations(g);
+    Lanes distance = x.value;
+    for (std::size_t i = first; i < first + count; ++i) {
+        const int lane = static_cast<int>(i - first);
+        const double undamped = free[lane] + forcing.behind[lane] / o.square[lane];
+        if (o.gamma[lane] == 0 && undamped < distance[lane]) distance[lane] = undamped;
+    }
+    const Lanes mean = forcing.mean / o.square, range = forcing.range / o.square + distance;
     Lanes acceleration = o.square * amplitude + force + o.damping * speed;
     const Lanes low = larger(-amplitude, mean - range), high = smaller(amplitude, mean + range);
     amplitude = smaller(amplitude, larger(-low, high));
@@ -158,7 +171,7 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
         smaller(smaller(acceleration, square * x.value + o.damping * speed), x.second + forcing.second / o.square);
     const Lanes third = square * speed + forcing.rate + o.damping * acceleration,
                 fourth = square * acceleration + forcing.second + o.damping * third;
-    const Lanes vibrations = smaller(2 * amplitude, free_vibrations(g));
+    const Lanes vibrations = smaller(2 * amplitude, free);
     for (std::size_t i = first; i < first + count; ++i) {
         const int lane = static_cast<int>(i - first);
         ModalBounds::Mode& mode = modes[i];

@@ -138,7 +138,7 @@ bool ExtremaFinder::offer_nodes(const SegmentInterval& s, const Lanes& nodes, Ex
 
 // Where bounds exclude too few steps, closer ones cost less than to search these.
 bool ExtremaFinder::many_kept(std::size_t c) const {
-    return std::ranges::any_of(candidates_[c], [](const auto& of) { return of.steps.size() > kMostPromising; });
+    return std::ranges::any_of(candidates_[c], [](const auto& of) { return of.steps.size() > kManyKept; });
 }
 
 // Bounds of the channel, from the cheapest on; nothing as soon as the best values beat them. Offers the values at the

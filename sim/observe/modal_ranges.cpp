@@ -71,6 +71,11 @@ ModalChannels::Range ModalChannels::pull(ChannelKind kind) const {
 
 // Largest distance of the channel from the line between two of its values that are `length` apart in time.
 double ModalChannels::line_strays(Channel channel, double length) const {
+    if (channel.kind == ChannelKind::q && basis_.are_coordinates()) {
+        const ModalBounds::Mode& mode = bounds_.part.modes->modes[static_cast<std::size_t>(channel.index) - 1];
+        const double radians = mode.q_frequency * length;
+        return mode.amplitude * std::min(2.0, radians * radians * 0.125);
+    }
     Lanes total{};
     sensitivity_.each_group(channel, [&](const Sensitivity& s, const ModeVibrations& m) {
         const Lanes shift = s.shift.value_or(Lanes{});
