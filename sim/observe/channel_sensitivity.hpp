@@ -173,7 +173,8 @@ void ChannelSensitivity::visit_contact(ChannelKind kind, const Visit& visit) con
         case ChannelKind::contact_x:
             return by_shape([&](const Group& of) { return foot(of); });
         case ChannelKind::contact_s:
-            return by_shape([&](const Group& of) { return cam_radius_ * of.slope + displacement(of); });
+            return by_shape(
+                [&](const Group& of) { return cam_radius_ * of.slope + part_.rim_share * displacement(of); });
         case ChannelKind::energy_contact:
             return by_shape([&](const Group& of) { return part_.force * displacement(of); });
         default: {

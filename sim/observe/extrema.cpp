@@ -151,15 +151,17 @@ std::optional<ModalChannels::Range> ExtremaFinder::range_within(const SegmentInt
     const bool errors = step_.errors_only(channel.kind);
     if (errors && traits(channel.kind).separation) offer(e, s.to, step_.value(s, channel, s.to));
     if (traits(channel.kind).monotone || errors) return std::nullopt;
-    const bool mode = channel.kind == ChannelKind::q;  // whose bounds are as close as those from the nodes
-    if (mode && is_beaten(modes.mode_range(channel), channel.kind, e)) return std::nullopt;
+    const bool of_modes = channel.kind == ChannelKind::q;
+    if (of_modes && is_beaten(modes.mode_range(channel), channel.kind, e)) return std::nullopt;
     const ModalChannels::Range range = modes.range(channel, first_[c], last_[c]);
     if (is_beaten(range, channel.kind, e)) return std::nullopt;
     Lanes nodes;
     if (modes.known_at_nodes(channel, nodes) && offer_nodes(s, nodes, e) && is_beaten(range, channel.kind, e))
         return std::nullopt;
     if (step_.polynomial() && !traits(channel.kind).separation) return step_.sampled_range(s, channel);
-    if (mode) return many_kept(c) ? modes.crest_range(channel, first_[c], last_[c]).value_or(range) : range;
+    if (of_modes && many_kept(c))
+        if (const auto by_crests = modes.crest_range(channel, first_[c], last_[c])) return by_crests;
+    if (modes.is_mode(channel)) return range;  // which is as close as that from the nodes
     const ModalChannels::Range closer = modes.range_by_nodes(channel, first_[c], last_[c]).value_or(range);
     return ModalChannels::Range{std::max(range.low, closer.low), std::min(range.high, closer.high)};
 }

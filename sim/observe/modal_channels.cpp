@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "sim/integrate/collocation.hpp"
 #include "sim/observe/constants.hpp"
@@ -77,10 +76,15 @@ double ModalChannels::hub_acceleration(double t, const double* y) const {
 }
 
 ModalChannels::Range ModalChannels::mode_range(Channel channel) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    if (!basis_.are_coordinates()) return {-kInfinity, kInfinity};
-    const ModalBounds::Mode& mode = bounds_.part.modes->modes[static_cast<std::size_t>(channel.index) - 1];
-    return {mode.low, mode.high};
+    const std::vector<ModalBounds::Mode>& modes = bounds_.part.modes->modes;
+    const std::size_t j = static_cast<std::size_t>(channel.index) - 1;
+    if (basis_.are_coordinates()) return {modes[j].low, modes[j].high};
+    Range range{0, 0};
+    for (std::size_t i = 0; i < modes.size(); ++i) {
+        const auto [low, high] = std::minmax({basis_.share(j, i) * modes[i].low, basis_.share(j, i) * modes[i].high});
+        range = {range.low + low, range.high + high};
+    }
+    return range;
 }
 
 std::optional<UndampedMode> ModalChannels::undamped_mode(Channel channel) const {

@@ -60,7 +60,8 @@ class ModalChannels {
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.
     std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
-    // Of q alone, by the bounds of its mode if it is one: cheap.
+    bool is_mode(Channel channel) const { return channel.kind == ChannelKind::q && basis_.are_coordinates(); }
+    // Of q alone, by the bounds of its modes: cheap.
     Range mode_range(Channel channel) const;
     // The possible part of that range; of the arc on the disc the whole disc if the mark may be in it.
     Range within(ChannelKind kind, const Range& range) const;

@@ -25,7 +25,8 @@ double ModalChannels::drift(ChannelKind kind) const {
         case ChannelKind::contact_x:
             return bounds_.foot_speed;
         case ChannelKind::contact_s:
-            return sensitivity_.cam_radius() * (theta_dot + cam_speed_) + theta_dot * bounds_.lever() + disc_speed_;
+            return sensitivity_.cam_radius() * (theta_dot + cam_speed_) +
+                   bounds_.rim_share * (theta_dot * bounds_.lever() + disc_speed_);
         case ChannelKind::energy_kinetic:
             return basis_.J * theta_dot * acceleration;
         case ChannelKind::energy_potential:
@@ -71,7 +72,7 @@ ModalChannels::Range ModalChannels::pull(ChannelKind kind) const {
 
 // Largest distance of the channel from the line between two of its values that are `length` apart in time.
 double ModalChannels::line_strays(Channel channel, double length) const {
-    if (channel.kind == ChannelKind::q && basis_.are_coordinates()) {
+    if (is_mode(channel)) {
         const ModalBounds::Mode& mode = bounds_.part.modes->modes[static_cast<std::size_t>(channel.index) - 1];
         const double radians = mode.q_frequency * length;
         return mode.amplitude * std::min(2.0, radians * radians * 0.125);
@@ -176,7 +177,7 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
     const double stray =
         line_strays(channel, bounds_.part.length()) + (traits(kind).of_tip ? estimate_error(channel) : 0);
     range = {range.low - stray, range.high + stray};
-    if (kind == ChannelKind::q && basis_.are_coordinates()) {
+    if (kind == ChannelKind::q) {
         const Range mode = mode_range(channel);
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }

@@ -77,10 +77,11 @@ void PartBounds::place_contact() {
 // root; the frame turns. Every point of the bent beam is next to one of the straight beam, and the other way round but
 // for what the beam shortens by; and the root is no farther than its distance.
 void PartBounds::bound_gap(double distance, double to_root, double turn, double moved) {
-    const double root = std::fabs(system_.problem().hub.radius),
-                 touching = system_.problem().cam->radius + system_.offset() - system_.phase().gap_offset;
+    const double root = std::fabs(system_.problem().hub.radius), radius = system_.problem().cam->radius,
+                 touching = radius + system_.offset() - system_.phase().gap_offset;
     const double shortened = 0.5 * root * alpha * alpha, around = turn * basis_.reach + moved + deflection + shortened;
     gap_low = distance - around - touching;
+    rim_share = gap_low > 0 ? radius / (radius + gap_low) : 1;
     gap_high = std::min(distance + around + 0.5 * basis_.length * inclination * inclination,
                         to_root + root * (turn + alpha) + shortened + moved) -
                touching;

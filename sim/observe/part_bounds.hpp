@@ -39,6 +39,7 @@ class PartBounds {
     double lever() const { return std::min(basis_.reach, basis_.reach - basis_.length + arm); }  // from the axis
     double away = 0;                                        // of the distance from the disc's centre to the beam
     double gap_low = 0, gap_high = 0;                       // of the gap, without an evaluation
+    double rim_share = 1;                                   // of the arc on the disc, per displacement of the beam
     bool foot_moves() const { return nearest < farthest; }  // else it stays at an end of the beam
     double foot_speed = 0, slide = 0;  // of the contact along a straight beam, and along the bent one
     // Of the normal force while they touch, and of its derivatives.
