@@ -35,7 +35,10 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
     const auto value = [&](double t) { return step_.value(s, channel, t); };
-    if (!climb_step(value, step_.variation(s, channel, samples), s, channel, samples, best)) ++incomplete_;
+    const bool of_modes = channel.kind == ChannelKind::q;  // which it is the sum of, as an estimate is
+    const Variation variation =
+        of_modes ? step_.variation_of_estimate(s, channel, samples) : step_.variation(s, channel, samples);
+    if (!climb_step(value, variation, s, channel, samples, best)) ++incomplete_;
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 

@@ -75,8 +75,8 @@ class ModalChannels {
     std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
-    // The variation of an estimate by all its modes and what is left, the frame's; false where its nodes bound it
-    // better.
+    // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes bound
+    // it better.
     bool vary_estimate(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;

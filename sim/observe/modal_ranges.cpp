@@ -131,6 +131,14 @@ bool ModalChannels::vary_estimate(Channel channel, Variation& out) const {
         }
         return true;
     };
+    if (channel.kind == ChannelKind::q) {
+        for (std::size_t i = 0; i < modes_.size(); ++i) {
+            const ModalBounds::Mode& mode = bounds_.part.modes->modes[i];
+            out.add(std::fabs(basis_.share(static_cast<std::size_t>(channel.index) - 1, i)) * mode.amplitude,
+                    mode.q_frequency);
+        }
+        return true;
+    }
     using Group = ModeBasis::Group;
     using Vibrations = ModeVibrations;
     if (channel.kind == ChannelKind::tip_deflection)
