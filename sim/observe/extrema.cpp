@@ -45,7 +45,7 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
         offer_end(s, c, extrema[c]);
         if (const auto range = range_within(s, c, extrema[c])) collect(s, c, *range, kept, extrema[c]);
     }
-    if (kept_numbers_ > drop_at_) drop_beaten(extrema);
+    if (kept_numbers_ > drop_at_) make_room(extrema);
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
 }
 
@@ -62,6 +62,26 @@ bool ExtremaFinder::contact_may_exceed(const std::vector<Extremum>& extrema) {
 
 // Most steps of a contact promise more than those before, until the next one. What the best values have beaten since
 // goes, before it fills memory that would be new to the process.
+void ExtremaFinder::make_room(std::vector<Extremum>& extrema) {
+    const std::size_t before = kept_numbers_;
+    drop_beaten(extrema);
+    if (kept_numbers_ < before / 2) return;
+    // Each of the most promising steps beats many others.
+    const Phase phase = step_.system().phase();
+    loaded_ = nullptr;
+    for (std::size_t c = 0; c < channels_.size(); ++c)
+        for (const double sign : {1.0, -1.0}) {
+            std::vector<Candidate>& steps = candidates_[c][sign > 0 ? 0 : 1].steps;
+            if (steps.size() <= kMostPromising) continue;
+            const auto first = std::ranges::max_element(steps, less_promising);
+            const Candidate searched = *first;
+            steps.erase(first);
+            search_candidate(c, sign, searched, extrema[c]);
+        }
+    set_phase(phase);
+    drop_beaten(extrema);
+}
+
 void ExtremaFinder::drop_beaten(const std::vector<Extremum>& extrema) {
     for (std::size_t c = 0; c < channels_.size(); ++c)
         for (const double sign : {1.0, -1.0}) {

@@ -68,6 +68,7 @@ class ExtremaFinder {
     bool many_kept(std::size_t channel) const;
     static bool is_among_most_promising(double high, std::vector<Candidate>& steps);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
+    void make_room(std::vector<Extremum>& extrema);
     void drop_beaten(const std::vector<Extremum>& extrema);
     void search_kept(std::vector<Extremum>& extrema);
     void search_most_promising(std::size_t channel, double sign, Extremum& e);
