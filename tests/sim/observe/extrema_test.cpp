@@ -362,6 +362,67 @@ TEST(Extrema, OfUndampedModesNeedNoEvaluationBetweenCrests) {
     EXPECT_LE(searches_times_256(p, 0.6, modes), 1500);
 }
 
+// All modes in vibration: their amplitudes hardly change, and most steps of the run come near the extrema.
+Problem in_free_vibration() {
+    Problem p = turning_cam(ModelKind::first_order, 8, 0);
+    p.cam.reset();
+    p.initial.q = {0.01, 0.002, 0.0005, 0.0002, 0.0001, 0.00005, 0.00003, 0.00002};
+    return p;
+}
+
+TEST(Extrema, OfSteadyVibrationNeedFewSearches) {
+    SKIP_UNDER_SANITIZERS();
+    const std::vector<Channel> modes{{ChannelKind::q, 5}, {ChannelKind::q, 6}, {ChannelKind::q, 7}, {ChannelKind::q, 8}};
+    EXPECT_LE(searches_times_256(in_free_vibration(), 2, modes), 400);
+}
+
+// Their coordinates are sums of natural modes.
+TEST(Extrema, OfCoupledCoordinatesAreBoundedByAllModes) {
+    Problem p = turning_cam(ModelKind::first_order, 8, 0);
+    p.cam.reset();
+    p.beam.basis = Basis::cantilever;
+    p.hub.inertia = 0.5;
+    EXPECT_LE(searches_times_256(p, 0.5, {{ChannelKind::q, 6}, {ChannelKind::q, 8}}), 20);
+}
+
+// The weight turns the hub towards one side at each angle, and with the contact at the root not at all.
+TEST(Extrema, OfTheSeparationAreBoundedByTheSignOfTheWeight) {
+    Problem p = turning_cam(ModelKind::first_order, 8, 0);
+    p.cam->centre = {3, 0};
+    p.hub.drive = ConstantSpeed{3};
+    EXPECT_LE(searches_times_256(p, 2, {{ChannelKind::separation}, {ChannelKind::separation_paper}}), 30);
+}
+
+// Of the residual of the energy balance, which is rounding here, only the most promising steps are searched.
+TEST(Extrema, OfTheEnergyBalanceAreSearchedInFewSteps) {
+    Problem p = turning_cam(ModelKind::first_order, 8, 0);
+    p.cam.reset();
+    p.hub.drive = SpinUp{.speed = 4, .duration = 1};
+    EXPECT_LE(searches_times_256(p, 2, {{ChannelKind::energy_residual}}), 10);
+}
+
+// The gap of a beam that points away from a distant cam is bounded by its root, without an evaluation.
+TEST(Extrema, OfADistantCamNeedFewSearches) {
+    Problem p = in_free_vibration();
+    p.cam.emplace();
+    p.cam->centre = {3, 0};
+    EXPECT_LE(searches_times_256(p, 3, {{ChannelKind::gap}, {ChannelKind::contact_x}}), 20);
+}
+
+TEST(Extrema, OfADistantCamExceedEverySample) {
+    for (const double radius : {0.0, 0.1, -0.05}) {
+        SCOPED_TRACE(radius);
+        Problem p = in_free_vibration();
+        p.cam.emplace();
+        p.cam->centre = {1.6, 0.4};
+        p.cam->speed = 4;
+        p.hub.radius = radius;
+        expect_true_extrema(p, 0.5, 20'000);
+        p.hub.drive = ConstantSpeed{5};
+        expect_true_extrema(p, 0.5, 20'000);
+    }
+}
+
 TEST(Extrema, OfFreeVibrationExceedEverySample) {
     for (const ModelKind kind : {ModelKind::first_order, ModelKind::second_order}) {
         SCOPED_TRACE(name(kind));
