@@ -129,7 +129,7 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
 
 // Whether a step with that bound belongs to the most promising ones; makes room for it.
 bool ExtremaFinder::is_among_most_promising(double high, std::vector<Candidate>& steps) {
-    if (steps.size() < kMostPromising) return true;
+    if (steps.size() < kMostOfResidual) return true;
     const auto least = std::ranges::min_element(steps, {}, &Candidate::high);
     if (!(high > least->high)) return false;
     steps.erase(least);
