@@ -42,6 +42,8 @@ bool is_shuffled_and_deflated(hid_t variable) {
 
 }  // namespace
 
+void leave_files_at_exit() { H5dont_atexit(); }
+
 ChunkFile::ChunkFile(const std::filesystem::path& file, std::filesystem::path named)
     : named_(std::move(named)), compressor_(libdeflate_alloc_compressor(kLevel), &libdeflate_free_compressor) {
     H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);  // errors are thrown, not printed

@@ -17,6 +17,9 @@ namespace beamcam::output {
 // [numbers] along each dimension of a variable.
 using Extent = std::vector<std::uint64_t>;
 
+// At exit HDF5 would close a file again that it could not write, and crash. Called before any other use of HDF5.
+void leave_files_at_exit();
+
 class ChunkFile {
   public:
     // Messages call the file `named`. All functions throw IoError.

@@ -1,7 +1,7 @@
 // The module: sweeps and tables as NetCDF-4 files.
-#include <hdf5.h>
 #include <netcdf.h>
 
+#include "output/data/netcdf/chunk_file.hpp"
 #include "output/data/netcdf/nc_file.hpp"
 #include "output/data/netcdf_library.hpp"
 #include "render/base/modules.hpp"
@@ -50,8 +50,7 @@ std::optional<ColumnTable> read_columns(const NcFile& file) {
 
 class Library final : public NetcdfLibrary {
   public:
-    // Files are closed before. At exit HDF5 would close a file again that it could not write, and crash.
-    Library() { H5dont_atexit(); }
+    Library() { leave_files_at_exit(); }
 
     void write(const std::filesystem::path& file, const std::filesystem::path& named,
                const SweepData& data) const override {
