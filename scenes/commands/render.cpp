@@ -31,11 +31,13 @@ struct RenderArguments {
 // one.
 void choose_codec(PictureOutput& film, const std::string& ending, const std::string* name) {
     Encoding& encoding = film.encoding;
-    std::optional<output::Codec> codec =
-        name ? output::codec_named(*name) : std::nullopt;  // the reader judges the name
-    if (!codec && ending_of(film.file) != ending) codec = output::default_codec(ending);
-    if (codec && *codec != encoding.codec) {
-        encoding.codec = *codec;
+    output::Codec codec = encoding.codec;
+    if (const auto named = name ? output::codec_named(*name) : std::nullopt)  // the reader judges the name
+        codec = *named;
+    else if (ending_of(film.file) != ending)
+        codec = output::default_codec(ending).value_or(codec);
+    if (codec != encoding.codec) {
+        encoding.codec = codec;
         encoding.crf.reset();  // the codec's usual one
     }
     if (encoding.codec == output::Codec::gif && film.span.fps.value() > 50) film.span.fps = {25, 1};

@@ -21,7 +21,8 @@ void ModalBounds::Mode::set_frequencies(double third, double fourth) {
 
 // Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
 // by those of its Legendre polynomials, |P_j⁽ᵐ⁾| ≤ (j + m)!/(m!(j − m)!hᵐ), and of ω² times the distance of the motion
-// that follows it without vibration or damping from f/ω², Σ |f⁽ᵐ⁾|/ωᵐ for even m; x = q − f/ω² and ẋ at the start and the nodes, and the largest √(x² + (ẋ/ω)²).
+// that follows it without vibration or damping from f/ω², Σ |f⁽ᵐ⁾|/ωᵐ for even m; x = q − f/ω² and ẋ at the start and
+// the nodes, and the largest √(x² + (ẋ/ω)²).
 struct ExponentialSegment::ForcingBounds {
     Lanes mean{}, range{}, rate{}, second{}, behind{}, vibration{};
     Lanes x[kPoints] = {}, dx[kPoints] = {};
@@ -140,7 +141,8 @@ void ExponentialSegment::set_decays(std::size_t i, ModalBounds::Mode& mode) cons
     if (!(d.slow * h < kResolvedRadians)) mode.swings[1] = free_part(d.slow, 1, (v0[i] + d.fast * q0[i]) / d.apart());
 }
 
-// Of the modes of a group, from q = x + f/ω². Undamped, the free vibration has the same amplitude all the time. Lanes without stiffness divide by zero; their NaN is passed over.
+// Of the modes of a group, from q = x + f/ω². Undamped, the free vibration has the same amplitude all the time. Lanes
+// without stiffness divide by zero; their NaN is passed over.
 void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing, ModalBounds::Mode* modes) const {
     const OscillatorLanes& o = form_->groups[g];
     const std::size_t first = g * kNodes, count = std::min(n_ - first, static_cast<std::size_t>(kNodes));

@@ -23,7 +23,6 @@ inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, un
 // steps are excluded sooner.
 inline constexpr double kHigherPromise = 1.2;
 inline constexpr std::size_t kMostPromising = 64;  // steps of a channel that are searched before all others
-inline constexpr std::size_t kMostOfResidual = 512;  // steps that are searched for each sign of the residual
 // Kept steps of a channel beyond which its bounds exclude too few.
 inline constexpr std::size_t kManyKept = 1024;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.

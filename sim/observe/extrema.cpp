@@ -55,7 +55,8 @@ bool ExtremaFinder::contact_may_exceed(const std::vector<Extremum>& extrema) {
     if (step_.polynomial() || step_.system().phase().touching || !step_.system().has_cam()) return true;
     for (std::size_t c = 0; c < channels_.size(); ++c) {
         const ChannelKind kind = channels_[c].kind;
-        if (traits(kind).follows_contact() && !is_beaten(step_.modes().flight_range(kind), kind, extrema[c])) return true;
+        if (traits(kind).follows_contact() && !is_beaten(step_.modes().flight_range(kind), kind, extrema[c]))
+            return true;
     }
     return false;
 }
@@ -117,7 +118,7 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
         }
         if (has_only_nodes(kind)) {
             if (promising) search_parts(s, channels_[c], sign, e);
-            if (step_.balance() || !is_among_most_promising(high, candidates.steps)) continue;  // of both signs
+            if (step_.balance()) continue;  // of both signs
         }
         if (!kept) kept = keep(s);
         if (kept->kind != SegmentKind::none)
@@ -125,15 +126,6 @@ void ExtremaFinder::collect(const SegmentInterval& s, std::size_t c, const Modal
         else
             search_parts(s, channels_[c], sign, e);
     }
-}
-
-// Whether a step with that bound belongs to the most promising ones; makes room for it.
-bool ExtremaFinder::is_among_most_promising(double high, std::vector<Candidate>& steps) {
-    if (steps.size() < kMostOfResidual) return true;
-    const auto least = std::ranges::min_element(steps, {}, &Candidate::high);
-    if (!(high > least->high)) return false;
-    steps.erase(least);
-    return true;
 }
 
 // Where the value is an estimate, the true one if the estimate is better.

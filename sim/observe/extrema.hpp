@@ -66,7 +66,6 @@ class ExtremaFinder {
     void collect(const SegmentInterval& s, std::size_t channel, const ModalChannels::Range& range,
                  std::shared_ptr<const KeptStep>& kept, Extremum& e);
     bool many_kept(std::size_t channel) const;
-    static bool is_among_most_promising(double high, std::vector<Candidate>& steps);
     std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
     void make_room(std::vector<Extremum>& extrema);
     void drop_beaten(const std::vector<Extremum>& extrema);

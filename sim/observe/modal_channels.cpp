@@ -136,9 +136,8 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
             return weigh({}, modes.rate, tip);
         case ChannelKind::energy_kinetic:
             if (basis_.bends_far) return false;
-            return weigh((0.5 * basis_.J) * modes.theta_dot * modes.theta_dot, modes.rate, [&](auto i) {
-                return modes_[i].U * modes.theta_dot + (0.5 * basis_.mass) * modes.rate[i];
-            });
+            return weigh((0.5 * basis_.J) * modes.theta_dot * modes.theta_dot, modes.rate,
+                         [&](auto i) { return modes_[i].U * modes.theta_dot + (0.5 * basis_.mass) * modes.rate[i]; });
         case ChannelKind::energy_elastic:
             if (basis_.bends_far) return false;
             return weigh({}, modes.q, [&](auto i) { return (0.5 * modes_[i].stiffness) * modes.q[i]; });

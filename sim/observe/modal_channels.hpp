@@ -49,8 +49,9 @@ class ModalChannels {
     // their nodal forcing. A prescribed hub follows its drive.
     bool accelerated_by_modes() const;
     double hub_acceleration(double t, const double* y) const;
-    // The same at the nodes, or q, or the elastic energy, or the kinetic but for the change of inertia by bending; false
-    // where the part is not the whole step, or the channel is none of these. Of the separation θ̈ times the longest arm.
+    // The same at the nodes, or q, or the elastic energy, or the kinetic but for the change of inertia by bending;
+    // false where the part is not the whole step, or the channel is none of these. Of the separation θ̈ times the
+    // longest arm.
     bool at_nodes(Channel channel, Lanes& values) const;
     // The values of a channel at the nodes that need no evaluation, if there are any.
     bool known_at_nodes(Channel channel, Lanes& values) const;
@@ -75,8 +76,8 @@ class ModalChannels {
     std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
-    // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes bound
-    // it better.
+    // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes
+    // bound it better.
     bool vary_estimate(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;

@@ -393,14 +393,6 @@ TEST(Extrema, OfTheSeparationAreBoundedByTheSignOfTheWeight) {
     EXPECT_LE(searches_times_256(p, 2, {{ChannelKind::separation}, {ChannelKind::separation_paper}}), 30);
 }
 
-// Of the residual of the energy balance, which is rounding here, only the most promising steps are searched.
-TEST(Extrema, OfTheEnergyBalanceAreSearchedInFewSteps) {
-    Problem p = turning_cam(ModelKind::first_order, 8, 0);
-    p.cam.reset();
-    p.hub.drive = SpinUp{.speed = 4, .duration = 1};
-    EXPECT_LE(searches_times_256(p, 2, {{ChannelKind::energy_residual}}), 50);
-}
-
 // The gap of a beam that points away from a distant cam is bounded by its root, without an evaluation.
 TEST(Extrema, OfADistantCamNeedFewSearches) {
     Problem p = in_free_vibration();
