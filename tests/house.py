@@ -22,7 +22,7 @@ FOLDERS = {
     "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "orbit", "sweep", "studies"],
     "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
     "output": ["files", "json", "data", "image", "film"],
-    "scenes": ["scene", "figures", "format", "motions", "sweep", "plan", "outputs", "regression", "commands"],
+    "scenes": ["scene", "motions", "figures", "format", "sweep", "plan", "outputs", "regression", "commands"],
 }
 
 # Headers that only some files may include: the pattern, the number of .cpp files in each top-level folder.
