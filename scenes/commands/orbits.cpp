@@ -67,7 +67,7 @@ std::vector<std::pair<std::string, std::string>> attributes_of(const Scene& scen
             {"beamcam_program", program_identity()}};
 }
 
-// True without an orbit that never rests on the cam: there is only the motion's own, which does.
+// True without orbits, too.
 bool all_rest(const std::vector<sim::PeriodicOrbit>& orbits) {
     return std::ranges::all_of(orbits, &sim::PeriodicOrbit::chatters);
 }
@@ -104,13 +104,14 @@ void follow_branches(output::BranchTable& table, const sim::Family& family, cons
     const auto passes = [](const sim::Branch& branch, const sim::PeriodicOrbit& orbit) {
         return std::ranges::any_of(branch.at_start, [&](const auto& other) { return sim::same_orbit(orbit, other); });
     };
+    int followed = 0;
     const auto follow = [&](double value, std::vector<sim::PeriodicOrbit> orbits, bool resting) {
         std::ranges::stable_sort(orbits, {}, &sim::PeriodicOrbit::turns);
-        int followed = 0;
         for (const sim::PeriodicOrbit& orbit : orbits) {
             if (orbit.chatters() != resting) continue;
-            if (std::ranges::any_of(table.branches, [&](const auto& branch) { return passes(branch, orbit); })) continue;
-            if (++followed > kMostFollowed) return;
+            if (std::ranges::any_of(table.branches, [&](const auto& branch) { return passes(branch, orbit); }))
+                continue;
+            if (++followed > kMostFollowed) continue;
             for (sim::Branch& branch : sim::continue_orbit(problem_at, {value, orbit}, how, progress))
                 table.branches.push_back(std::move(branch));
         }
@@ -120,6 +121,9 @@ void follow_branches(output::BranchTable& table, const sim::Family& family, cons
     if (all_rest(found)) search_elsewhere(table, family, range, request, progress);
     follow(table.start, table.orbits, false);
     follow(start, found, true);
+    if (followed > kMostFollowed)
+        inform(args.common,
+               fmt::format("{} orbits were found; the branches of the first {} are followed", followed, kMostFollowed));
 }
 
 // The scene that begins on the orbit, with one film of the second period, which loops. The film looks like the scene's
@@ -284,11 +288,12 @@ void add_orbits(Grammar& grammar) {
     add_result_options(
         app, args.files, args.common,
         "Write the result, too: .json, .csv, .npz or .nc, or a branch diagram as .png, .svg or .pdf (repeatable)");
-    app.option("--over", &args.over, "KEY=FROM:TO",
-               fmt::format("Follow the orbits found at the start, stable or not, at most {}, over this key of the scene, "
-                           "also through folds, for example cam.speed=40:60. A branch ends when its motions have taken "
-                           "about solver.max_steps steps",
-                           kMostFollowed));
+    app.option(
+        "--over", &args.over, "KEY=FROM:TO",
+        fmt::format("Follow the orbits found at the start, stable or not, at most {}, over this key of the scene, "
+                    "also through folds, for example cam.speed=40:60. A branch ends when its motions have taken "
+                    "about solver.max_steps steps in one direction",
+                    kMostFollowed));
     app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
     app.option("--turns", &args.search.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")

@@ -56,8 +56,9 @@ std::size_t Studies::table(std::size_t study, const Instants& at, const std::vec
 std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
                            const std::vector<sim::Channel>& also, const std::pair<double, double>& drawn) {
     const sim::Channel time{};
-    constexpr double kStray = 0.002;  // a quarter of a line's width in a column
-    sim::TableRequest table{instants(at), {time}, std::pair(x, y), kStray, drawn};
+    // A quarter of a line's width in a column, and a fifteenth where loops would show their pieces.
+    const double stray = x == time ? 0.002 : 0.0005;
+    sim::TableRequest table{instants(at), {time}, std::pair(x, y), stray, drawn};
     if (x != time) table.channels.push_back(x);
     table.channels.push_back(y);
     table.channels.insert(table.channels.end(), also.begin(), also.end());

@@ -51,10 +51,10 @@ void visit(SceneVisitor& v, Scene& scene) {
     v.check([&scene](ObjectReader& r) { check_words(r, "title", scene.title); });
     v.problem(scene.problem);
     const auto time = [&scene](sim::Visitor& inside) {
-        inside.number(
-            "end", scene.end_time, sim::dimension::kTime,
-            {0, kLatestEnd, true, false, "must be positive and at most 1e12 s; write the number of seconds to simulate"},
-            "End of the simulation, which starts at 0.");
+        inside.number("end", scene.end_time, sim::dimension::kTime,
+                      {0, kLatestEnd, true, false,
+                       "must be positive and at most 1e12 s; write the number of seconds to simulate"},
+                      "End of the simulation, which starts at 0.");
     };
     v.object("time", time, "Duration of the simulation.", nullptr);
     v.check([&scene](ObjectReader& r) { infer_units(r, scene.units); });

@@ -139,7 +139,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
         by_depth[k] = at.by_depth;
         by_rate[k] = at.by_rate;
     }
-    // After hours the disc's place is uncertain by its travel within the rounding of the time.
+    // After many turns the disc's place is uncertain by its travel within the rounding of the time.
     const Cam& cam = *step_.system.problem().cam;
     const double travel = std::fabs(cam.speed * cam.eccentricity * step_.time[kNodes - 1]);
     force_rounding_ = std::max(kDepthRounding * form_.length, kTravelRounding * travel) * largest(by_depth);

@@ -159,8 +159,10 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
     Lanes distance = x.value;
     for (std::size_t i = first; i < first + count; ++i) {
         const int lane = static_cast<int>(i - first);
+        // In a short step powers of 1/ωh enlarge the rounding of both.
+        const bool is_short = o.omega[lane] * (t1 - t0) < kResolvedRadians;
         const double undamped = free[lane] + forcing.behind[lane] / o.square[lane];
-        if (o.gamma[lane] == 0 && undamped < distance[lane]) distance[lane] = undamped;
+        if (o.gamma[lane] == 0 && !is_short && undamped < distance[lane]) distance[lane] = undamped;
     }
     const Lanes mean = forcing.mean / o.square, range = forcing.range / o.square + distance;
     Lanes acceleration = o.square * amplitude + force + o.damping * speed;

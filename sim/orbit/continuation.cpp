@@ -71,7 +71,7 @@ Eigen::VectorXd cubic(const ArcPoint& a, const ArcPoint& b, double s) {
            u * u * ((3 - 2 * u) * (chord - length * a.tangent) + length * (u - 1) * (slope - a.tangent));
 }
 
-// Of the motions of a branch; they report it by their calls of `progress`.
+// Of the motions of a branch in one direction, which report it by their calls of `progress`; short ones do not.
 struct Work {
     long most_steps, steps = 0;
     bool spent() const { return steps > most_steps; }
@@ -207,7 +207,7 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
         end = "the range ends";
         if (leaves_range(from)) return;
         if (work_.spent()) {
-            end = fmt::format("its motions have taken {} steps; a larger solver.max_steps allows more", work_.steps);
+            end = "its motions have used up their steps; a larger solver.max_steps allows more";
             return;
         }
         if (const double largest = from.orbit.largest_multiplier(); largest > kMostUnstable) {
@@ -284,11 +284,10 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
         section_scale(for_orbits(at_start), start.orbit, [&](double) { return counting(start.parameter); });
     std::vector<Branch> branches(1);
     const auto run = [&](const BranchArc& arc, ArcPoint at, bool both, Branch& branch) {
-        work.steps = 0;
         branch.points.push_back(arc.branch_point(at));
         const auto follow = [&](ArcPoint from, std::string& end) {
-            Continuation(arc, request, arc.share(start.parameter), progress, work)
-                .follow(std::move(from), branch, end);
+            work.steps = 0;
+            Continuation(arc, request, arc.share(start.parameter), progress, work).follow(std::move(from), branch, end);
         };
         if (both) {
             branch.at_start.push_back(at.orbit);

@@ -40,7 +40,7 @@ struct SpecialPoint {
 struct Branch {
     std::vector<BranchPoint> points;  // in the order of the arc
     std::vector<SpecialPoint> special;
-    std::string first_end, last_end;  // reasons for the two ends
+    std::string first_end, last_end;      // reasons for the two ends
     std::vector<PeriodicOrbit> at_start;  // its orbits at the parameter of the start; some may repeat
 };
 
@@ -52,7 +52,8 @@ struct ContinuationRequest {
 };
 
 // The branch through an orbit of `family(parameter)`, in both directions, and the branches that bifurcate from it by
-// period doubling. Each ends after about the number of steps of the motion that a run may have (max_steps).
+// period doubling. Each ends, in each direction, after about the number of steps that a run may have (max_steps);
+// motions of a few steps do not count.
 // `progress` receives the parameter. Throws Interrupted.
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress = {});

@@ -51,8 +51,8 @@ struct OrbitRequest {
 };
 
 // The orbit near the motion, if there is one that matches the request. If it is unstable or chatters, or if coexisting
-// orbits are requested, also orbits found from throws of the beam off the cam, stable ones first. Throws Interrupted; std::invalid_argument where
-// `orbit_refusal` has a reason.
+// orbits are requested, also orbits found from throws of the beam off the cam, stable ones first. Throws Interrupted;
+// std::invalid_argument where `orbit_refusal` has a reason.
 std::vector<PeriodicOrbit> find_orbits(const Problem& problem, const OrbitRequest& request,
                                        const Progress& progress = {});
 

@@ -182,7 +182,8 @@ static void visit(Visitor& v, Solver& solver) {
     // A tolerance below 1e-40 would have the effect of 0.
     v.number("atol", solver.atol, dim::kNone, between(1e-40, 1e10), "Absolute tolerance.");
     v.integer("max_steps", solver.max_steps, 1, 2'000'000'000,
-              "Largest number of attempted steps; beyond it the run stops with an error (exit code 4), and a branch of orbits ends.");
+              "Largest number of attempted steps; beyond it the run stops with an error (exit code 4), and a branch of "
+              "orbits ends.");
 }
 
 void visit(Visitor& v, Problem& problem) {

@@ -104,8 +104,8 @@ class Assessment {
     }
 
     // Rows are in descending order of accuracy. Compares the variant of each with the first one that runs, which is
-    // returned, and its run in `truth`; over [0, until], or if that is affordable only for a part, over the longest one,
-    // at least `shortest`.
+    // returned, and its run in `truth`; over [0, until], or if that is affordable only for a part, over the longest
+    // one, at least `shortest`.
     template <class Row, class VariantOf>
     const Row* compare_with_first(std::vector<Row>& rows, const VariantOf& variant_of, double share, double runs,
                                   double shortest, double& until, TrialRun& truth) {

@@ -372,7 +372,8 @@ Problem in_free_vibration() {
 
 TEST(Extrema, OfSteadyVibrationNeedFewSearches) {
     SKIP_UNDER_SANITIZERS();
-    const std::vector<Channel> modes{{ChannelKind::q, 5}, {ChannelKind::q, 6}, {ChannelKind::q, 7}, {ChannelKind::q, 8}};
+    const std::vector<Channel> modes{
+        {ChannelKind::q, 5}, {ChannelKind::q, 6}, {ChannelKind::q, 7}, {ChannelKind::q, 8}};
     EXPECT_LE(searches_times_256(in_free_vibration(), 2, modes), 400);
 }
 
@@ -413,6 +414,19 @@ TEST(Extrema, OfADistantCamExceedEverySample) {
         p.hub.drive = ConstantSpeed{5};
         expect_true_extrema(p, 0.5, 20'000);
     }
+}
+
+// Steps that are short for the first mode, since the seventh vibrates 100 times as fast.
+TEST(Extrema, OfASlowModeInShortStepsExceedEverySample) {
+    Problem p;
+    p.beam.model = ModelKind::zeroth_order;
+    p.beam.modes = 7;
+    p.cam.reset();
+    p.hub.inertia = 0.5;
+    p.hub.drive = ConstantSpeed{4.808593094110538};
+    p.initial.q = {0.007743934249292256,   -0.0008039743069694741, 0.00011674824031824195, 2.647342872103063e-05,
+                   -6.686612206856651e-07, 2.422253802766727e-05,  1.1389944818373878e-05};
+    expect_true_extrema(p, 0.6, 60'000);
 }
 
 TEST(Extrema, OfFreeVibrationExceedEverySample) {
