@@ -1,6 +1,7 @@
 #include "scenes/figures/studies.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 
 #include "scenes/motions/identity.hpp"
@@ -56,8 +57,9 @@ std::size_t Studies::table(std::size_t study, const Instants& at, const std::vec
 std::size_t Studies::curve(std::size_t study, const Instants& at, sim::Channel x, sim::Channel y,
                            const std::vector<sim::Channel>& also, const std::pair<double, double>& drawn) {
     const sim::Channel time{};
-    // A quarter of a line's width in a column, and a fifteenth where loops would show their pieces.
-    const double stray = x == time ? 0.002 : 0.0005;
+    // A quarter of a line's width in a column; less where limits enlarge loops, whose pieces would show.
+    const bool enlarged = x != time && (std::isfinite(drawn.first) || std::isfinite(drawn.second));
+    const double stray = enlarged ? 0.0005 : 0.002;
     sim::TableRequest table{instants(at), {time}, std::pair(x, y), stray, drawn};
     if (x != time) table.channels.push_back(x);
     table.channels.push_back(y);
