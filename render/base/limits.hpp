@@ -12,7 +12,8 @@ bool has_memory(std::size_t bytes) noexcept;
 // Whether there is a limit (ulimit -v, ulimit -d) with less than half of it left. Safe in signal handlers.
 bool memory_is_short() noexcept;
 
-// Whether it is or was so at any time: other threads may have released memory since a library failed.
+// Whether it is so, or more than half of ulimit -v was in use at any time: other threads may have released memory since
+// a library failed.
 bool memory_was_short() noexcept;
 
 // "not enough memory; this process may use 512 MiB (ulimit -v) …"

@@ -63,8 +63,7 @@ std::vector<std::string> modules() {
 // not start.
 int threads_of_mesa() { return std::min(static_cast<int>(std::thread::hardware_concurrency()), 32) + 4; }
 
-// Whether Mesa and LLVM can be loaded. With them the smallest picture needed an address space of 360 MB, 90 MB of which
-// the program had before.
+// Whether Mesa and LLVM can be loaded. With them the smallest picture needed an address space of 360 MB in all.
 bool has_memory_for_mesa() {
     static const bool loads = has_memory(std::size_t{256} << 20);
     return loads;

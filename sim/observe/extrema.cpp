@@ -62,12 +62,12 @@ bool ExtremaFinder::contact_may_exceed(const std::vector<Extremum>& extrema) {
 }
 
 // Most steps of a contact promise more than those before, until the next one. What the best values have beaten since
-// goes, before it fills memory that would be new to the process.
+// goes, before it fills memory that would be new to the process. If that is little, the most promising step of each
+// channel is searched: it beats many others.
 void ExtremaFinder::make_room(std::vector<Extremum>& extrema) {
     const std::size_t before = kept_numbers_;
     drop_beaten(extrema);
     if (kept_numbers_ < before / 2) return;
-    // Each of the most promising steps beats many others.
     const Phase phase = step_.system().phase();
     loaded_ = nullptr;
     for (std::size_t c = 0; c < channels_.size(); ++c)

@@ -53,8 +53,7 @@ struct ContinuationRequest {
 
 // The branch through an orbit of `family(parameter)`, in both directions, and the branches that bifurcate from it by
 // period doubling. Each ends, in each direction, after about the number of steps that a run may have (max_steps);
-// motions of a few steps do not count.
-// `progress` receives the parameter. Throws Interrupted.
+// motions of a few steps do not count. `progress` receives the parameter. Throws Interrupted.
 std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& start, const ContinuationRequest& request,
                                    const Progress& progress = {});
 
