@@ -104,7 +104,7 @@ std::string stress_text(const sim::Campaign& campaign, const std::vector<sim::St
     for (std::size_t i = 0; i < tallies.size(); ++i) text += tallies[i].line(campaign.grids[i].title);
     text += whole.line("all");
     text +=
-        "*  ledger residual over rtol times energy scale, of the closed ones (closed: at most 10)\n"
+        "*  residual of the energy balance over rtol times energy scale, of the closed ones (closed: at most 10)\n"
         "** most steps for a simulated second of those that ended\n\n";
     std::vector<std::pair<long, std::string>> ordered;
     for (const auto& [words, count] : causes) ordered.emplace_back(-count, words);

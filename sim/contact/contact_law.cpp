@@ -33,9 +33,9 @@ FrictionLaw FrictionLaw::of(const Problem& problem, const NormalLaw& normal, dou
         law.kinetic = law.limit = coulomb->coefficient;
         law.slip_speed = coulomb->slip_speed;
     } else if (const auto* stick_slip = std::get_if<StickSlipFriction>(&problem.contact.friction)) {
-        law.bristle = problem.cam.has_value() && problem.contact.model == ContactModel::compliant;
         law.kinetic = stick_slip->coefficient;
         law.limit = std::max(law.kinetic, stick_slip->static_coefficient.value_or(law.kinetic));
+        law.bristle = problem.cam.has_value() && problem.contact.model == ContactModel::compliant && !law.none();
         if (!law.bristle) return law;
         // Mindlin's ratio of tangential to normal stiffness, 2(1−ν)/(2−ν), times the normal stiffness n K δⁿ⁻¹ at the
         // penetration that the beam's mass reaches at 1 m/s (S37).

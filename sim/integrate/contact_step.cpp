@@ -37,6 +37,7 @@ void ContactStep::begin_touch(const ContactState& c) {
     const Phase& phase = step_.system.phase();
     BEAMCAM_ASSERT(!c.at_end && (phase.held || phase.approach > 0));
     held_ = phase.held;
+    couples_ = friction_.bristle || (held_ && load.rough);
     held_end_ = {c.force, step_.system.off_constraint(c.gap, c.gap_rate)};
     approach = phase.approach;
     gap_offset_ = phase.gap_offset;
@@ -155,6 +156,10 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     NodalMatrix matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
         matrix[l] = by_depth * compliance_.value[l] + by_rate * compliance_.rate[l];
+        if (couples_ && !friction_.bristle) {  // the friction that the normal force causes
+            const double ratio = friction_.ratio(contact.slip[static_cast<int>(l)]);
+            matrix[l] += ratio * (by_depth * across_.value[l] + by_rate * across_.rate[l]);
+        }
         if (!held_) matrix[l][static_cast<int>(l)] += 1;
     }
     if (!solve_dense(matrix, {&residual, 1})) return false;
@@ -200,10 +205,11 @@ bool ContactStep::linearize(const StepTable& table) {
     yields_ = kick2 * form_.mass + (form_.prescribed ? 0 : start.hub * start.hub / form_.J);
     const double arm = friction_.bristle ? std::hypot(start.hub, start.hub_t) : std::fabs(start.hub);
     mobility_hub_ = form_.prescribed ? 0 : arm * h / form_.J;
+    if (!couples_) return true;
+    across_ = compliance(start.hub * start.hub_t, row, row_t_);
     if (!friction_.bristle) return true;
     bristle_.begin(step_.system.phase().friction, step_.segment.bristle0, h);
-    return bristle_.eliminate(compliance(start.hub * start.hub_t, row, row_t_),
-                              compliance(start.hub_t * start.hub_t, row_t_, row_t_), compliance_);
+    return bristle_.eliminate(across_, compliance(start.hub_t * start.hub_t, row_t_, row_t_), compliance_);
 }
 
 double ContactStep::error(double h) {

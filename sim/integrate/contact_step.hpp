@@ -57,8 +57,9 @@ class ContactStep {
     const FrictionLaw& friction_;
     ContactExpansion expansion_;
     BristleStep bristle_;
-    std::vector<double> row_t_;  // of a bristle: ∂(t·r)/∂q of the modes at the start
+    std::vector<double> row_t_;  // where friction couples: ∂(t·r)/∂q of the modes at the start
     bool held_ = false;          // sustained impulsive contact
+    bool couples_ = false;       // Newton's equations contain the friction that a change of the normal force causes
     struct Held {
         double force = 0;  // [N]
         double off = 0;    // ġ + κg, by which a state is off the constraint (S45) [m/s]
@@ -73,6 +74,7 @@ class ContactStep {
     Frame<Lanes> frame_;
     Lanes contact_theta_{}, contact_theta_dot_{};  // where the contact was evaluated last
     NodalCompliance compliance_;                   // of the gap, with the friction of a bristle
+    NodalCompliance across_;                       // of the gap to friction, where it couples
     std::vector<double> hq_end_, state_;
     std::vector<Lanes> hq_, coordinate_rows_;
 };

@@ -121,11 +121,16 @@ class Exponential final : public Integrator {
         if (at == s.t1) return s;
         // The dense output is as accurate as the step, except in contact: there the step is solved again unless the
         // difference is rounding.
-        if (touching_ && std::fabs(at - s.t1) > 2 * kCarried * s.h)
-            solve_up_to(at);
-        else
+        if (!touching_ || std::fabs(at - s.t1) <= 2 * kCarried * s.h) {
             carry_to(at);
-        return s;
+            return s;
+        }
+        scratch_.resize(s.end.size());
+        s.value(s.t0, scratch_.data());
+        if (solve_up_to(at)) return s;
+        ++counters.handed_over;
+        hand_over(s.t0, scratch_.data(), at - s.t0);
+        return counted(fallback_->step());
     }
 
   private:
@@ -269,11 +274,11 @@ class Exponential final : public Integrator {
         }
     }
 
-    // Ends the step at `at` by solving it again.
-    void solve_up_to(double at) {
-        if (!std::isfinite(contact_->solve(tables_.length(at - segment().t0))))
-            throw StepFailure("the contact force could not be solved for");
+    // Ends the step at `at` by solving it again, if that succeeds.
+    bool solve_up_to(double at) {
+        if (!std::isfinite(contact_->solve(tables_.length(at - segment().t0)))) return false;
         accept_touch(TouchSamples::Ending::open);
+        return true;
     }
 
     // Ends the step at `at` by the dense output.

@@ -61,6 +61,11 @@ TEST_P(HeldMotion, IsThatOfTheRungeKuttaMethod) {
 
 void plain(Problem&) {}
 void friction(Problem& p) { p.contact.friction = CoulombFriction{0.3, 1e-2}; }
+void strong_friction(Problem& p) {
+    p.hub.radius = 0.1;
+    p.contact.offset = 0.05;
+    p.contact.friction = CoulombFriction{4, 1e-2};
+}
 void offset(Problem& p) { p.contact.offset = 0.0184; }
 void damped(Problem& p) { p.beam.damping_ratio = {0.02}; }
 void second_order(Problem& p) { p.beam.model = ModelKind::second_order; }
@@ -90,6 +95,13 @@ TEST(HeldMotion, TakesStepsThatDoNotFollowTheHighestMode) {
         const Problem p = following(c);
         EXPECT_LT(steps(p, 24), 5 * steps(p, 3)) << c.name;  // whose highest frequency is a seventieth
     }
+}
+
+// Newton's equations contain the friction that the normal force causes.
+TEST(HeldMotion, TakesNoShorterStepsUnderStrongFriction) {
+    Problem rubbing = following({"", strong_friction}), smooth = rubbing;
+    smooth.contact.friction = NoFriction{};
+    EXPECT_LT(steps(rubbing, 3), 2 * steps(smooth, 3));
 }
 
 // No vibration grows from rounding until it limits the steps.

@@ -272,6 +272,18 @@ TEST(StickSlip, HoldsARestingBeamAndSlidesUnderAFastCam) {
     EXPECT_NEAR(std::fabs(series(p, "friction_force", {0.05})[0]), 0.3 * series(p, "contact_force", {0.05})[0], 1e-9);
 }
 
+TEST(StickSlip, WithoutACoefficientIsNoFriction) {
+    for (const std::optional<double> stiffness : {std::optional<double>{}, std::optional<double>{1e9}}) {
+        Problem p;
+        p.cam->speed = 0;
+        p.initial = {.angle = 0.41, .angular_velocity = -2};  // slides both ways within the touch
+        const double smooth = series(p, "theta", {0.06})[0];
+        p.contact.friction = StickSlipFriction{0, {}, stiffness, {}};
+        EXPECT_EQ(extremum(p, "friction_force", 0.06).max, 0);
+        EXPECT_EQ(series(p, "theta", {0.06})[0], smooth);
+    }
+}
+
 TEST(StickSlip, WithADashpotEndsAndCloses) {
     for (double damping : {0.5, 30.0, 300.0}) {
         Problem p;
