@@ -112,7 +112,7 @@ render::figure::Figure survival_map(const sim::Campaign& campaign, const std::ve
         first.swatches.push_back({fmt::format("{}: {}", look.meaning,
                                               std::ranges::count(results, look.outcome, &sim::StressResult::outcome)),
                                   render::rgb(look.color)});
-    figure.aspect = 0.8 * static_cast<double>(figure.panels.size());
+    figure.aspect = 1.1 * static_cast<double>(figure.panels.size());
     return figure;
 }
 
