@@ -111,17 +111,11 @@ Lanes ExponentialSegment::free_vibrations(std::size_t g) const {
     return amplitude;
 }
 
-// Without damping the amplitude of a free vibration is constant; with less than the critical one √(x² + (ẋ/ω)²) is at
-// most √((1 + ζ)/(1 − ζ)) e^(−γτ) times that at the start.
+// √(x² + (ẋ/ω)²) of a free vibration never grows.
 void ExponentialSegment::set_vibration(const Oscillator& o, double lag, double amplitude,
                                        ModalBounds::Mode& mode) const {
-    const double ratio = o.gamma / o.omega, omega = o.omega + lag;
-    mode.swings[0] = {amplitude,
-                      omega * amplitude,
-                      omega * (omega + 2 * o.gamma) * amplitude,
-                      omega + 2 * o.gamma,
-                      ratio < 1 ? o.gamma : 0,
-                      ratio > 0 && ratio < 1 ? std::sqrt((1 + ratio) / (1 - ratio)) : 1};
+    const double omega = o.omega + lag, fastest = omega + 2 * o.gamma;
+    mode.swings[0] = {amplitude, omega * amplitude, omega * fastest * amplitude, fastest};
     mode.swings[1] = {};
 }
 
@@ -134,7 +128,7 @@ void ExponentialSegment::set_decays(std::size_t i, ModalBounds::Mode& mode) cons
         double p = 0, factor = sign / (decay * d.apart());
         for (int j = 0; j < kNodes; ++j, factor *= -1 / decay) p += factor * derivatives[j][lane];
         const double value = std::min(2 * mode.amplitude, std::fabs(start - p));
-        return {value, decay * value, decay * decay * value, decay, decay, 1};
+        return {value, decay * value, decay * decay * value, decay};
     };
     mode.swings[0] = free_part(d.fast, -1, -(v0[i] + d.slow * q0[i]) / d.apart());
     mode.swings[1] = {};

@@ -66,20 +66,6 @@ void StepChannels::begin(const SegmentInterval& s) {
     search_again();
 }
 
-std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s) const {
-    const double length = s.to - s.from, fading = modal_channels_.fading();
-    std::vector<SegmentInterval> out;
-    double to = s.to, share = 1;
-    for (bool first = false; !first; share *= kPartRatio) {
-        first = !(fading * share * length > kFadedRadians) || !(s.from + kPartRatio * share * length > s.from);
-        const double from = first ? s.from : s.from + kPartRatio * share * length;
-        out.push_back({s.segment, from, to, s.last && to == s.to});
-        to = from;
-    }
-    std::ranges::reverse(out);
-    return out;
-}
-
 // Results must not depend on where the contact was searched before.
 void StepChannels::search_again() {
     evaluator_.system().search_again();
@@ -91,13 +77,12 @@ void StepChannels::bound(const SegmentInterval& s) {
     System& system = evaluator_.system();
     const ModalBounds* modes = segment.modal_bounds();
     polynomial_ = !modes;
-    proven_separation_ = {kNan, kNan};
     const double resting = kRestTolerances * system.problem().solver.atol;
     at_rest_ = modes && largest(modes->theta_dot) < resting;
     if (modes) {
         for (const Lanes& rate : modes->rate) at_rest_ = at_rest_ && largest(rate) < resting;
         const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
-        modal_channels_.set({s.from, s.to, s.from - segment.t0, whole, modes, segment.bounds(), segment.touch()});
+        modal_channels_.set({s.from, s.to, whole, modes, segment.bounds(), segment.touch()});
         return;
     }
     PolynomialBounds::States states;
@@ -112,7 +97,7 @@ void StepChannels::bound(const SegmentInterval& s) {
     polynomial_bounds_.set(system, s.from, s.to, states);
     const bool touching = system.has_cam() && system.phase().touching;
     if (touching) sample_touch(s);
-    modal_channels_.set({s.from, s.to, 0, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
+    modal_channels_.set({s.from, s.to, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
                          touching ? &polynomial_touch_ : nullptr});
 }
 
@@ -249,18 +234,16 @@ double StepChannels::share_hub_acceleration(Instant& shared) {
 }
 
 void StepChannels::values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                          const System::EnergyBalance* balance, bool contact, std::vector<double>& out) {
+                          const System::EnergyBalance* balance, std::vector<double>& out) {
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
-    if (contact && probing_ && evaluator_.system().has_cam()) probe_contact(t);
+    if (probing_ && evaluator_.system().has_cam()) probe_contact(t);
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (channels[c].kind == ChannelKind::q)
             out[c] = y_[static_cast<std::size_t>(channels[c].index)];
         else if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
-        else if (!contact && traits(channels[c].kind).follows_contact())
-            out[c] = kNan;
         else if (!traits(channels[c].kind).estimated())
             out[c] = evaluator_.value(channels[c]);
         else if (!traits(channels[c].kind).separation)
@@ -321,11 +304,6 @@ Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel 
     const bool closer =
         modal_channels_.vary_estimate(channel, by_modes) && by_modes.strays(length) < by_nodes.strays(length);
     return closer ? by_modes : by_nodes;
-}
-
-ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {
-    const double first = value(s, channel, s.from), last = value(s, channel, s.to);
-    return modal_channels_.range(channel, first, last);
 }
 
 ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel) {

@@ -25,8 +25,6 @@ class StepChannels {
 
     // Every other call on a step follows this one.
     void begin(const SegmentInterval& s);
-    // A step in which vibrations fade, cut into parts that grow in length from its start; every other step is one part.
-    std::vector<SegmentInterval> parts(const SegmentInterval& s) const;
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
@@ -41,10 +39,9 @@ class StepChannels {
 
     double value(const SegmentInterval& s, Channel channel, double t);
     // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
-    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available. `contact`:
-    // else those of the contact are undefined.
+    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available.
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                const System::EnergyBalance* balance, bool contact, std::vector<double>& out);
+                const System::EnergyBalance* balance, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
@@ -59,15 +56,8 @@ class StepChannels {
     Variation variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // The mode that the channel is, or almost is, in closed form if it has one.
     std::optional<UndampedMode> undamped_mode(Channel channel) const { return modal_channels_.undamped_mode(channel); }
-    // Bounds of the channel from its values at the ends.
-    ModalChannels::Range range(const SegmentInterval& s, Channel channel);
-    // The same from its samples.
+    // Bounds of the channel from its samples.
     ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel);
-    // The samples of the energy balance if they have been asked for.
-    const std::optional<Samples>& balance() const { return balance_; }
-    // Proven by a search: within this interval the estimate of the separation is at most the first, and at least minus
-    // the second.
-    std::array<double, 2>& proven_separation() { return proven_separation_; }
 
     System& system() { return evaluator_.system(); }
 
@@ -102,7 +92,6 @@ class StepChannels {
     double segment_from_ = kNan, segment_to_ = kNan;
     std::unordered_map<double, Instant> instants_;  // of that segment
     std::optional<Samples> balance_;
-    std::array<double, 2> proven_separation_{kNan, kNan};
     std::vector<double> y_;
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
