@@ -1,6 +1,7 @@
 #include "sim/sweep/sweep_point.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
@@ -58,15 +59,19 @@ Attractor returning(const RigidMotion::Return& period) {
     return out;
 }
 
-// Differences may grow so much between two returns that only rounding closes the orbit. A period must survive a small
-// change of the cam's speed.                                                                                 (S89b)
-bool survives(const RigidMotion::Return& period, const Problem& problem, const Sampling& sampling,
-              const InitialState& end, const Progress& progress) {
-    Problem nearby = problem;
-    nearby.cam->speed *= 1 + kNearbySpeed;
-    RigidMotion motion(nearby, later(nearby, sampling), &end);
-    motion.follow(progress, true);
-    return motion.returned() == period;
+// Differences may grow so much between two returns that only rounding closes the orbit. A period must survive small
+// changes of the cam's speed; the number of bounces that its chatter lists need not.                         (S89b)
+bool survives(long turns, const Problem& problem, const Sampling& sampling, const InitialState& end,
+              const Progress& progress) {
+    const auto returns = [&](double change) {
+        Problem nearby = problem;
+        nearby.cam->speed *= 1 + change;
+        const Sampling continuation = later(nearby, sampling);
+        RigidMotion motion(nearby, continuation, &end);
+        motion.follow(progress, true);
+        return motion.returned() && motion.returned()->turns == turns;
+    };
+    return std::ranges::all_of(kNearbySpeeds, returns);
 }
 
 SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& sampling, const InitialState* start,
@@ -76,11 +81,14 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
     point.motion = motion.follow(progress);
     point.attractor = classify(problem, point.motion);
     // Or seems so, with near-grazing impacts.
-    const bool chaotic =
-        point.attractor.kind == AttractorClass::chaotic || point.attractor.kind == AttractorClass::aperiodic;
-    if (!chaotic && point.attractor.kind != AttractorClass::unsettled) return point;
-    if (!chaotic && !motion.rested()) return point;
+    const AttractorClass kind = point.attractor.kind;
+    const bool chaotic = kind == AttractorClass::chaotic || kind == AttractorClass::aperiodic;
+    // Sustained contact in each period.
+    const bool returns =
+        kind == AttractorClass::periodic && point.attractor.exponent.value == -std::numeric_limits<double>::infinity();
+    if (!chaotic && !returns && (kind != AttractorClass::unsettled || !motion.rested())) return point;
     std::optional<RigidMotion::Return> period = motion.returned();
+    if (returns) period = {point.attractor.period, std::lround(point.attractor.impacts_per_period)};
     InitialState end = point.motion.end;
     if (!period) {
         const Sampling as_long_again = later(problem, sampling);
@@ -92,11 +100,12 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
             point.attractor.kind = AttractorClass::unsettled;
     }
     if (!period) return point;
-    if (survives(*period, problem, sampling, end, progress)) {
+    if (survives(period->turns, problem, sampling, end, progress)) {
         point.attractor = returning(*period);
     } else {
-        point.attractor.kind = AttractorClass::aperiodic;
-        point.attractor.exponent = {};
+        // Of a motion without a period the impacts are those of a turn.
+        const double turns = returns ? point.attractor.period : 1;
+        point.attractor = {AttractorClass::aperiodic, 0, point.attractor.impacts_per_period / turns, {}};
     }
     return point;
 }
