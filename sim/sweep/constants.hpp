@@ -23,8 +23,8 @@ inline constexpr double kSmallError = 0.02;         // per turn: largest error o
 inline constexpr double kLinearGrowth = 1.2;
 inline constexpr double kSettledTolerances = 10;  // error of a settled motion, in units of rtol
 inline constexpr long kLaterTurns = 1000;  // least continuation of a chaotic motion: milliseconds by the closed forms
-// Of the cam's speed: changes that a period survives, up to a million roundings. One alone may return by chance.
-inline constexpr double kNearbySpeeds[] = {1e-10, -1e-10, 5e-11, -5e-11};
+inline constexpr double kNearbySpeed =
+    1e-10;                                   // of the cam's speed: a change that a period survives, a million roundings
 inline constexpr int kCarriedRounds = 8;     // Newton iterations that move a carried state to the surface
 inline constexpr double kWholeTurn = 1e-12;  // of the number of turns: rounding of a time in turns
 

