@@ -6,6 +6,7 @@
 #include <cmath>
 #include <complex>
 
+#include "scenes/figures/axis_labels.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
@@ -53,18 +54,27 @@ int known_digits(const sim::SpecialPoint& point) {
     return static_cast<int>(std::isnan(digits) ? kMost : std::clamp(digits, 1.0, kMost));
 }
 
-std::string branches_text(const output::BranchTable& table) {
+std::string suffix_of(const Measure& shown) {
+    if (shown.unit == "1") return "";
+    return (shown.unit == "°" ? "" : " ") + shown.unit;
+}
+
+std::string branches_text(const output::BranchTable& table, const render::Units& units) {
+    const Measure shown = measure_in(units, table.unit);
+    const std::string unit = suffix_of(shown);
     std::string text;
     for (const sim::Branch& branch : table.branches) {
         const auto [low, high] =
             std::minmax_element(branch.points.begin(), branch.points.end(),
                                 [](const auto& a, const auto& b) { return a.parameter < b.parameter; });
-        text += fmt::format("branch of {}, {}: {}, {} from {:.9g} to {:.9g}\n",
+        text += fmt::format("branch of {}, {}: {}, {} from {:.9g} to {:.9g}{}\n",
                             counted(branch.points.front().orbit.turns, "turn"), impacts_text(branch.points),
-                            counted(branch.points.size(), "point"), table.key, low->parameter, high->parameter);
+                            counted(branch.points.size(), "point"), table.key, shown.factor * low->parameter,
+                            shown.factor * high->parameter, unit);
         for (const sim::SpecialPoint& point : branch.special)
-            text += fmt::format("  {:16} {} = {:.{}g} ± {:.0e}\n", name(point.change), table.key, point.at.parameter,
-                                known_digits(point), point.uncertainty);
+            text += fmt::format("  {:16} {} = {:.{}g} ± {:.0e}{}\n", name(point.change), table.key,
+                                shown.factor * point.at.parameter, known_digits(point),
+                                shown.factor * point.uncertainty, unit);
         for (const std::string& end : {branch.first_end, branch.last_end})
             if (!end.empty()) text += fmt::format("  ends: {}\n", end);
     }
@@ -73,10 +83,15 @@ std::string branches_text(const output::BranchTable& table) {
 
 }  // namespace
 
-std::string to_text(const output::BranchTable& table) {
+std::string value_text(const output::BranchTable& table, double value, const render::Units& units) {
+    const Measure shown = measure_in(units, table.unit);
+    return fmt::format("{:.10g}{}", shown.factor * value, suffix_of(shown));
+}
+
+std::string to_text(const output::BranchTable& table, const render::Units& units) {
     std::string text;
     for (const sim::PeriodicOrbit& orbit : table.orbits) text += orbit_text(orbit);
-    return text + branches_text(table);
+    return text + branches_text(table, units);
 }
 
 std::string nothing_found(const sim::OrbitRequest& request) {

@@ -4,10 +4,13 @@
 #include <string>
 
 #include "output/data/orbit_records.hpp"
+#include "render/film/film.hpp"
 
 namespace beamcam::scenes {
 
-std::string to_text(const output::BranchTable& table);
+// Values of the varied key are in the scene's units: those of --over, if it has any.
+std::string to_text(const output::BranchTable& table, const render::Units& units);
+std::string value_text(const output::BranchTable& table, double value, const render::Units& units);  // "450 rpm"
 
 // What was searched in vain, and what to try.
 std::string nothing_found(const sim::OrbitRequest& request);

@@ -48,12 +48,12 @@ double start_value(const OrbitsArguments& args, const KeyRange& range) {
 }
 
 // Steps along a branch are shares of the range: one of many decades would be too coarse for every value in it.
-void need_narrow(const KeyRange& range, double start) {
+void need_narrow(const output::BranchTable& table, const render::Units& units) {
     constexpr double kWidest = 1e4;  // of the value that a branch begins at
-    if (range.to - range.from > kWidest * std::abs(start) && start != 0)
+    if (table.to - table.from > kWidest * std::abs(table.start) && table.start != 0)
         throw UsageError(
-            fmt::format("--over {}: the range is wider than {:g} times {:g}, where the branch begins; narrow it",
-                        range.key.path, kWidest, start));
+            fmt::format("--over {}: the range is wider than {:g} times {}, where the branch begins; narrow it",
+                        table.key, kWidest, value_text(table, table.start, units)));
 }
 
 bool is_data_file(const std::string& file) { return is_stdout(file) || file.ends_with(".json") || is_table(file); }
@@ -208,7 +208,8 @@ sim::Progress search_progress(Progress& progress, double transient) {
 }
 
 // The orbits of the scene; with a range, the orbits at its start value and their branches.
-output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range) {
+output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, const std::optional<KeyRange>& range,
+                            const render::Units& units) {
     sim::Family family;
     output::BranchTable table;
     if (range) {
@@ -219,7 +220,7 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         table.unit = si_unit(range->key.dimension);
         table.start = start_value(args, *range);
         table.from = range->from, table.to = range->to;
-        need_narrow(*range, table.start);
+        need_narrow(table, units);
         problem = problem_with(problem, range->key.path, table.start);
     }
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
@@ -257,20 +258,20 @@ int act(const OrbitsArguments& args) {
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
 
     // 2. The orbits and their branches.
-    const output::BranchTable table = compute(args, scene.problem, range);
+    const output::BranchTable table = compute(args, scene.problem, range, scene.units);
 
-    // 3. The result and its files.
-    write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table); },
-                  [&] { return branches_figure(table, swept, scene, args.files.lang); },
-                  [&] { return output::orbit_columns(table, attributes_of(scene)); }},
-                 args.files, scene, args.common, manifest);
+    // 3. What is missing, the result and its files; an error of a file ends the command.
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
     if (table.orbits.empty()) inform(args.common, nothing_found(request_of(args, scene.problem)));
     const bool followed = !range || !table.branches.empty();
     if (!followed && !table.orbits.empty())
         inform(args.common, fmt::format("the orbits that were found could not be followed: Newton's method did not "
-                                        "converge at {} = {:.10g}; try another start (--at)",
-                                        table.key, table.start));
+                                        "converge at {} = {}; try another start (--at)",
+                                        table.key, value_text(table, table.start, scene.units)));
+    write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table, scene.units); },
+                  [&] { return branches_figure(table, swept, scene, args.files.lang); },
+                  [&] { return output::orbit_columns(table, attributes_of(scene)); }},
+                 args.files, scene, args.common, manifest);
     return written && followed && !table.orbits.empty() ? kDone : kSolverFailed;
 }
 
@@ -296,7 +297,9 @@ void add_orbits(Grammar& grammar) {
                     kMostFollowed));
     app.option("--at", &args.at, "VALUE",
                "Start value in that range, with or without a unit (default: the scene's value, or the middle)");
-    app.option("--turns", &args.search.turns, "N", "Period of the orbit in turns of the cam (default: the shortest)")
+    app.option("--turns", &args.search.turns, "N",
+               "Period of the orbit in turns of the cam (default: the shortest of the motion). Orbits of several turns "
+               "beside the motion, such as coexisting ones, are found with this option only")
         .range(1, 1000);
     app.option("--most-turns", &args.search.most_turns, "N", "Longest period to try without --turns (default: 8)")
         .range(1, 1000);

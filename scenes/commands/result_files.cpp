@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <numbers>
+#include <stdexcept>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
@@ -25,6 +27,16 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
     how.lang = files.lang;
     scene.outputs.clear();
     return figure_files(figure, how, to_json(scene)).front().second;
+}
+
+void write_to(const std::string& file, const Result& result, const ResultFiles& files, const Scene& scene,
+              output::Manifest& manifest) {
+    if (is_stdout(file))
+        print_data(result.json());
+    else if (is_table(file))
+        output::write_table(manifest.target(file), result.table());
+    else
+        output::write_file(manifest.target(file), content_of(result, files, scene, file));
 }
 
 }  // namespace
@@ -56,18 +68,15 @@ void write_result(const Result& result, const ResultFiles& files, const Scene& s
         print_json(result.json());
     else if (!prints_data)
         print_text(result.text());
-    for (const std::string& file : files.names) {
-        if (is_stdout(file)) {
-            print_data(result.json());
-            continue;
+    std::exception_ptr first_error;
+    for (const std::string& file : files.names) try {
+            write_to(file, result, files, scene, manifest);
+            if (!is_stdout(file)) inform(common, "wrote " + file);
+        } catch (const std::runtime_error&) {
+            if (!first_error) first_error = std::current_exception();
         }
-        if (is_table(file))
-            output::write_table(manifest.target(file), result.table());
-        else
-            output::write_file(manifest.target(file), content_of(result, files, scene, file));
-        inform(common, "wrote " + file);
-    }
     manifest.save();
+    if (first_error) std::rethrow_exception(first_error);
 }
 
 double transient_argument(const std::string& text, const sim::Problem& problem) {

@@ -34,7 +34,8 @@ void add_result_options(Command& app, ResultFiles& files, Common& common, const 
 void require_writable(const char* option, const std::vector<std::string>& files,
                       std::initializer_list<const char*> endings, output::Manifest& manifest);
 
-// Prints the result as JSON or as text, and writes the files. If "-" is one of them, prints JSON alone.
+// Prints the result as JSON or as text, and writes the files. If "-" is one of them, prints JSON alone. A file that
+// cannot be made does not prevent the others: its error is thrown after them.
 void write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
                   output::Manifest& manifest);
 

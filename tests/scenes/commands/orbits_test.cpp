@@ -79,7 +79,7 @@ TEST(OrbitsCommand, ABranchDoesNotNeedTheInitialState) {
     const Finished done =
         shell(folder, "$BEAMCAM orbits s.json --over 'cam.radius=99 mm:115 mm' --impacts 1 --transient 0 -q");
     EXPECT_EQ(done.code, 0) << done.err;
-    EXPECT_THAT(done.out, HasSubstr("to 0.115\n"));
+    EXPECT_THAT(done.out, HasSubstr("to 0.115 m\n"));
 }
 
 TEST(OrbitsCommand, ABranchWithRestSaysHowItsImpactsVaryAndWhatEndsIt) {
@@ -91,7 +91,7 @@ TEST(OrbitsCommand, ABranchWithRestSaysHowItsImpactsVaryAndWhatEndsIt) {
     EXPECT_THAT(done.out, HasSubstr("ends: release: the rest on the cam vanishes"));
     // No digit beyond the first uncertain one.
     EXPECT_THAT(done.out,
-                ::testing::ContainsRegex("release          cam.speed = [0-9]+\\.[0-9][0-9][0-9] ± [0-9]e-03"));
+                ::testing::ContainsRegex("release          cam.speed = [0-9]+\\.[0-9][0-9][0-9] ± [0-9]e-03 rad/s"));
 }
 
 // Nobody knows before how much motion the search integrates, and how many points the branches will have.
@@ -336,6 +336,36 @@ TEST(OrbitsCommand, ReportsThatABeamThatNeverLeavesTheCamHasNoFlightToBeginIn) {
     EXPECT_EQ(done.code, 4) << done.err;  // the requested scene was not written
     EXPECT_THAT(done.err, HasSubstr("never leaves the cam"));
     EXPECT_FALSE(std::filesystem::exists(folder / "loop.json"));
+}
+
+// The branch of a beam that follows the cam has no impacts to draw, and contact removes every difference.
+TEST(OrbitsCommand, APictureThatCannotBeDrawnDoesNotPreventTheOtherFiles) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const auto made = [&](const std::string& command, const std::string& data) {
+        const Finished done = shell(
+            folder, fmt::format("$BEAMCAM {} -o none.png -o {} --set cam.speed=5 --transient '5 s'", command, data));
+        EXPECT_EQ(done.code, 3) << done.err;
+        EXPECT_THAT(done.err, HasSubstr("nothing to draw"));
+        EXPECT_TRUE(std::filesystem::exists(folder / data)) << done.err;
+        EXPECT_FALSE(std::filesystem::exists(folder / "none.png"));
+        return done.out;
+    };
+    EXPECT_THAT(made("orbits s.json --over cam.speed=4:6", "b.csv"), HasSubstr("always touching"));
+    made("orbits s.json --over cam.speed=4:6", "b.json");
+    made("lyapunov s.json --duration '2 s'", "l.json");
+}
+
+TEST(OrbitsCommand, PrintsTheKeyInTheUnitOfItsRange) {
+    const Folder folder;
+    folder.write("s.json", kPressed);
+    const auto printed = [&](const std::string& over) {
+        return shell(folder, "$BEAMCAM orbits s.json --impacts 1 --transient 0 -q --over " + over).out;
+    };
+    EXPECT_THAT(printed("'cam.speed=430 rpm:450 rpm'"), HasSubstr("cam.speed from 430 to 450 rpm\n"));
+    EXPECT_THAT(printed("cam.speed=44:46"), HasSubstr("cam.speed from 44 to 46 rad/s\n"));
+    EXPECT_THAT(printed("contact.restitution=0.5:0.52"), HasSubstr("contact.restitution from 0.5 to 0.52\n"));
+    EXPECT_THAT(printed("cam.speed=44:52"), ::testing::ContainsRegex("period-doubling  cam.speed = .* rad/s\n"));
 }
 
 TEST(OrbitsCommand, ReportsWhatItCannotDo) {
