@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <map>
 
 #include "render/base/error.hpp"
 #include "scenes/figures/axis_labels.hpp"
@@ -37,17 +39,19 @@ const char* letters(sim::OrbitChange change) {
     return kLetters[static_cast<std::size_t>(change)];
 }
 
-// Labels nearer to the last one than this share of the range are omitted.
+// Labels nearer to the last one of the same change than this share of the range are omitted, as along a cascade of
+// period doublings.
 constexpr double kLabelRoom = 0.06;
 
 std::string add_special(const output::BranchTable& table, double factor, double range, Panel& panel) {
     std::string text;
-    double labelled = kGapInCurve;
+    std::map<sim::OrbitChange, double> labelled;
     for (const sim::Branch& branch : table.branches)
         for (const sim::SpecialPoint& point : branch.special) {
             const double x = factor * point.at.parameter;
-            const bool room = !(std::abs(x - labelled) < kLabelRoom * range);
-            if (room) labelled = x;
+            const auto last = labelled.find(point.change);
+            const bool room = last == labelled.end() || !(std::abs(x - last->second) < kLabelRoom * range);
+            if (room && !point.at.orbit.impacts.empty()) labelled[point.change] = x;
             for (std::size_t k = 0; k < point.at.orbit.impacts.size(); ++k)
                 panel.marks.push_back({.x = x,
                                        .y = point.at.orbit.impacts[k].approach,

@@ -324,6 +324,30 @@ TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
     EXPECT_THAT(figure.caption, HasSubstr("SN 300."));
 }
 
+// In a cascade only the first labels have room; beside it each other change has its own label.
+TEST(Diagram, OfBranchesLabelsEachKindOfChangeThatHasAMark) {
+    using enum sim::OrbitChange;
+    output::BranchTable table;
+    table.key = "contact.restitution";
+    table.from = 0.3, table.to = 0.9;
+    sim::BranchPoint point;
+    point.orbit.impacts = {{0, 0.3}, {1, 0.2}};
+    table.branches.emplace_back().points = {point, point};
+    const auto add = [&](sim::OrbitChange change, double value, bool impacts) {
+        sim::BranchPoint at;
+        at.parameter = value;
+        if (impacts) at.orbit.impacts = point.orbit.impacts;
+        table.branches[0].special.push_back({change, at, 0});
+    };
+    add(release, 0.81, false);  // of a beam that follows the cam, which has no impacts
+    add(period_doubling, 0.82, true);
+    add(period_doubling, 0.83, true);
+    add(release, 0.819, true);
+    std::vector<std::string> labels;
+    for (const auto& mark : branches_figure(table, {}, Scene(), Lang::en).panels[0].marks) labels.push_back(mark.label);
+    EXPECT_THAT(labels, ElementsAre("PD", "", "", "", "R", ""));
+}
+
 // Angular velocities of samples have the unit of the scene's speeds, angles that of its angles.
 TEST(Diagram, OfSamplesHasTheUnitsOfTheScene) {
     Scene scene = grid(R"({"over": [{"key": "cam.speed", "values": ["300 rpm", "400 rpm"]}]})").scene();
