@@ -1,8 +1,12 @@
 // `beamcam figure`: one figure for print.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <iterator>
 #include <optional>
+#include <utility>
+#include <vector>
 
 #include "output/json/source.hpp"
 #include "scenes/commands/key_options.hpp"
@@ -29,9 +33,19 @@ struct FigureArguments {
         return given && *given == "zh" ? Lang::zh : Lang::en;
     }
     bool describes_panel() const { return panel.any() || title; }
-    bool describes_series() const {
-        return channels.any() || span.any() || describes_panel() || !compare.empty() || !notes.empty() || impacts ||
-               residuals || logarithmic || apart;
+    // Options that describe a series, and their keys; options of `print` describe other figures.
+    std::vector<std::pair<std::string, std::string>> of_series() const {
+        std::vector<std::pair<std::string, std::string>> out;
+        for (const KeyOptions* group : {&channels, &span, &panel})
+            std::ranges::move(group->given(), back_inserter(out));
+        if (title) out.emplace_back("--title", "panels");
+        if (logarithmic) out.emplace_back("--log", "panels");
+        if (!compare.empty()) out.emplace_back("--compare", "compare");
+        if (apart) out.emplace_back("--panels", "comparison");
+        if (!notes.empty()) out.emplace_back("--note", "notes");
+        if (impacts) out.emplace_back("--impacts", "impacts");
+        if (residuals) out.emplace_back("--residuals", "residuals");
+        return out;
     }
 };
 
@@ -87,11 +101,17 @@ Node output_node(const FigureArguments& args) {
     return output;
 }
 
+void reject_options_of_others(const FigureArguments& args, const FigureType& type) {
+    auto given = args.of_series();
+    std::ranges::move(args.print.given(), back_inserter(given));
+    for (const auto& [option, key] : given)
+        if (const auto misplaced = type.misplaced(key)) throw UsageError(fmt::format("{} {}", option, *misplaced));
+}
+
 FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
     require_ending("-o", args.file, kFigureEndings);
     if (args.figure == "series" && !args.channels.any())
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
-    if (args.logarithmic && args.figure != "series") throw UsageError("--log belongs to the figure series");
     const KeyOptions no_channels{"figure"};  // they are in the panel
     auto figure = std::get<FigureOutput>(
         read_output(output_node(args),
@@ -115,7 +135,7 @@ FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
 void act(const FigureArguments& given) {
     FigureArguments args = given;
     Scene scene = load_scene(args.scene, args.common);
-    if (args.figure.empty() && args.describes_series()) args.figure = "series";
+    if (args.figure.empty() && !args.of_series().empty()) args.figure = "series";
     if (args.figure.empty() && args.print.value("--at")) args.figure = "strobe";
     if (args.figure.empty()) {
         if (!args.file.empty())
@@ -127,6 +147,7 @@ void act(const FigureArguments& given) {
     if (!type)
         throw UsageError(fmt::format("there is no figure {}{}", in_quotes(args.figure),
                                      suggestion_or_list(args.figure, figure_names())));
+    reject_options_of_others(args, *type);
     if (args.file.empty())
         throw UsageError(
             fmt::format("figure {}: name the file with -o, ending in .pdf, .svg, .eps, .png or .tif", args.figure));

@@ -73,7 +73,12 @@ const std::vector<std::string>& KeyOptions::values(std::string_view name) const 
     return std::ranges::find(options_, name, &Option::name)->values;
 }
 
-bool KeyOptions::any() const { return std::ranges::any_of(options_, &Option::given); }
+std::vector<std::pair<std::string, std::string>> KeyOptions::given() const {
+    std::vector<std::pair<std::string, std::string>> out;
+    for (const Option& option : options_)
+        if (option.given()) out.emplace_back(option.name, option.key.substr(0, option.key.find('.')));
+    return out;
+}
 
 void KeyOptions::forget(std::string_view name) {
     for (Option& option : options_)

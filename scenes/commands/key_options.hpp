@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "output/json/tree.hpp"
@@ -28,7 +29,9 @@ class KeyOptions {
     // The value that was given to an option; null: it was not given.
     const std::string* value(std::string_view name) const;
     const std::vector<std::string>& values(std::string_view name) const;  // of a list
-    bool any() const;                                                     // some option was given
+    // The options that were given, and the first part of their keys: {"--low", "panels"}.
+    std::vector<std::pair<std::string, std::string>> given() const;
+    bool any() const { return !given().empty(); }
     void forget(std::string_view name);
 
   private:

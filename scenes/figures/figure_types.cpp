@@ -59,6 +59,12 @@ FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Stu
     };
 }
 
+std::optional<std::string> FigureType::misplaced(std::string_view key) const {
+    const std::size_t others = figures_with(key).size();
+    if (takes(key) || others == 0) return std::nullopt;
+    return fmt::format("belongs to the figure{} {}; remove it", others > 1 ? "s" : "", list_of_figures_with(key));
+}
+
 std::span<const FigureType> figure_types() { return table(); }
 
 std::vector<std::string> figure_names() {

@@ -47,6 +47,9 @@ struct FigureType {
 
     bool of_sweep() const { return draw != nullptr; }
     bool takes(std::string_view key) const { return std::ranges::find(keys, key) != keys.end(); }
+    // "belongs to the figures "map" and "basins"; remove it", for a key that others have; nothing for one of its own
+    // or of all figures.
+    std::optional<std::string> misplaced(std::string_view key) const;
     // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the type's name, and
     // its title unless it has another. `how`: the language and the figure's own keys.
     FigureMaker prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const;

@@ -44,9 +44,7 @@ void check_interval(ObjectReader& r, const FigureOutput& figure) {
 // Keys that only other figures have.
 void check_own_keys(ObjectReader& r, const FigureType& type) {
     for (const std::string_view key : keys_of_figures())
-        if (r.has(key) && !type.takes(key))
-            r.reject(key, " belongs to the figure{} {}; remove it", figures_with(key).size() > 1 ? "s" : "",
-                     list_of_figures_with(key));
+        if (const auto misplaced = type.misplaced(key); misplaced && r.has(key)) r.reject(key, " {}", *misplaced);
 }
 
 // A figure that moves windows along one channel.

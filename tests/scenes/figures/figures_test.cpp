@@ -26,6 +26,7 @@ using testing::in;
 using ::testing::Not;
 using testing::scene_from;
 using testing::shell;
+using ::testing::StartsWith;
 
 TEST(Figures, SchematicAndDeflectionIntegrateNothing) {
     const Plan p = plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "schematic"},
@@ -366,6 +367,23 @@ TEST(Figures, OfARestingBeamAreMadeOrRejected) {
         EXPECT_EQ(rejected.code, 3);
         EXPECT_THAT(rejected.err, HasSubstr("rests on the cam"));
     }
+}
+
+TEST(Figures, OptionsOfOtherFiguresAreNamedAsTheyWereGiven) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const auto refusal = [&](const std::string& options) {
+        const Finished made = shell(folder, "$BEAMCAM figure s.json " + options + " -o a.svg");
+        EXPECT_EQ(made.code, 2) << options;
+        return made.err;
+    };
+    for (const std::string option :
+         {"--low 1", "--high 1", "--title x", "--log", "--lines 1", "--right theta", "--panels", "--note 1=x",
+          "--compare s.json", "--impacts", "--residuals", "--x-low 1"})
+        EXPECT_THAT(refusal("phase " + option),
+                    StartsWith("beamcam: " + option.substr(0, option.find(' ')) + " belongs to the figure \"series\""));
+    EXPECT_THAT(refusal("energy --collision 2"),
+                StartsWith("beamcam: --collision belongs to the figure \"collision\""));
 }
 
 TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
