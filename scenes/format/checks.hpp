@@ -34,8 +34,7 @@ void check_speed(ObjectReader& r, const Speed& speed);  // `r` reads "speed"
 void check_span(ObjectReader& r, const FrameSpan& span, const Picture& picture);
 // The latest end of a motion [s]: there a double resolves a tenth of a millisecond.
 inline constexpr double kLatestEnd = 1e12;
-// A time after the end of the scene extends the motion; it may also be a slip of the unit. `t` in s, rejected if later
-// than `kLatestEnd`.
+// A time [s] after the end of the scene extends the motion; it may also be a slip of the unit.
 void check_end(ObjectReader& r, const char* key, double t);
 void set_default_codec(PictureOutput& video);  // that of its ending
 void check_video(ObjectReader& r, PictureOutput& video);

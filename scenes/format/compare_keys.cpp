@@ -91,8 +91,14 @@ void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
         return;
     }
     if (r.diagnostics().failed(r.path("set"))) return;
+    const std::vector<sim::Issue> known = sim::validate(r.context().scene.problem);
+    const auto of_scene = [&](const sim::Issue& finding) {
+        return std::ranges::any_of(known, [&](const sim::Issue& each) {
+            return each.path == finding.path && each.message == finding.message;
+        });
+    };
     for (const sim::Issue& finding : sim::validate(problem))
-        if (finding.fatal) r.reject("", ": {}: {}", finding.path, finding.message);
+        if (finding.fatal && !of_scene(finding)) r.reject("", ": {}: {}", finding.path, finding.message);
 }
 
 }  // namespace

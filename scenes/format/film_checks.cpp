@@ -76,9 +76,7 @@ void check_instants(ObjectReader& r, const FrameSpan& span, const View& view, do
 
 void check_end(ObjectReader& r, const char* key, double t) {
     const double end = r.context().scene.end_time;
-    if (t > kLatestEnd)
-        r.reject(key, " = {:g} s is later than {:g} s; write the number of seconds", t, kLatestEnd);
-    else if (t > end && !r.diagnostics().failed(r.path(key)) && !r.diagnostics().failed("time"))
+    if (t > end && !r.diagnostics().failed(r.path(key)) && !r.diagnostics().failed("time"))
         r.warn(key, " = {:g} s is after the end of the scene, time.end = {:g} s: the motion is computed until then", t,
                end);
 }

@@ -25,10 +25,8 @@ std::string as_written(const Node& node);
 // Errors and warnings so far, and the paths of the keys that could not be read.
 class Diagnostics {
   public:
-    void error(const Place& place, const std::string& path, std::string text) {
-        messages_.push_back({place, std::move(text), true});
-        failed_.insert(path);
-    }
+    // An error that is known already, as that of mechanics that several motions share, is not repeated.
+    void error(const Place& place, const std::string& path, std::string text);
     void warning(const Place& place, std::string text) { messages_.push_back({place, std::move(text), false}); }
     void add(Message message) { messages_.push_back(std::move(message)); }
     // True if this key, or a key inside it, has an error.

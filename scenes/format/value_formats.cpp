@@ -7,6 +7,7 @@
 
 #include "output/files/numbers.hpp"
 #include "output/film/video.hpp"
+#include "scenes/format/checks.hpp"
 #include "scenes/format/object_reader.hpp"
 
 namespace beamcam::scenes {
@@ -155,7 +156,12 @@ std::optional<Instant> read_instant(ObjectReader& r, const Node& node, const std
         return event;
     }
     const auto t = r.ranged_value(node, key, sim::dimension::kTime, kFromStart);
-    return t ? std::optional(Instant{.t = *t}) : std::nullopt;
+    if (!t) return std::nullopt;
+    if (*t > kLatestEnd) {
+        r.reject(key, " = {:g} s is later than {:g} s; write the number of seconds", *t, kLatestEnd);
+        return std::nullopt;
+    }
+    return Instant{.t = *t};
 }
 
 Node written(const Instant& at) {

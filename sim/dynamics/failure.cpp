@@ -105,11 +105,17 @@ std::string passed_cam_message(const Problem& p, const BeamState& beam) {
     const double n = p.contact.exponent, k = contact_stiffness(p), radius = p.cam->radius;
     const double depth = impact_depth(n, k, beam.mass, beam.approach);
     const std::string law = fmt::format("{:g} N/m^{:g}", k, n);
-    if (depth < 0.5 * radius)
+    if (depth < 0.5 * radius) {
+        const bool prescribed = is_prescribed(p.hub.drive), rigid = p.beam.model == ModelKind::rigid;
         return fmt::format(
             "the beam was pressed through the centre of the cam (radius {:g} m), which no impact does at contact "
-            "stiffness {}: the cause is {}; change hub.drive, gravity or the cam's path, or raise contact.stiffness",
-            radius, law, is_prescribed(p.hub.drive) ? "the prescribed angle" : "the load on the beam");
+            "stiffness {}: the cause is {}",
+            radius, law,
+            !prescribed ? "the load on the beam; change hub.drive, gravity or the cam's path, or raise "
+                          "contact.stiffness"
+            : rigid     ? "the prescribed angle, which no force changes; change hub.drive or the cam's path"
+                        : "the prescribed angle; change hub.drive or the cam's path, or raise contact.stiffness");
+    }
     const double stiffness =
         0.5 * (n + 1) * beam.mass * beam.approach * beam.approach / std::pow(kUsableDepth * radius, n + 1);
     return fmt::format(

@@ -150,10 +150,13 @@ void check_geometry(Issues& out, const Problem& p) {
         const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty();
         const auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
         if (gap < -kStartGap * std::max(1.0, p.beam.length))
-            out.error("initial.angle", fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along "
-                                                   "the beam); raise the angle, change cam.phase, or use \"shape\": "
-                                                   "\"resting\"",
-                                                   -gap, x));
+            out.error(
+                std::holds_alternative<AngleTable>(p.hub.drive) ? "hub.drive.theta" : "initial.angle",
+                fmt::format("beam and cam overlap by {:.3g} m at the start (at {:.3g} m along the beam); raise the "
+                            "angle, {}",
+                            -gap, x,
+                            is_prescribed(p.hub.drive) ? "or change cam.phase"
+                                                       : "change cam.phase, or use \"shape\": \"resting\""));
     } catch (const StepFailure& failure) {
         out.error("initial.shape", failure.what());
     }

@@ -12,7 +12,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::StartsWith;
+using ::testing::AllOf, ::testing::Contains, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::Not,
+    ::testing::StartsWith;
 using testing::messages, testing::read;
 
 TEST(Reader, InitialCoordinatesHaveTheUnitOfTheModel) {
@@ -290,6 +291,25 @@ TEST(Reader, WhatAComparisonCannotChangeIsReportedAtItsPlace) {
                 ElementsAre(HasSubstr("did you mean \"speed\"")));
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "compare": [{}, {"set": {"time.end": 1}}]}]})")),
                 ElementsAre(HasSubstr("is not part of the mechanics")));
+}
+
+TEST(Reader, AnErrorOfTheSceneIsNotRepeatedForItsComparedMotions) {
+    const std::string compared =
+        R"("outputs": [{"type": "video", "compare": [{}, {"set": {"beam.model": "rigid"}}, {"label": "c"}]}]})";
+    for (const std::string wrong : {"cam.spede=3", "cam.speed=3furlongs", "beam.length=-3"})
+        EXPECT_THAT(messages(read("{" + compared, {wrong})), ElementsAre(HasSubstr(wrong.substr(0, 3))));
+    EXPECT_THAT(messages(read(R"({"beam": {"length": -3}, )" + compared)), ElementsAre(HasSubstr("beam.length")));
+}
+
+TEST(Reader, AStartInTheCamNamesTheAngleThatCanChange) {
+    const auto wrong = [](const std::string& drive) {
+        return messages(read(R"({"initial": {"angle": 0}, "hub": {"drive": )" + drive + "}}"));
+    };
+    EXPECT_THAT(wrong(R"({"type": "free"})"), ElementsAre(AllOf(HasSubstr("initial.angle"), HasSubstr("resting"))));
+    EXPECT_THAT(wrong(R"({"type": "prescribed", "law": "constant", "speed": 1})"),
+                ElementsAre(AllOf(HasSubstr("initial.angle"), Not(HasSubstr("resting")))));
+    EXPECT_THAT(wrong(R"({"type": "prescribed", "law": "table", "t": [0, 1], "theta": [0, 1]})"),
+                ElementsAre(AllOf(HasSubstr("hub.drive.theta"), Not(HasSubstr("resting")))));
 }
 
 TEST(Reader, UnknownWordsAreAnsweredWithTheNearestOrAll) {

@@ -179,7 +179,9 @@ TEST(Films, ATimeAfterTheEndOfTheSceneIsAWarning) {
 TEST(Films, ATimeAfterTheLatestPossibleEndIsRejected) {
     for (const char* output :
          {R"({"type": "still", "at": 1e100})", R"({"type": "figure", "figure": "strobe", "at": 1e100})",
-          R"({"type": "figure", "figure": "kymograph", "to": 1e100})"}) {
+          R"({"type": "figure", "figure": "kymograph", "to": 1e100})", R"({"type": "video", "from": 1e100})",
+          R"({"type": "video", "to": 1e100})", R"({"type": "video", "poster": 1e100})",
+          R"({"type": "figure", "figure": "kymograph", "from": 1e100})"}) {
         const Reading reading = testing::read(R"({"outputs": [)" + std::string(output) + "]}");
         EXPECT_FALSE(reading.scene.has_value());
         EXPECT_THAT(reading.report(), HasSubstr("= 1e+100 s is later than 1e+12 s; write the number of seconds"));

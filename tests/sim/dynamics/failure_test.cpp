@@ -68,7 +68,11 @@ TEST(Failure, ABeamPressedThroughTheCamByItsDriveNamesTheDrive) {
     p.hub.drive = ConstantSpeed{-50};
     p.beam.modes = 1;
     p.beam.youngs_modulus = 1e14;
-    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive")));
+    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("pressed through"), HasSubstr("hub.drive"), HasSubstr("stiffness"),
+                                          Not(HasSubstr("gravity"))));
+    // No force changes the motion of a rigid beam on a prescribed hub.
+    p.beam.model = ModelKind::rigid;
+    EXPECT_THAT(message_of(p, 0.2), AllOf(HasSubstr("change hub.drive or the cam's path"), Not(HasSubstr("raise"))));
 }
 
 TEST(Failure, RotationThatDestabilizesAModelIsNamed) {
