@@ -24,10 +24,10 @@ struct LyapunovArguments {
 std::string verdict(const sim::Exponents& e) {
     switch (e.chaos()) {
         case sim::Chaos::shown:
-            return "the motion is chaotic: the largest exponent exceeds its error\n";
+            return "the motion is chaotic: the largest exponent exceeds three times its error\n";
         case sim::Chaos::doubtful:
             return "it is doubtful whether the motion is chaotic: without the contribution of near-grazing impacts the "
-                   "largest exponent does not exceed its error\n";
+                   "largest exponent does not exceed three times its error\n";
         case sim::Chaos::not_shown:
             return fmt::format("no chaos is shown: {}\n", e.against_chaos());
     }

@@ -56,6 +56,8 @@ inline constexpr double kDoubledShift = 0.02;
 inline constexpr int kDoubledHalvings = 13;
 
 // ---- exponents ----
+// Standard errors by which an exponent differs from zero: three times its error.
+inline constexpr double kSureErrors = 3;
 inline constexpr double kMaxDecay = 5;   // logarithm of the decay of a damped mode between two orthonormalizations
 inline constexpr double kUnsettled = 4;  // standard errors between the halves of an average
 // Of the whole: blocks that do not match the period of a periodic motion may differ by this much.

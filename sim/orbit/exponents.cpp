@@ -207,7 +207,7 @@ const char* Exponents::against_chaos() const {
     if (impacts == 0) return "there were no impacts";
     if (!settled) return "the motion had not settled; a longer transient may help";
     if (!(lambda.front() > 0)) return "the largest exponent is not positive";
-    if (!(lambda.front() > 3 * error.front()))
+    if (!(lambda.front() > kSureErrors * error.front()))
         return "the largest exponent does not exceed three times its error; a longer duration may help";
     if (!(lambda.front() * duration / 2 > kLateGrowth)) return "differences grow by less than e³ in the second half";
     return nullptr;

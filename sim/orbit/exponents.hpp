@@ -49,10 +49,10 @@ struct Exponents {
     // The first reason why no chaos is shown; null if there is none. Without impacts a positive exponent is that of an
     // unstable equilibrium or of a growing vibration.
     const char* against_chaos() const;
-    // Shown: the largest exponent exceeds three standard errors plus the doubt.
+    // Shown: the largest exponent exceeds three times its error plus the doubt.
     Chaos chaos() const {
         if (against_chaos()) return Chaos::not_shown;
-        return lambda.front() > 3 * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
+        return lambda.front() > kSureErrors * error.front() + doubt ? Chaos::shown : Chaos::doubtful;
     }
     bool chaotic() const { return chaos() == Chaos::shown; }
 };
