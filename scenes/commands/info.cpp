@@ -111,13 +111,6 @@ void read_netcdf(const std::string& file, Provenance& p) {
     p.kind = "NetCDF table";
 }
 
-// Files whose provenance is only in the manifest beside them.
-constexpr std::pair<const char*, const char*> kListedKinds[] = {
-    {".eps", "EPS figure"}, {".tif", "TIFF figure"}, {".tiff", "TIFF figure"}, {".json", "record"},
-    {".webp", "film"},  // FFmpeg does not read animated ones
-    {".html", "page"},      {".glb", "model"},       {".tex", "caption"},      {".txt", "caption"},
-    {".md", "caption"},     {".srt", "subtitles"},   {".vtt", "subtitles"}};
-
 Provenance provenance_of(const std::string& file) {
     std::error_code error;
     if (fs::is_directory(file, error)) throw output::IoError(fmt::format("{} is a directory; name a file in it", file));
@@ -125,7 +118,6 @@ Provenance provenance_of(const std::string& file) {
     Provenance p;
     p.file = file;
     const std::string ending = lowered(ending_of(file));
-    const auto listed = std::ranges::find(kListedKinds, ending, [](const auto& each) { return each.first; });
     if (output::png_kind(file) != output::PngKind::none && ending != ".apng") {
         read_png_info(file, p);
     } else if (ending == ".svg") {
@@ -138,8 +130,8 @@ Provenance provenance_of(const std::string& file) {
         read_table(file, p);
     } else if (ending == ".nc") {
         read_netcdf(file, p);
-    } else if (listed != std::end(kListedKinds)) {
-        p.kind = listed->second;
+    } else if (const char* kind = kind_without_scene(ending); kind && ending != ".gif" && ending != ".apng") {
+        p.kind = kind;  // also an animated .webp, which FFmpeg does not read
         read_manifest(file, p);
     } else {
         read_film(file, p);

@@ -9,19 +9,8 @@
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
-namespace {
 
 namespace fs = std::filesystem;
-
-// Formats whose scene `info` takes from the manifest.
-bool lacks_metadata(const fs::path& file) {
-    static constexpr std::string_view kEndings[] = {".csv", ".npz", ".json", ".gif", ".apng", ".webp",
-                                                    ".vtt", ".srt", ".html", ".eps", ".tif",  ".tiff",
-                                                    ".glb", ".nc",  ".tex",  ".txt", ".md"};
-    return std::ranges::find(kEndings, ending_of(file)) != std::end(kEndings);
-}
-
-}  // namespace
 
 fs::path OutputFiles::path_of(const std::string& file) const { return place_of(context_.options.directory, file); }
 
@@ -77,7 +66,7 @@ std::vector<fs::path> OutputFiles::files_of(const Plan& plan) const {
 output::Target OutputFiles::target(const fs::path& file, std::optional<std::size_t> output) const {
     output::Origin origin;
     if (output) origin.inputs = inputs_[*output];
-    if (lacks_metadata(file)) origin.version = kVersion, origin.scene = metadata_json(scene_);
+    if (kind_without_scene(ending_of(file))) origin.version = kVersion, origin.scene = metadata_json(scene_);
     output::Target target = context_.manifest.target(file, std::move(origin));
     target.within = context_.options.directory;
     return target;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <map>
 #include <set>
+#include <utility>
 
 namespace beamcam::scenes {
 namespace {
@@ -82,6 +83,17 @@ std::string problem_with_file(std::string_view file) {
     // ext4, xfs and tmpfs end at 255 bytes; the temporary name beside it needs some of them.
     if (path.filename().string().size() > 200) return "the name is longer than 200 bytes; shorten it";
     return {};
+}
+
+const char* kind_without_scene(std::string_view ending) {
+    static constexpr std::pair<std::string_view, const char*> kKinds[] = {
+        {".csv", "table"},     {".npz", "table"},      {".nc", "NetCDF table"}, {".json", "record"},
+        {".gif", "film"},      {".apng", "film"},      {".webp", "film"},       {".srt", "subtitles"},
+        {".vtt", "subtitles"}, {".eps", "EPS figure"}, {".tif", "TIFF figure"}, {".tiff", "TIFF figure"},
+        {".html", "page"},     {".glb", "model"},      {".tex", "caption"},     {".txt", "caption"},
+        {".md", "caption"}};
+    const auto found = std::ranges::find(kKinds, ending, &std::pair<std::string_view, const char*>::first);
+    return found == std::end(kKinds) ? nullptr : found->second;
 }
 
 std::string ending_of(const std::filesystem::path& file) { return file.extension().string(); }
