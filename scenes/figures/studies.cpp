@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "scenes/motions/identity.hpp"
 
@@ -17,13 +18,12 @@ std::vector<double> instants(const Instants& grid) {
 }
 
 std::size_t Studies::of(const sim::Problem& problem, double end_time) {
-    const std::string motion = motion_key(problem);
-    const auto found = std::ranges::find(keys_, motion);
-    const auto index = static_cast<std::size_t>(found - keys_.begin());
-    if (found == keys_.end()) {
-        keys_.push_back(motion);
+    std::string key = motion_key(problem);
+    const auto found = std::ranges::find(all_, key, &Study::key);
+    const auto index = static_cast<std::size_t>(found - all_.begin());
+    if (found == all_.end()) {
         users_.push_back(0);
-        all_.push_back({problem});
+        all_.push_back({problem, std::move(key)});
     }
     Study& study = all_[index];
     ++users_[index];

@@ -18,6 +18,7 @@ struct Scene;
 // A motion that an output needs, and what it requests of it.
 struct Study {
     sim::Problem problem;
+    std::string key;  // motion_key(problem)
     sim::Request request = {};
     std::string label = {};  // the figure that needs the longest run; of a compared motion its label
     bool of_scene = false;   // the scene's own physics; for the plan
@@ -63,8 +64,7 @@ class Studies {
   private:
     std::string figure_;
     std::vector<Study> all_;
-    std::vector<std::string> keys_;  // motion_key of all
-    std::vector<int> users_;         // of each
+    std::vector<int> users_;  // of each
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 

@@ -4,7 +4,6 @@
 
 #include <optional>
 
-#include "scenes/motions/identity.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
@@ -25,7 +24,7 @@ std::vector<std::string> data_work(const DataFile& d) { return {"numbers of " + 
 namespace {
 
 std::optional<Cost> cost(const History& history, const Simulation& s) {
-    return history.find(motion_work(motion_key(s.problem), s.problem, s.from_cache, s.horizon), s.request.end_time);
+    return history.find(motion_work(s.key, s.problem, s.from_cache, s.horizon), s.request.end_time);
 }
 
 }  // namespace

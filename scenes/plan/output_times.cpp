@@ -92,7 +92,7 @@ void prepare_figure(FigureFile& figure, const Scene& scene, const FigureOutput& 
     };
     figure.studies = studies.take();
     const std::string own = motion_key(scene.problem);
-    for (Study& study : figure.studies) study.of_scene = motion_key(study.problem) == own;
+    for (Study& study : figure.studies) study.of_scene = study.key == own;
 }
 
 static bool needs_apexes(const FigureOutput& how) {

@@ -45,6 +45,7 @@ struct ExistingWork {
 // The simulation of one motion, for all outputs that need it.
 struct Simulation {
     sim::Problem problem;
+    std::string key;                 // motion_key(problem)
     sim::Request request = {};       // for data files of the scene's motion; of other motions only the end
     std::string label = {};          // of a compared motion
     std::string until_because = {};  // the output that needs the latest time: "fall.mp4"

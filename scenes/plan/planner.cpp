@@ -77,7 +77,10 @@ std::optional<std::pair<long, long>> known_numbers(const Pictures& p, const Film
 }  // namespace
 
 Planner::Planner(const Scene& scene, const Selection& selection, const ExistingWork& existing)
-    : scene_(scene), selection_(selection), existing_(existing), simulation_{scene.problem} {}
+    : scene_(scene),
+      selection_(selection),
+      existing_(existing),
+      simulation_{scene.problem, motion_key(scene.problem)} {}
 
 Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
@@ -109,7 +112,7 @@ void Planner::finish_simulation() {
 
 // On entry `keep` is true if the motion is worth caching.
 void Planner::resolve_cache_use(Simulation& simulation) const {
-    const auto kept = existing_.kept_until.find(motion_key(simulation.problem));
+    const auto kept = existing_.kept_until.find(simulation.key);
     simulation.from_cache = kept != existing_.kept_until.end() && kept->second >= simulation.request.end_time &&
                             simulation.until_events.empty();
     simulation.keep = simulation.keep && existing_.keeps && !simulation.from_cache;
@@ -154,8 +157,9 @@ void Planner::add(Pictures p, double end) {
         add_skipped_frames(p, static_cast<std::size_t>(count));
         if (p.draw.empty()) return;
     }
-    if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .of_scene = true});
-    for (const Compared& each : p.compare) p.shown.push_back({.problem = each.problem, .label = each.label});
+    if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .key = simulation_.key, .of_scene = true});
+    for (const Compared& each : p.compare)
+        p.shown.push_back({.problem = each.problem, .key = motion_key(each.problem), .label = each.label});
     for (Study& motion : p.shown) {
         add_requests(p, motion);
         add_study(motion, p.file, p.ends_at_event() ? p.span.to_event : std::nullopt, motion.label);
@@ -195,10 +199,8 @@ void Planner::add_study(const Study& study, const std::string& file, const std::
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
     }
-    const std::string key = motion_key(study.problem);
-    auto same =
-        std::ranges::find_if(plan_.others, [&](const Simulation& other) { return motion_key(other.problem) == key; });
-    if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem});
+    auto same = std::ranges::find(plan_.others, study.key, &Simulation::key);
+    if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem, study.key});
     same->simulate_until(end_of(study.request), file);
     if (!label.empty()) same->label = label;
     same->horizon = same->horizon || study.request.horizon;

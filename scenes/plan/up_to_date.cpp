@@ -38,7 +38,7 @@ class UpToDateCheck {
   private:
     void check_cache(const Cache& cache) {
         std::vector<std::string> motions{found_.motion};
-        for (const Simulation& other : whole_.others) motions.push_back(motion_key(other.problem));
+        for (const Simulation& other : whole_.others) motions.push_back(other.key);
         for (const std::string& motion : motions)
             if (const auto until = cache.reach(motion)) found_.existing.kept_until[motion] = *until;
     }

@@ -12,7 +12,6 @@
 
 #include "scenes/figures/findings.hpp"
 #include "scenes/format/embedded.hpp"
-#include "scenes/motions/identity.hpp"
 #include "tests/scenes/figures/simulated.hpp"
 
 namespace beamcam::scenes {
@@ -45,7 +44,7 @@ TEST(Paper, IntegratesEachPhysicsOnce) {
     }
     prepare_findings(studies);
     std::vector<std::string> physics;
-    for (const Study& study : studies.take()) physics.push_back(motion_key(study.problem));
+    for (const Study& study : studies.take()) physics.push_back(study.key);
     EXPECT_EQ(physics.size(), static_cast<std::size_t>(simulations));
     std::sort(physics.begin(), physics.end());
     EXPECT_EQ(std::adjacent_find(physics.begin(), physics.end()), physics.end());
