@@ -81,17 +81,12 @@ class Acceptor {
         by_digest_.clear();
         for (const auto& [name, file] : marked_files(folder_of(entry)))
             if (!file.pixels.empty()) by_digest_[file.pixels] = folder_of(entry) / name;
-        BaselineEdit edit{entry.name, entry.accepted, entry.reproducible_until};
-        if (has_pictures(entry, found)) {
-            if (found.differs()) edit.accepted.clear();
-            edit.accepted.push_back({found.renderer, found.digests()});
-            found.differs() ? replace(entry, found) : add_pictures(entry, found);
-        } else {
+        if (!has_pictures(entry, found) || has_new_motion_only(entry, found))
             copy_motion(entry, found, update_.extend(entry.name));
-        }
-        if (found.reproducible_until) edit.reproducible_until = found.reproducible_until;
+        else
+            found.differs() ? replace(entry, found) : add_pictures(entry, found);
         pixels_[entry.name];
-        edits_.push_back(std::move(edit));
+        edits_.push_back(acceptance_of(entry, found, found.differs()));
     }
 
     fs::path folder_of(const Baseline& entry) const { return baselines_.references / entry.name; }
@@ -112,13 +107,11 @@ class Acceptor {
                 return accepted.renderer == found.renderer;
             }))
             return;
-        const std::vector<std::string>& first = entry.accepted.front().sha256;
-        for (const auto& [number, frame] : found.frames) {
-            const bool is_first = std::cmp_less(number, first.size()) && first[std::size_t(number)] == frame.sha256;
+        for (const auto& [number, frame] : found.frames)
             // Of equal pictures of others there may be digests only.
-            if (!is_first && (is_changed(frame) || by_digest_.contains(frame.sha256)))
+            if (!entry.is_of_first_renderer(number, frame.sha256) &&
+                (is_changed(frame) || by_digest_.contains(frame.sha256)))
                 copy_picture(entry, number, frame, update_.extend(entry.name) / picture_name(number, found.renderer));
-        }
     }
 
     static bool is_changed(const FrameResult& frame) { return frame.verdict != Verdict::identical; }

@@ -71,6 +71,21 @@ Baselines read_recovered(const std::string& path) {
     return read_baselines(path);
 }
 
+bool has_new_motion_only(const Baseline& entry, const EntryResult& found) {
+    return found.picture == Verdict::identical && found.motion && !found.frames.empty() && !entry.accepted.empty() &&
+           entry.expected.empty();
+}
+
+BaselineEdit acceptance_of(const Baseline& entry, const EntryResult& found, bool replaces) {
+    BaselineEdit edit{entry.name, entry.accepted, entry.reproducible_until};
+    if (!found.frames.empty() && entry.expected.empty() && !has_new_motion_only(entry, found)) {
+        if (replaces) edit.accepted.clear();
+        edit.accepted.push_back({found.renderer, found.digests()});
+    }
+    if (found.reproducible_until) edit.reproducible_until = found.reproducible_until;
+    return edit;
+}
+
 std::string edited(const Baselines& baselines, const std::vector<BaselineEdit>& changes,
                    const std::map<std::string, RendererParts>& renderers) {
     const std::string& text = baselines.source.text;

@@ -4,6 +4,7 @@
 #include <fnmatch.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "output/json/tree.hpp"
 #include "scenes/format/object_reader.hpp"
@@ -272,6 +273,11 @@ const Picture* Baseline::picture() const {
     if (!file.empty() || is_sweep) return nullptr;
     const PictureOutput* still = picture_of(output(), PictureOutput::Kind::still);
     return still ? still : picture_of(output(), PictureOutput::Kind::frames);
+}
+
+bool Baseline::is_of_first_renderer(long frame, const std::string& sha256) const {
+    const std::vector<std::string>& first = accepted.front().sha256;
+    return std::cmp_less(frame, first.size()) && first[static_cast<std::size_t>(frame)] == sha256;
 }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }

@@ -44,6 +44,8 @@ struct Baseline {
 
     bool has_pictures() const;
     const Picture* picture() const;  // its still picture or frames; null: it has none
+    // The first renderer draws this picture so.
+    bool is_of_first_renderer(long frame, const std::string& sha256) const;
     bool has_motion() const { return file.empty() && (physics || !has_pictures()); }
     const Output& output() const { return scene.outputs.front(); }
 };

@@ -104,9 +104,7 @@ void EntryPictures::write_reference(long frame, const output::Raster& actual, co
     if (test_.references.is_replaced()) {
         output::write_png(test_.references.new_folder() / picture_name(frame), output::to_image(actual));
     } else if (test_.references.is_extended()) {
-        const std::vector<std::string>& first = test_.entry.accepted.front().sha256;
-        const auto at = static_cast<std::size_t>(frame);
-        if (at < first.size() && first[at] == result.sha256) return;
+        if (test_.entry.is_of_first_renderer(frame, result.sha256)) return;
         output::write_png(test_.references.new_folder() / picture_name(frame, test_.renderer),
                           output::to_image(actual));
     }

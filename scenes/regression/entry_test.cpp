@@ -214,27 +214,15 @@ std::string EntryTest::renderer_message() const {
     return text + "; check the picture, then use --add-digest";
 }
 
-// Then the accepted pictures, also of other renderers, stay.
-bool EntryTest::has_new_motion_only() const {
-    return test_.result.picture == Verdict::identical && test_.result.motion && !test_.result.frames.empty() &&
-           !test_.entry.accepted.empty() && test_.entry.expected.empty();
-}
-
 std::optional<BaselineEdit> EntryTest::edit() {
-    BaselineEdit change{test_.entry.name, test_.entry.accepted, test_.entry.reproducible_until};
-    Accepted own{test_.renderer, test_.result.digests()};
     if (is_updated()) {
-        if (has_new_motion_only()) {
+        if (has_new_motion_only(test_.entry, test_.result)) {
             for (const auto& [number, frame] : test_.result.frames)
                 fs::remove(test_.references.new_folder() / picture_name(number));
             test_.references.keep_others();
-        } else {
-            change.accepted.clear();
-            if (test_.result.picture && test_.entry.expected.empty()) change.accepted.push_back(std::move(own));
         }
-        if (test_.result.motion) change.reproducible_until = test_.result.reproducible_until;
         test_.result.updated = true;
-        return change;
+        return acceptance_of(test_.entry, test_.result, true);
     }
     const bool added = options_.add_digest ? has_new_renderer_ || test_.result.picture == Verdict::equivalent
                                            : test_.result.picture == Verdict::new_renderer &&
@@ -243,9 +231,8 @@ std::optional<BaselineEdit> EntryTest::edit() {
         test_.references.drop();
         return std::nullopt;
     }
-    change.accepted.push_back(std::move(own));
     test_.result.digest_added = true;
-    return change;
+    return acceptance_of(test_.entry, test_.result, false);
 }
 
 }  // namespace beamcam::scenes

@@ -63,7 +63,6 @@ class EntryTest {
     // The entry cannot be judged; the program ends with `exit_code`.
     void fail(const std::string& reason, Verdict verdict = Verdict::different, int exit_code = kDiffers);
     std::string renderer_message() const;
-    bool has_new_motion_only() const;
 
     const Baselines& baselines_;
     const RegressionOptions& options_;
