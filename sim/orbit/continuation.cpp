@@ -77,6 +77,8 @@ struct Work {
     bool spent() const { return steps > most_steps; }
 };
 
+constexpr const char* kRangeEnds = "the range ends";
+
 class Continuation {
   public:
     // `start`: the share of the range at which passages are located.
@@ -89,6 +91,23 @@ class Continuation {
 
   private:
     using Test = std::function<double(const ArcPoint&)>;
+    struct Walk {
+        ArcPoint at;
+        std::optional<ArcPoint> before;  // the point before on a smooth piece with the same section
+        double step;
+        bool moved;  // the section, since the last point
+    };
+    struct Attempt {
+        Eigen::VectorXd predicted;
+        std::optional<ArcPoint> next;
+        bool same = false, smooth = false;  // the pattern of contact; also the direction
+    };
+    enum class Then { advance, retry, stop };
+    double first_step() const { return kFirstArc * request_.step; }
+    std::string reason_to_stop(const ArcPoint& at) const;  // empty: the branch continues
+    Attempt attempt(const Walk& walk) const;
+    Then overcome(Walk& walk, const Attempt& tried, Branch& branch, std::string& end);
+    void advance(Walk& walk, Attempt found, Branch& branch);
     std::optional<ArcPoint> root(const ArcPoint& a, const ArcPoint& b, const Test& test) const;
     void locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test, Branch& branch) const;
     void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
@@ -197,59 +216,71 @@ bool Continuation::end_at_range(const ArcPoint& last, const Eigen::VectorXd& bey
     return true;
 }
 
+std::string Continuation::reason_to_stop(const ArcPoint& at) const {
+    if (leaves_range(at)) return kRangeEnds;
+    if (work_.spent()) return "its motions have used up their steps; a larger solver.max_steps allows more";
+    const double largest = at.orbit.largest_multiplier();
+    if (!(largest > kMostUnstable)) return {};
+    return fmt::format("the orbit is so unstable that rounding hides it: its largest multiplier is {:.1e}", largest);
+}
+
+Continuation::Attempt Continuation::attempt(const Walk& walk) const {
+    Attempt out;
+    out.predicted = walk.before ? cubic(walk.at, *walk.before, walk.step) : walk.at.z + walk.step * walk.at.tangent;
+    out.next = arc_.correct(out.predicted, walk.at.tangent);
+    out.same = out.next && same_pattern(walk.at.orbit, out.next->orbit);
+    out.smooth = out.same && out.next->tangent.dot(walk.at.tangent) >= kLeastCosine;
+    return out;
+}
+
+// Without a smooth step: a shorter one, another section, a point beyond a corner, or the end of the branch.
+Continuation::Then Continuation::overcome(Walk& walk, const Attempt& tried, Branch& branch, std::string& end) {
+    // Beyond the range there may be no problem.
+    if (!tried.next && beyond_range(tried.predicted) && end_at_range(walk.at, tried.predicted, branch))
+        return Then::stop;
+    if (kArcShrink * walk.step >= kSmallestArc) {
+        walk.step *= kArcShrink;
+        return Then::retry;
+    }
+    if (auto centred = tried.same || walk.moved ? std::nullopt : recentre(walk.at)) {
+        walk = {std::move(*centred), std::nullopt, first_step(), true};
+        return Then::retry;
+    }
+    if (!passes(walk.at, tried.next, walk.step, branch, end)) return Then::stop;
+    walk.step = first_step();
+    return Then::advance;
+}
+
+void Continuation::advance(Walk& walk, Attempt found, Branch& branch) {
+    branch.points.push_back(arc_.branch_point(*found.next));
+    walk.before = std::exchange(walk.at, std::move(*found.next));
+    walk.moved = false;
+    auto centred = near_section(walk.at.orbit) ? recentre(walk.at) : std::nullopt;
+    if (centred) walk.at = std::move(*centred);
+    if (!found.smooth || centred) walk.before.reset();
+    walk.step = std::min(kArcGrowth * walk.step, request_.step);
+}
+
 void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
-    const double first_step = kFirstArc * request_.step;
-    double step = first_step;
-    bool moved = false;              // the section, since the last point
-    std::optional<ArcPoint> before;  // the point before `from` on a smooth piece with the same section
+    Walk walk{std::move(from), std::nullopt, first_step(), false};
     for (int count = 0; count < request_.most_points;) {
-        if (progress_ && !progress_(arc_.parameter(from.z))) throw Interrupted();
-        end = "the range ends";
-        if (leaves_range(from)) return;
-        if (work_.spent()) {
-            end = "its motions have used up their steps; a larger solver.max_steps allows more";
-            return;
-        }
-        if (const double largest = from.orbit.largest_multiplier(); largest > kMostUnstable) {
-            end = fmt::format("the orbit is so unstable that rounding hides it: its largest multiplier is {:.1e}",
-                              largest);
-            return;
-        }
-        const Eigen::VectorXd predicted = before ? cubic(from, *before, step) : from.z + step * from.tangent;
-        auto next = arc_.correct(predicted, from.tangent);
-        const bool same = next && same_pattern(from.orbit, next->orbit);
-        const bool smooth = same && next->tangent.dot(from.tangent) >= kLeastCosine;
-        if (!smooth) {
-            // Beyond the range there may be no problem.
-            if (!next && beyond_range(predicted) && end_at_range(from, predicted, branch)) return;
-            if (kArcShrink * step >= kSmallestArc) {
-                step *= kArcShrink;
-                continue;
-            }
-            const bool corner = next && same;
-            if (auto centred = corner || moved ? std::nullopt : recentre(from)) {
-                from = std::move(*centred);
-                before.reset();
-                step = first_step;
-                moved = true;
-                continue;
-            }
-            if (!passes(from, next, step, branch, end)) return;
-            step = first_step;
-        } else if (beyond_range(next->z)) {
-            end_at_range(from, next->z, branch);
+        if (progress_ && !progress_(arc_.parameter(walk.at.z))) throw Interrupted();
+        end = reason_to_stop(walk.at);
+        if (!end.empty()) return;
+        end = kRangeEnds;
+        Attempt tried = attempt(walk);
+        if (!tried.smooth) {
+            const Then then = overcome(walk, tried, branch, end);
+            if (then == Then::stop) return;
+            if (then == Then::retry) continue;
+        } else if (beyond_range(tried.next->z)) {
+            end_at_range(walk.at, tried.next->z, branch);
         } else {
-            find_changes(from, *next, branch);
+            find_changes(walk.at, *tried.next, branch);
         }
-        if (beyond_range(next->z)) return;
-        branch.points.push_back(arc_.branch_point(*next));
+        if (beyond_range(tried.next->z)) return;
+        advance(walk, std::move(tried), branch);
         ++count;
-        before = std::exchange(from, std::move(*next));
-        moved = false;
-        auto centred = near_section(from.orbit) ? recentre(from) : std::nullopt;
-        if (centred) from = std::move(*centred);
-        if (!smooth || centred) before.reset();
-        step = std::min(kArcGrowth * step, request_.step);
     }
     end = fmt::format("the largest number of points, {}, is reached", request_.most_points);
 }
