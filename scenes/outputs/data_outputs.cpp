@@ -107,7 +107,7 @@ void ImpactsOutput::plan(Planner& planner, std::size_t output) const {
                            counted(from.run.collisions.size(), "collision"));
     };
     planner.simulate_until(planner.run_end(), file);
-    planner.add(DataFile{output, file, "impacts", write});
+    planner.add(DataFile{.output = output, .file = file, .stage = "impacts", .write = write, .holds_events = true});
 }
 
 // ---- "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.

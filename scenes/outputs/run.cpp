@@ -63,7 +63,7 @@ void compute_motions(RunContext& context, const SceneRuns& all) {
         context.motions.compute();
     } catch (const sim::SolverError&) {
         try {
-            for (const auto& scene : all) scene->write_partial_tables();
+            for (const auto& scene : all) scene->write_partial_data();
         } catch (const output::IoError& also) {
             output::print_message("beamcam: {}\n", also.what());  // the solver's failure is the one to report
         }

@@ -139,21 +139,26 @@ void SceneRun::write_outputs() {
     if (sweep_ && !rejected_) sweep_->remove();
 }
 
+DataSource SceneRun::source_of(const sim::Result& run, const output::Target* file) const {
+    static const sim::Request kNone;
+    return {scene_.problem,
+            plan_.simulation ? plan_.simulation->request : kNone,
+            run,
+            context_.work,
+            file,
+            sweep_ ? &sweep_->data() : nullptr,
+            context_.progress};
+}
+
 void SceneRun::write_data(const DataFile& d) {
     stop_if_interrupted();
     const auto start = Clock::now();
-    static const sim::Request kNone;
-    DataSource from{scene_.problem,   plan_.simulation ? plan_.simulation->request : kNone,
-                    results_.run,     context_.work,
-                    nullptr,          sweep_ ? &sweep_->data() : nullptr,
-                    context_.progress};
     if (is_stdout(d.file)) {
-        d.write(from);
+        d.write(source_of(results_.run, nullptr));
     } else {
         const fs::path file = files_.path_of(d.file);
         const output::Target target = files_.target(file, d.output);
-        from.file = &target;
-        files_.wrote(file, d.write(from));
+        files_.wrote(file, d.write(source_of(results_.run, &target)));
         if (d.numbers > 0) files_.record_cost(data_work(d), static_cast<double>(d.numbers), start, {file});
     }
     context_.times.write += seconds_since(start);
@@ -244,16 +249,19 @@ void SceneRun::warn_of_omissions(const Pictures& p) const {
         context_.print("warning: {} shows no {}: {}\n", p.file, what, why_text_is_omitted(p.size));
 }
 
-void SceneRun::write_partial_tables() {
+void SceneRun::write_partial_data() {
     const sim::Result* partial = motions_.partial_results();
     if (!partial) return;
     for (const DataFile& d : plan_.data) {
-        if (is_stdout(d.file) || !d.table || *d.table >= partial->tables.size()) continue;
-        const sim::Table& table = partial->tables[*d.table];
-        if (table.rows() == 0) continue;
+        const bool rows = d.table && *d.table < partial->tables.size() && partial->tables[*d.table].rows() > 0;
+        if (is_stdout(d.file) || !(rows || d.holds_events)) continue;
         fs::path file = files_.path_of(d.file);
-        file.replace_extension(".partial.csv");
-        output::write_table(files_.target(file), reached_rows(table));
+        file.replace_extension(".partial" + (rows ? std::string(".csv") : ending_of(d.file)));
+        const output::Target target = files_.target(file);
+        if (rows)
+            output::write_table(target, reached_rows(partial->tables[*d.table]));
+        else
+            d.write(source_of(*partial, &target));
         files_.wrote(file, "as far as the solver came");
     }
 }

@@ -29,12 +29,14 @@ class SceneRun {
     // Computes the points of the scene's sweep, if outputs need them.
     void compute_sweep();
     void write_outputs();
-    // Writes the tables of a failed run under other names.
-    void write_partial_tables();
+    // Writes the tables and impacts of a failed run under other names.
+    void write_partial_data();
 
   private:
     void report_up_to_date();
     void check_libraries();
+    // Of this motion of the scene. `file`: null for standard output.
+    DataSource source_of(const sim::Result& run, const output::Target* file) const;
     void write_data(const DataFile& data);
     void write_figure(std::size_t figure);
     void write_pictures(std::size_t picture);

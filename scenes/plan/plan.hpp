@@ -122,6 +122,7 @@ struct DataFile {
     Node details = object_node();           // for the JSON of the plan
     std::size_t numbers = 0;                // in the file; 0: few enough to write in no time
     std::optional<std::size_t> table = {};  // index into Request::tables; its rows are saved if the solver fails
+    bool holds_events = false;              // those that were found are saved if the solver fails
     bool reports_work = false;              // written last, because it contains the work of all outputs
     std::optional<Cost> cost = {};
 };

@@ -23,5 +23,19 @@ TEST(Partial, TableHasTheRowsThatWereReached) {
     EXPECT_EQ(std::count(table.begin(), table.end(), '\n'), 1 + 37);  // 0 to 0.36 s
 }
 
+// Of a rigid beam that the hub presses through the cam.
+TEST(Partial, ImpactsAreThoseThatWereFound) {
+    const Folder folder;
+    folder.write("s.json", R"({"beam": {"model": "rigid"}, "hub": {"drive": {"type": "prescribed", "law": "constant",
+        "speed": -1}}, "initial": {"angle": 1}, "time": {"end": 2}})");
+    for (const std::string ending : {".json", ".csv"}) {
+        const Finished run = shell(folder, "$BEAMCAM simulate s.json --no-cache --impacts i" + ending);
+        EXPECT_EQ(run.code, 4);
+        EXPECT_THAT(run.err, ::testing::HasSubstr("wrote i.partial" + ending));
+        EXPECT_FALSE(std::filesystem::exists(folder / ("i" + ending)));
+    }
+    EXPECT_THAT(slurp(folder / "i.partial.json"), ::testing::HasSubstr("t_start"));
+}
+
 }  // namespace
 }  // namespace beamcam::scenes::testing
