@@ -2,7 +2,8 @@
 
 #include <fmt/format.h>
 
-#include <stdexcept>
+#include <algorithm>
+#include <cstddef>
 
 namespace beamcam::render {
 namespace {
@@ -40,6 +41,9 @@ constexpr LabelRow kLabels[] = {
     {ChannelKind::separation_paper, {"Separation, printed form", "分离量（印刷式）", "a", "p"}},
 };
 
+static_assert(std::ranges::equal(kLabels, sim::kChannels, {}, &LabelRow::kind, &sim::ChannelRow::kind),
+              "each channel needs a label, in the order of its row");
+
 }  // namespace
 
 std::string ChannelLabel::heading(Lang lang) const {
@@ -50,11 +54,7 @@ std::string ChannelLabel::below(sim::Channel channel) const {
     return channel.kind == ChannelKind::q ? std::to_string(channel.index) : subscript;
 }
 
-const ChannelLabel& label_of(ChannelKind kind) {
-    for (const LabelRow& row : kLabels)
-        if (row.kind == kind) return row.label;
-    throw std::logic_error("a channel without a label");
-}
+const ChannelLabel& label_of(ChannelKind kind) { return kLabels[static_cast<std::size_t>(kind)].label; }
 
 std::string print_symbol(sim::Channel channel) {
     const ChannelLabel& label = label_of(channel.kind);
