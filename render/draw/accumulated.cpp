@@ -17,25 +17,28 @@ TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& poi
     return out;
 }
 
-Box AccumulatedLayer::extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen) {
+void AccumulatedLayer::extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen) {
     const auto last = static_cast<std::size_t>(std::ranges::upper_bound(path.times, t) - path.times.begin());
-    const bool back = last < drawn_;
-    if (back) {
+    if (last < drawn_) {
         std::ranges::fill(image_.pixels, 0U);
+        painted_.clear();
         drawn_ = 0;
     }
-    if (last == drawn_) return back ? whole() : Box{};
-    Bounds changed;
+    if (last == drawn_) return;
     Canvas canvas(image_, fonts);
+    canvas.touched = &painted_;
     for (std::size_t i = std::max<std::size_t>(drawn_, 1); i < last; ++i) {
         const Vec2 a = path.points[i - 1], b = path.points[i];
-        if (std::isnan(a.x) || std::isnan(b.x)) continue;
-        canvas.line(a, b, pen);
-        changed.add(a, pen.width / 2 + 1), changed.add(b, pen.width / 2 + 1);
+        if (!std::isnan(a.x) && !std::isnan(b.x)) canvas.line(a, b, pen);
     }
     drawn_ = last;
-    if (back) return whole();
-    return changed.box();
+}
+
+void AccumulatedLayer::draw(Canvas& onto, Vec2 corner) const {
+    painted_.for_each_run([&](int left, int top, int right, int bottom) {
+        onto.image_part(image_, static_cast<int>(corner.x), static_cast<int>(corner.y),
+                        {double(left), double(top), double(right - left), double(bottom - top)});
+    });
 }
 
 }  // namespace beamcam::render

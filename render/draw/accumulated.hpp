@@ -20,14 +20,14 @@ TimedPath thinned(const std::vector<double>& times, const std::vector<Vec2>& poi
 
 class AccumulatedLayer {
   public:
-    AccumulatedLayer(int width, int height) : image_(width, height) {}
-    // Draws the pieces that end at or before t. Returns the changed box; after going back in time, the whole layer.
-    Box extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen);
-    const Image& image() const { return image_; }
-    Box whole() const { return {0, 0, double(image_.width), double(image_.height)}; }
+    AccumulatedLayer(int width, int height) : image_(width, height), painted_(width, height) {}
+    // Draws the pieces that end at or before t.
+    void extend_to(double t, const TimedPath& path, const Fonts& fonts, const Pen& pen);
+    void draw(Canvas& onto, Vec2 corner) const;  // whole pixels
 
   private:
     Image image_;
+    DirtyTiles painted_;
     std::size_t drawn_ = 0;  // number of points drawn
 };
 

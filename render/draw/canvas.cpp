@@ -84,12 +84,6 @@ void Canvas::image_tiles(const Image& source, int x, int y, const DirtyTiles& ti
     if (touched) touched->add(tiles);
 }
 
-void Canvas::replace_part(const Image& source, int x, int y, const Box& part) {
-    cairo_set_operator(cr_, CAIRO_OPERATOR_SOURCE);
-    image_part(source, x, y, part);
-    cairo_set_operator(cr_, CAIRO_OPERATOR_OVER);
-}
-
 void Canvas::paint_pixels(const std::function<void(const PixelView&, DirtyTiles*)>& paint) {
     if (limit_) throw std::logic_error("Canvas::paint_pixels: not allowed within a clip");
     cairo_surface_t* surface = cairo_get_target(cr_);

@@ -32,8 +32,6 @@ class Canvas : public Painter {
     void image_part(const Image& source, int x, int y, const Box& part);
     // Blends `source` within these tiles of the picture.
     void image_tiles(const Image& source, int x, int y, const DirtyTiles& tiles);
-    // Copies a part of `source`, alpha included, instead of blending it.
-    void replace_part(const Image& source, int x, int y, const Box& part);
     // Gives `paint` direct access to the pixels; it must mark the tiles that it changes. Not allowed within `clip`.
     void paint_pixels(const std::function<void(const PixelView&, DirtyTiles* touched)>& paint);
 

@@ -37,9 +37,6 @@ struct Film::Prepared {
         }
         draw_background();
         if (shows(LayerOf::charts)) clock.emplace(context);
-        for (std::size_t i = 0; i < panels.size(); ++i)
-            for (std::size_t k = 0; k < i; ++k)
-                if (panels[i]->accumulated_box().overlaps(panels[k]->accumulated_box())) accumulate_apart = false;
         context.fonts.reset();
         context.extent = {};  // not needed for drawing
     }
@@ -50,55 +47,30 @@ struct Film::Prepared {
     }
     void draw_moving(Canvas& canvas, int frame, Style style,
                      const std::vector<std::unique_ptr<FilmPanel::State>>& states) const;
-    std::vector<int> layer_epochs(int frame) const;
-    bool accumulate_apart = true;  // accumulated boxes of panels do not overlap
 
   private:
     void draw_background();
     void draw_header(Canvas& canvas);
 };
 
-// What a thread keeps between frames. A frame is the accumulated layer (the background and what the panels added up to
-// this frame) with the moving parts on top, unclipped; so its pixels do not depend on which frame was drawn before.
+// What a thread keeps between frames. A frame is the background with the moving parts on top, unclipped; so its pixels
+// do not depend on which frame was drawn before.
 struct Film::FrameRenderer {
     explicit FrameRenderer(const Prepared& p)
         : fonts(p.context.cjk),
           picture(p.background.width, p.background.height),
-          grown(picture.width, picture.height),
-          moved(grown),
-          changed(grown) {
+          moved(picture.width, picture.height),
+          changed(moved) {
         ++p.context.counts->font_sets;
         for (const auto& panel : p.panels) states.push_back(panel->make_state());
     }
 
-    // Advances the accumulated layer to a frame.
-    void accumulate_to(const Prepared& p, int target) {
-        std::vector<int> now = p.layer_epochs(target);
-        const bool restart = kept_frame < 0 || target < kept_frame || now != layer_epochs || !p.accumulate_apart;
-        kept_frame = -1;
-        if (restart) {
-            kept = p.background;
-            grown.add_all();
-        }
-        Canvas canvas(kept, fonts);
-        p.context.outline(canvas);
-        canvas.touched = &grown;
-        for (std::size_t i = 0; i < p.panels.size(); ++i)
-            p.panels[i]->accumulate(canvas, p.background, target, restart, states[i].get());
-        layer_epochs = std::move(now);
-        kept_frame = target;
-    }
-
     Fonts fonts;
     std::vector<std::unique_ptr<FilmPanel::State>> states;
-    Image kept;
-    int kept_frame = -1;            // < 0: none
-    std::vector<int> layer_epochs;  // of that frame
     Image picture;
     int frame = -1;  // in the picture; < 0: none
     CoverageCache coverage_cache;
-    DirtyTiles grown;    // changes of `kept` since the picture was drawn
-    DirtyTiles moved;    // where the picture may differ from `kept` at that time
+    DirtyTiles moved;    // where the picture may differ from the background
     DirtyTiles changed;  // where the picture may differ from the previous one
 };
 
@@ -168,12 +140,6 @@ bool Film::title_truncated() const { return prepared_->title_cut; }
 int Film::empty_frames() const { return prepared_->mechanism ? prepared_->mechanism->empty_frames() : 0; }
 const DrawingCounts& Film::counts() const { return *prepared_->context.counts; }
 
-std::vector<int> Film::Prepared::layer_epochs(int frame) const {
-    std::vector<int> out;
-    for (const auto& panel : panels) out.push_back(panel->layer_epoch(frame));
-    return out;
-}
-
 bool Film::repeats(int frame) const {
     if (frame < 1 || frame >= frames()) return false;
     const FilmSetup& setup = *prepared_->context.setup;
@@ -207,11 +173,8 @@ const Image& Film::draw(int frame) {
     t.changed.clear();
     if (t.frame == frame) return t.picture;
     if (std::exchange(t.frame, -1) < 0) t.moved.add_all();  // the first picture, or the last one failed
-    t.accumulate_to(*prepared_, frame);
     t.changed.add(t.moved);
-    t.changed.add(t.grown);
-    copy(t.kept, t.picture, t.changed);
-    t.grown.clear();
+    copy(prepared_->background, t.picture, t.changed);
     t.moved.clear();
     Canvas canvas(t.picture, t.fonts);
     prepared_->context.outline(canvas);
@@ -235,8 +198,7 @@ FrameGeometry Film::geometry(int frame) {
     const Prepared& p = *prepared_;
     FrameRenderer& t = renderer_for(frame);
     FrameGeometry out{p.context.places, {}, {}, p.background_texts, {}, {}};
-    t.accumulate_to(p, frame);
-    Image scratch = t.kept;
+    Image scratch = p.background;
     Canvas canvas(scratch, t.fonts);
     p.context.outline(canvas);
     canvas.record = &out.texts;

@@ -99,30 +99,24 @@ void MechanismPanel::draw_still(Canvas& canvas, const MechanismView& at) const {
 
 // ---- moving parts ----------------------------------------------------------------------------
 
-bool MechanismPanel::whole_path() const {
+bool MechanismPanel::accumulates_path() const {
     return at_.context.setup->view.tip_path && at_.context.setup->view.style != Style::solid && !cameras_.near();
 }
 
-void MechanismPanel::accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const {
-    if (!whole_path()) return;
-    ThreadState& threads = *static_cast<ThreadState*>(state);
+void MechanismPanel::draw_accumulated_path(Canvas& canvas, int frame, ThreadState& threads) const {
     const double t = at_.context.at(at_.member, frame);
-    Pen pen{at_.palette.motion_faint, 1.6 * at_.unit};
-    Box changed = threads.path.extend_to(t, tip_path_.whole(), kept.fonts(), pen);
-    if (kept.casing) {
-        pen = {kept.casing->color, pen.width + kept.casing->width};
-        changed = threads.path_casing.extend_to(t, tip_path_.whole(), kept.fonts(), pen);  // it is wider
-    }
-    if (restart) changed = threads.path.whole();
-    if (changed.empty()) return;
-    kept.replace_part(background, 0, 0, {changed.x + at_.box.x, changed.y + at_.box.y, changed.w, changed.h});
-    for (const AccumulatedLayer* each : {&threads.path_casing, &threads.path})
-        if (each == &threads.path || kept.casing)
-            kept.image_part(each->image(), static_cast<int>(at_.box.x), static_cast<int>(at_.box.y), changed);
+    const Pen pen{at_.palette.motion_faint, 1.6 * at_.unit};
+    const auto draw = [&](AccumulatedLayer& layer, const Pen& with) {
+        layer.extend_to(t, tip_path_.whole(), canvas.fonts(), with);
+        layer.draw(canvas, {at_.box.x, at_.box.y});
+    };
+    if (canvas.casing) draw(threads.path_casing, {canvas.casing->color, pen.width + canvas.casing->width});
+    draw(threads.path, pen);
 }
 
 void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) const {
     auto& threads = *static_cast<ThreadState*>(state);
+    if (accumulates_path()) draw_accumulated_path(canvas, frame, threads);
     if (!cameras_.near()) return draw_moving(canvas, at_, frame, style, threads);
     const MechanismView at = cameras_.view(frame);
     threads.seen.put(canvas, at.box, [&](Canvas& inside) {
@@ -211,9 +205,9 @@ void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, Thread
     }
 }
 
-// The whole path of the tip, unless it is on the accumulated layer, or its last part.
+// The whole path of the tip, unless its layer is drawn already, or its last part.
 void MechanismPanel::draw_tip_path(const MechanismScene& s) const {
-    if (whole_path()) return;
+    if (accumulates_path()) return;
     if (at_.context.setup->view.tip_path)
         tip_path_.draw_whole(s, at_);
     else

@@ -19,8 +19,6 @@ class MechanismPanel final : public FilmPanel {
 
     std::unique_ptr<State> make_state() const override;
     void draw_background(Canvas& canvas) const override;
-    void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const override;
-    Box accumulated_box() const override { return whole_path() ? at_.box : Box{}; }
     bool animates_while_paused(int frame) const override;
     void draw(Canvas& canvas, int frame, Style style, State* state) const override;
 
@@ -46,7 +44,8 @@ class MechanismPanel final : public FilmPanel {
     void place_captions();
 
     bool view_strobes() const { return at_.context.setup->view.strobe; }
-    bool whole_path() const;  // draw all of the tip's path on an accumulated layer, instead of a trail
+    bool accumulates_path() const;  // the tip's whole path is on a layer, as the camera does not move
+    void draw_accumulated_path(Canvas& canvas, int frame, ThreadState& threads) const;
     void draw_tip_path(const MechanismScene& s) const;
 
     MechanismView at_;

@@ -290,6 +290,4 @@ void stroke_places(Canvas& canvas, const FilmContext& context, const std::vector
     }
 }
 
-void FilmPanel::accumulate(Canvas&, const Image&, int, bool, State*) const {}
-
 }  // namespace beamcam::render

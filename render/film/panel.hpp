@@ -1,8 +1,7 @@
-// A panel: a box of the frame, drawn in three layers: a background that never changes, an accumulated layer to which
-// time only adds, and the moving parts on top.
+// A panel: a box of the frame, drawn in two layers: a background that never changes, and the moving parts on top.
 //
 // Panels are created once for a film and shared by all drawing threads. Data that a thread keeps between frames (a GL
-// context, an accumulated layer) is its State, which may save time but never changes a pixel.
+// context, the path of a point up to the last frame) is its State, which may save time but never changes a pixel.
 #pragma once
 
 #include <memory>
@@ -98,15 +97,6 @@ class FilmPanel {
 
     virtual std::unique_ptr<State> make_state() const { return nullptr; }
     virtual void draw_background(Canvas& canvas) const = 0;
-
-    // Adds to `kept`, below the moving parts, everything up to this frame that stays visible from then on. `kept` is
-    // the background with what this panel added for earlier frames of the same epoch, or `background` alone when
-    // `restart`.
-    virtual void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const;
-    // The accumulated layer starts again from the background when this number changes.
-    virtual int layer_epoch(int /*frame*/) const { return 0; }
-    // The part of the frame that accumulates; empty if none does [px].
-    virtual Box accumulated_box() const { return {}; }
 
     // The panel changes between the previous frame and this one even if both show the same instant.
     virtual bool animates_while_paused(int) const { return false; }

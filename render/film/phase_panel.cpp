@@ -40,7 +40,7 @@ class PhasePanel final : public FilmPanel {
 
     std::unique_ptr<State> make_state() const override {
         auto state = std::make_unique<Layers>();
-        const Box box = accumulated_box();
+        const Box box = paths_box();
         for (std::size_t i = 0; i < paths_.size(); ++i)
             state->layers.emplace_back(static_cast<int>(box.w), static_cast<int>(box.h));
         return state;
@@ -64,27 +64,13 @@ class PhasePanel final : public FilmPanel {
         }
     }
 
-    Box accumulated_box() const override { return plot_.box().inset(-8); }
-    void accumulate(Canvas& kept, const Image& background, int frame, bool restart, State* state) const override {
+    void draw(Canvas& canvas, int frame, Style, State* state) const override {
         auto& layers = static_cast<Layers*>(state)->layers;
-        std::vector<Box> changed;
-        for (std::size_t m = 0; m < paths_.size(); ++m)
-            changed.push_back(layers[m].extend_to(context_.at(static_cast<int>(m), frame), paths_[m], kept.fonts(),
-                                                  {color(m), 1.3 * context_.unit}));
-        if (restart && !layers.empty()) changed = {layers.front().whole()};
-        const Box at = accumulated_box();
-        for (const Box& box : changed) composite(kept, background, layers, box, at);
-    }
-    // Paths overlap: where one changed, all are composited again.
-    static void composite(Canvas& kept, const Image& background, const std::vector<AccumulatedLayer>& layers,
-                          const Box& part, const Box& at) {
-        if (part.empty()) return;
-        kept.replace_part(background, 0, 0, {part.x + at.x, part.y + at.y, part.w, part.h});
-        for (const AccumulatedLayer& layer : layers)
-            kept.image_part(layer.image(), static_cast<int>(at.x), static_cast<int>(at.y), part);
-    }
-
-    void draw(Canvas& canvas, int frame, Style, State*) const override {
+        for (std::size_t m = 0; m < paths_.size(); ++m) {
+            layers[m].extend_to(context_.at(static_cast<int>(m), frame), paths_[m], canvas.fonts(),
+                                {color(m), 1.3 * context_.unit});
+            layers[m].draw(canvas, corner());
+        }
         for (std::size_t m = 0; m < paths_.size(); ++m) {
             const sim::Pose& pose = context_.pose(static_cast<int>(m), frame);
             canvas.circle(to_pixels(pose.theta, pose.theta_dot), 6 * context_.unit);
@@ -108,7 +94,8 @@ class PhasePanel final : public FilmPanel {
                 .grid = true};
     }
     Vec2 to_pixels(double theta, double speed) const { return plot_.at(x_factor_ * theta, y_factor_ * speed); }
-    Vec2 corner() const { return {accumulated_box().x, accumulated_box().y}; }
+    Box paths_box() const { return plot_.box().inset(-8); }
+    Vec2 corner() const { return {paths_box().x, paths_box().y}; }
     TimedPath path(int member) const {
         const sim::Table& table = context_.motion(member).chart;
         const auto *t = column(table, {ChannelKind::t, 0}), *x = column(table, {ChannelKind::theta, 0}),

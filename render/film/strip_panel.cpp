@@ -38,9 +38,6 @@ class CollisionPanel final : public FilmPanel {
     struct Shown final : State {
         std::optional<Chart> chart;
         std::size_t which = 0;
-        Image past;              // the plot after the end of the collision
-        double until = 0;        // first column of the picture without past
-        std::vector<Box> texts;  // of the axes
     };
 
   public:
@@ -63,42 +60,18 @@ class CollisionPanel final : public FilmPanel {
 
     void draw_background(Canvas&) const override {}
     std::unique_ptr<State> make_state() const override { return std::make_unique<Shown>(); }
-    int layer_epoch(int frame) const override { return static_cast<int>(shown(context_.at(0, frame))); }
-    Box accumulated_box() const override { return box_.inset(-8); }
-
-    // Draws the axes when a collision begins, then adds its past column by column.
-    void accumulate(Canvas& kept, const Image&, int frame, bool restart, State* state) const override {
-        Shown& s = *static_cast<Shown*>(state);
-        const double now = context_.at(0, frame);
-        const std::size_t which = shown(now);
-        if (!s.chart || s.which != which) {
-            s.chart.emplace(content_of(which), box_, plot_, chart_style(context_), kept.fonts());
-            s.which = which;
-            s.past = s.chart->past(kept.fonts());
-        }
-        if (restart) {
-            s.texts.clear();
-            kept.record = &s.texts;
-            s.chart->draw_background(kept);
-            kept.record = nullptr;
-            s.until = s.chart->past_box().x;
-        }
-        const double t = now - start(which);
-        if (!(t > s.chart->time().low)) return;
-        // After its end everything is past.
-        const double until = t > s.chart->time().high ? plot_.right() + 1 : s.chart->past_column(t);
-        copy_past(kept, *s.chart, s.past, until, s.until);
-    }
 
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
-        const Shown& s = *static_cast<const Shown*>(state);
-        if (canvas.record) canvas.record->insert(canvas.record->end(), s.texts.begin(), s.texts.end());
-        const sim::Pose& pose = context_.pose(0, frame);
-        const double t = pose.t - start(s.which);
-        if (t < s.chart->time().low || t > s.chart->time().high) return;
+        Shown& s = *static_cast<Shown*>(state);
+        const double now = context_.at(0, frame);
+        if (const std::size_t which = shown(now); !s.chart || s.which != which) {
+            s.chart.emplace(content_of(which), box_, plot_, chart_style(context_), canvas.fonts());
+            s.which = which;
+        }
+        s.chart->draw_background(canvas);
         std::vector<double> readings;
         for (const Channel channel : spec_.channels) readings.push_back(reading(context_, 0, frame, channel));
-        s.chart->draw_moving(canvas, t, readings);
+        s.chart->draw_moving(canvas, now - start(s.which), readings);
     }
 
   private:

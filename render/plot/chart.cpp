@@ -33,6 +33,7 @@ Chart::Chart(ChartContent content, const Box& box, const Box& plot, const figure
     Image none(1, 1);
     plot_.place(Canvas(none, fonts), plot);
     digits_ = std::clamp(2 - static_cast<int>(std::floor(std::log10(plot_.y().step()) + 1e-9)), 0, 6);
+    if (!windowed()) draw_whole_past(fonts);
 }
 
 Range window_around(double t, double length) {
@@ -66,16 +67,14 @@ void Chart::draw_background(Canvas& canvas) const {
     plot_.draw_frame(canvas);
 }
 
-Image Chart::past(const Fonts& fonts) const {
-    if (windowed()) return {};
+void Chart::draw_whole_past(const Fonts& fonts) {
     const Box box = past_box();
-    Image image(static_cast<int>(box.w), static_cast<int>(box.h));
-    Canvas canvas(image, fonts);
+    past_ = Image(static_cast<int>(box.w), static_cast<int>(box.h));
+    Canvas canvas(past_, fonts);
     outline_on(canvas, palette_, style_.unit);
     figure::Plot moved = plot_;
     moved.move_data({-box.x, -box.y});
     moved.draw_data(canvas, whole(true));
-    return image;
 }
 
 void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readings) const {
@@ -84,6 +83,15 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
     // Past and future meet at the cursor: each is drawn within its own part of the plot.
     const double cut = cursor_column(view, t) + 1, top = plot.y - kAround;
     double from = plot.x;
+    if (!windowed()) {
+        const Box box = past_box();
+        const bool over = t > time().high;  // everything is past
+        if (over || t >= time().low) {
+            from = std::max<double>(over ? std::lround(plot.right() + 1) : past_column(t), box.x);
+            canvas.image_part(past_, static_cast<int>(box.x), static_cast<int>(box.y), {0, 0, from - box.x, box.h});
+        }
+        if (over || t < time().low) return;
+    }
     std::optional<figure::Plot> shown;  // the window
     if (windowed()) {
         shown = plot_;
@@ -92,8 +100,6 @@ void Chart::draw_moving(Canvas& canvas, double t, std::span<const double> readin
         canvas.clip({cut, top, plot.right() - cut, plot.h + 9}, [&] {
             shown->draw_data(canvas, {view.low, view.high, false});
         });
-    } else {
-        from = std::max(past_column(t), static_cast<int>(past_box().x));
     }
     // Some columns before the first are drawn, too: the curve starts there.
     const double column = (view.high - view.low) / plot.w, before = 4 * style_.unit + 4;

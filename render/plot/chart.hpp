@@ -1,9 +1,8 @@
 // A strip chart of a film: a plot whose curves are faint in the future and strong in the past, with a heading, a cursor
 // and readings; over the time of the whole film, or over a window of time that moves with the instant.
 //
-// Over the whole film the past is a cached layer that is shown up to a few columns before the cursor; these columns are
-// drawn from the rows up to the instant. Thus no later row is ever drawn as past, and frames have the same pixels in
-// any order.
+// Over the whole film the past is an image, drawn once, of which the columns up to a few before the cursor are shown;
+// these few are drawn from the rows up to the instant. Thus no later row is ever drawn as past.
 #pragma once
 
 #include <cmath>
@@ -47,22 +46,21 @@ class Chart {
     Chart& operator=(const Chart&) = delete;
 
     void draw_background(Canvas& canvas) const;  // axes, labels, the future
-    // All curves as past, of the size of `past_box`; columns up to `past_column` may be shown. Empty with a window.
-    Image past(const Fonts& fonts) const;
+    // The curves until t, and the cursor, which is only within the time of the chart. `readings`: the values of the
+    // curves at the cursor; NaN: none.
+    void draw_moving(Canvas& canvas, double t, std::span<const double> readings) const;
+    Range time() const { return c_.time(); }
+
+  private:
+    static constexpr double kAround = 8;  // above and beside the plot that the past may reach [px]
+    bool windowed() const { return c_.window.has_value(); }
     Box past_box() const {
         const Box around = plot_.box().inset(-kAround);
         return {around.x, around.y, around.w, around.h - kAround + std::ceil(plot_.numbers_below())};
     }
     // The first column that may hold future at t: the stroke of a later row may reach into it.
     int past_column(double t) const;
-    // The moving part: the last columns of the curves until t, with a window all columns. `readings`: the values of the
-    // curves at the cursor; NaN: none.
-    void draw_moving(Canvas& canvas, double t, std::span<const double> readings) const;
-    Range time() const { return c_.time(); }
-    bool windowed() const { return c_.window.has_value(); }
-
-  private:
-    static constexpr double kAround = 8;  // above and beside the plot that the past may reach [px]
+    void draw_whole_past(const Fonts& fonts);
     figure::Interval whole(bool past) const { return {time().low, time().high, past}; }
     int cursor_column(const Range& view, double t) const;
     void draw_cursor(Canvas& canvas, double x, std::span<const double> readings) const;
@@ -81,6 +79,7 @@ class Chart {
     figure::PlotStyle style_;
     const Palette& palette_;
     figure::Plot plot_;
+    Image past_;      // all curves as past, of the size of `past_box`; empty with a window
     int digits_ = 0;  // decimals of the reading
 };
 
