@@ -55,8 +55,6 @@ void Canvas::rounded(const Box& b, double r) {
     cairo_arc(cr_, b.x + r, b.bottom() - r, r, q, 2 * q);
     cairo_arc(cr_, b.x + r, b.y + r, r, 2 * q, 3 * q);
     cairo_close_path(cr_);
-    add_to_key('O', {b.x, b.y, b.w, b.h, r});
-    if (touched) path_.add(b);
 }
 
 void Canvas::paint(Color c) {
@@ -126,13 +124,11 @@ Box Canvas::text(Vec2 at, std::string_view markup, const TextStyle& style) {
             const Vec2 from = at + Vec2{run.x, run.y};
             cairo_move_to(cr_, from.x, from.y - baseline_of(letters));
             pango_cairo_layout_path(cr_, letters);
-            add_to_key('t', {from.x, from.y}, face_of(run, style, fonts_->typefaces()).key(run.run.text));
         }
-        if (touched) path_.add(ink);
         uncased([&] {
             // Wide and faint under narrow and strong: the outline fills the inside of small letters softly.
             if (outline)
-                for (const double glow : kGlow) stroke_path({halo->faded(kGlowOpacity), glow * style.size}, "");
+                for (const double glow : kGlow) stroke_path({halo->faded(kGlowOpacity), glow * style.size}, false);
             stroke({*halo, wide});
         });
     }

@@ -16,7 +16,7 @@
 
 namespace beamcam::render {
 
-// The last few hundred text layouts: most texts of a frame also are in the previous one.
+// A few hundred text layouts: most texts of a frame also are in the previous one.
 class LayoutCache {
   public:
     LayoutCache() = default;
@@ -26,24 +26,18 @@ class LayoutCache {
     // The layout is owned by the cache and valid until the next call.
     template <typename Make>
     PangoLayout* get(const std::string& key, Make make) {
-        if (const auto known = latest_.find(key); known != latest_.end()) return known->second;
-        if (latest_.size() >= kMostLayouts) {
-            drop(before_);
-            before_ = std::exchange(latest_, {});
-        }
-        if (auto known = before_.extract(key)) return latest_.insert(std::move(known)).position->second;
-        return latest_.emplace(key, make()).first->second;
+        if (const auto known = layouts_.find(key); known != layouts_.end()) return known->second;
+        if (layouts_.size() >= kMostLayouts) clear();
+        return layouts_.emplace(key, make()).first->second;
     }
-    void clear() { drop(latest_), drop(before_); }
+    void clear() {
+        for (const auto& [key, layout] : layouts_) g_object_unref(layout);
+        layouts_.clear();
+    }
 
   private:
-    static constexpr std::size_t kMostLayouts = 256;
-    using Layouts = std::unordered_map<std::string, PangoLayout*>;
-    static void drop(Layouts& layouts) {
-        for (const auto& [key, layout] : layouts) g_object_unref(layout);
-        layouts.clear();
-    }
-    Layouts latest_, before_;
+    static constexpr std::size_t kMostLayouts = 512;
+    std::unordered_map<std::string, PangoLayout*> layouts_;
 };
 
 struct Fonts::Handles {

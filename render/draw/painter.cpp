@@ -1,6 +1,7 @@
 #include "render/draw/painter.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <numbers>
@@ -54,25 +55,49 @@ void Painter::mark_painted(const Box& box) {
     if (!within.empty()) touched->add(within);
 }
 
-// A stroke marks the boxes of its path; a fill marks the box around all of them.
-void Painter::mark_path_painted(double around, bool inside) {
-    if (!touched) return;
-    if (!inside) {
-        for (const Box& box : path_.boxes()) mark_painted(box.inset(-around));
-        return;
+namespace {
+
+void append(std::string& key, std::span<const double> numbers) {
+    key.append(reinterpret_cast<const char*>(numbers.data()), numbers.size_bytes());
+}
+
+// Everything that identifies the path.
+std::string key_of_path(cairo_t* cr) {
+    cairo_path_t* const path = cairo_copy_path(cr);
+    std::string key;
+    for (int i = 0; i < path->num_data; i += path->data[i].header.length) {
+        key += static_cast<char>('0' + path->data[i].header.type);
+        for (int k = 1; k < path->data[i].header.length; ++k) {
+            const auto& [x, y] = path->data[i + k].point;
+            append(key, std::array{x, y});
+        }
     }
-    if (!path_.boxes().empty()) mark_painted(path_.around());
+    cairo_path_destroy(path);
+    return key;
 }
 
-void Painter::add_to_key(char what, std::initializer_list<double> numbers, std::string_view words) {
-    if (!keeps_coverage()) return;
-    key_.append(1, what).append(words);
-    key_.append(reinterpret_cast<const char*>(numbers.begin()), numbers.size() * sizeof(double));
+Box box_of_path(cairo_t* cr) {
+    double x0 = 0, y0 = 0, x1 = 0, y1 = 0;
+    cairo_path_extents(cr, &x0, &y0, &x1, &y1);
+    return {x0, y0, x1 - x0, y1 - y0};
 }
 
-void Painter::paint_path(Color color, const std::string& name, const Box& box,
-                         const std::function<void(cairo_t*)>& paint) {
-    if (keeps_coverage() && !name.empty() && coverage_cache->paint(name, box, color, cr_, paint)) return;
+}  // namespace
+
+void Painter::paint_path(Color color, double around, bool cached, std::initializer_list<double> how,
+                         std::span<const double> dash, const std::function<void(cairo_t*)>& paint) {
+    bool painted = false;
+    if (touched && cairo_has_current_point(cr_)) {
+        const Box box = box_of_path(cr_).inset(-around);
+        mark_painted(box);
+        if (cached && coverage_cache && !limit_) {
+            std::string key = key_of_path(cr_);
+            append(key, how);
+            append(key, dash);
+            painted = coverage_cache->paint(key, box.inset(-2), color, cr_, paint);
+        }
+    }
+    if (painted) return;
     set_source(color);
     paint(cr_);
 }
@@ -81,18 +106,12 @@ void Painter::paint_path(Color color, const std::string& name, const Box& box,
 
 void Painter::move_to(Vec2 p) {
     cairo_move_to(cr_, p.x, p.y);
-    add_to_key('m', {p.x, p.y});
-    if (touched) path_.move_to(p);
 }
 void Painter::line_to(Vec2 p) {
     cairo_line_to(cr_, p.x, p.y);
-    add_to_key('l', {p.x, p.y});
-    if (touched) path_.line_to(p);
 }
 void Painter::close() {
     cairo_close_path(cr_);
-    add_to_key('z', {});
-    if (touched) path_.close();
 }
 
 void Painter::polyline(std::span<const Vec2> points) {
@@ -112,22 +131,16 @@ void Painter::arc(Vec2 c, double radius, double from, double to) {
         cairo_arc_negative(cr_, c.x, c.y, radius, -from, -to);
     else
         cairo_arc(cr_, c.x, c.y, radius, -from, -to);
-    add_to_key('a', {c.x, c.y, radius, from, to});
-    if (touched) path_.arc(c, radius, from, to);
 }
 
 void Painter::circle(Vec2 c, double radius) {
     cairo_new_sub_path(cr_);
     cairo_arc(cr_, c.x, c.y, radius, 0, 2 * std::numbers::pi);
     cairo_close_path(cr_);
-    add_to_key('o', {c.x, c.y, radius});
-    if (touched) path_.circle(c, radius);
 }
 
 void Painter::rectangle(const Box& b) {
     cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
-    add_to_key('r', {b.x, b.y, b.w, b.h});
-    if (touched) path_.rectangle(b);
 }
 
 // A shaft and a filled head; an arrow shorter than its head is only a smaller head.
@@ -146,7 +159,7 @@ void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
     };
     if (casing) {
         add_head();
-        stroke_path({casing->color, casing->width, {}, Cap::butt}, "");
+        stroke_path({casing->color, casing->width, {}, Cap::butt}, false);
         new_path();
     }
     if (length > tip) line(from, to - u * (0.8 * tip), {pen.color, pen.width, pen.dash, Cap::butt});
@@ -162,36 +175,28 @@ void Painter::fill(Color c) {
 }
 void Painter::fill_keeping_path(Color c) {
     // Translucent fills are faster in Cairo than from cached coverage.
-    const bool kept = !key_.empty() && c.a == 1;
-    paint_path(c, kept ? key_ : "", path_.around().inset(-2), cairo_fill_preserve);
-    mark_path_painted(0, true);
+    paint_path(c, 0, c.a == 1, {}, {}, cairo_fill_preserve);
 }
 void Painter::new_path() {
     cairo_new_path(cr_);
-    path_.clear();
-    key_.clear();
 }
 void Painter::stroke(const Pen& pen) {
     constexpr double kFaint = 0.5;
     if (casing && pen.color.a > kFaint && pen.color.faded(0) != casing->color.faded(0))
         stroke_path(
             {casing->color.faded((pen.color.a - kFaint) / (1 - kFaint)), pen.width + casing->width, pen.dash, pen.cap},
-            "");
-    if (!key_.empty()) {
-        add_to_key(pen.cap == Cap::round ? 'R' : 'B', {pen.width});
-        for (double length : pen.dash) add_to_key('d', {length});
-    }
-    stroke_path(pen, key_);
+            false);
+    stroke_path(pen, true);
     new_path();
 }
-void Painter::stroke_path(const Pen& pen, const std::string& name) {
-    paint_path(pen.color, name, path_.around().inset(-pen.width / 2 - 2), [&](cairo_t* cr) {
+void Painter::stroke_path(const Pen& pen, bool cached) {
+    const double cap = pen.cap == Cap::round ? 1 : 0;
+    paint_path(pen.color, pen.width / 2, cached, {pen.width, cap}, pen.dash, [&](cairo_t* cr) {  // joins are round
         cairo_set_line_width(cr, pen.width);
         cairo_set_line_cap(cr, pen.cap == Cap::round ? CAIRO_LINE_CAP_ROUND : CAIRO_LINE_CAP_BUTT);
         cairo_set_dash(cr, pen.dash.data(), static_cast<int>(pen.dash.size()), 0);
         cairo_stroke_preserve(cr);
     });
-    mark_path_painted(pen.width / 2, false);  // joins are round
 }
 void Painter::line(Vec2 from, Vec2 to, const Pen& pen) {
     move_to(from);

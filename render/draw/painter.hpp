@@ -14,7 +14,6 @@
 #include "render/draw/coverage_cache.hpp"
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/geometry.hpp"
-#include "render/draw/path_boxes.hpp"
 
 using cairo_t = struct _cairo;                  // NOLINT(bugprone-reserved-identifier): the library's own names
 using cairo_surface_t = struct _cairo_surface;  // NOLINT(bugprone-reserved-identifier)
@@ -96,28 +95,24 @@ class Painter {
     void set_source(Color color);
     void mark_painted(const Box& box);  // adds its tiles to `touched`, with a pixel of antialiasing
     void new_path();
-    void stroke_path(const Pen& pen, const std::string& name);  // keeps the path
-    // Appends to the key that identifies the path in the coverage cache.
-    void add_to_key(char what, std::initializer_list<double> numbers, std::string_view words = {});
-    // Paints the path, or its cached coverage `name`.
-    void paint_path(Color color, const std::string& name, const Box& box, const std::function<void(cairo_t*)>& paint);
+    void stroke_path(const Pen& pen, bool cached);  // keeps the path
     // Draws a label whose baseline starts at `at`.
     void draw_label(const SetLabel& label, Vec2 at, const TextStyle& style);
     // Draws the letters of a run in the colour that is set.
     virtual void write(const SetRun& run, Vec2 at, const TextStyle& style);
     const Fonts* fonts_;
-    bool keeps_coverage() const { return coverage_cache && touched && !limit_; }
     cairo_t* cr_ = nullptr;
     Color (*recolor_)(Color) = nullptr;  // if set, maps colours before painting
     const Box* limit_ = nullptr;         // the clip; null: none
-    PathBoxes path_;                     // of the path, while `touched` is set
 
   private:
     cairo_surface_t* surface_ = nullptr;
     int exceptions_ = 0;  // number of active exceptions when drawing began
     void place(const Image& image, const Box& into, bool smooth);
-    void mark_path_painted(double around, bool inside);
-    std::string key_;  // of the path, while coverage is cached
+    // Paints the path, which reaches this far beyond its points, or its cached coverage. `how`: what coverage depends
+    // on beside the path.
+    void paint_path(Color color, double around, bool cached, std::initializer_list<double> how,
+                    std::span<const double> dash, const std::function<void(cairo_t*)>& paint);
 };
 
 }  // namespace beamcam::render
