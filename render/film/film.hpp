@@ -78,6 +78,8 @@ struct Motion {
     // Poses over the time that the film shows, in any order. Scales and camera are chosen from them, so that they do
     // not depend on the instants of the frames. Absent: the frames are used.
     std::shared_ptr<const PoseStore> survey;
+    // Poses between frames that are far apart, for the path of the tip, times increasing; null: none.
+    std::shared_ptr<const PoseStore> path;
     sim::Table chart;  // t and the channels that the panels show, times increasing; any number of rows
     sim::Table trace;  // t, contact_x, contact_s, contact_force, finely sampled; rows with force > 0 are dots
     std::vector<sim::Impact> impacts;

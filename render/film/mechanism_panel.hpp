@@ -39,6 +39,7 @@ class MechanismPanel final : public FilmPanel {
                      std::vector<Box>* labels = nullptr) const;
 
     void add_survey(SweptRegion& swept) const;
+    void add_tips_before(int frame);
     LabelNeeds add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed);
     std::vector<Box> moving_under(const Callout& caption) const;
     void place_captions();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <vector>
 
 #include "render/film/caption_places.hpp"
@@ -54,6 +55,17 @@ static void add_measured(const MechanismView& at, const Pose& pose, const DrawnB
     }
 }
 
+// Between the previous frame and this one.
+void MechanismPanel::add_tips_before(int frame) {
+    const PoseStore* path = at_.motion().path.get();
+    if (!path || frame == 0) return;
+    const double from = at_.context.at(at_.member, frame - 1), to = at_.context.at(at_.member, frame);
+    const auto first = std::ranges::partition_point(std::views::iota(std::size_t{0}, path->size()),
+                                                    [&](std::size_t i) { return path->time(i) <= from; });
+    for (std::size_t i = *first; i < path->size() && path->time(i) < to; ++i)
+        tip_path_.add_between_frames(knot_of(at_, path->pose(i)));
+}
+
 LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contact, std::vector<Followed>& followed) {
     LabelNeeds needs{{kInfinity, -kInfinity}, kInfinity, {}, {}};
     Bounds seen;
@@ -65,7 +77,8 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
         const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
-        tip_path_.add_frame(tip, pose.theta, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
+        add_tips_before(k);
+        tip_path_.add_frame({pose.t, tip, pose.theta}, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
         followed.push_back({at_.look.camera.to_world(tip),
                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
                             at_.problem().cam ? pose.cam_centre : Vec2{}});
@@ -83,6 +96,7 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
         seen.add(shape.hinge, shape.hub);
         if (shape.disc) seen.add(shape.disc->centre, shape.disc->radius);
     }
+    tip_path_.complete(at_);
     for (int k = 0; k + 1 < at_.context.frames(); ++k)
         for (SweptRegion* each : {&swept, &in_contact})
             each->add_curve(tip_path_.piece(at_, static_cast<std::size_t>(k)));  // the trail

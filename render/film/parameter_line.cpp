@@ -10,6 +10,12 @@
 namespace beamcam::render {
 namespace {
 
+// The least size of the letters of parameters, whose scripts are smaller: about that of the numbers at axes.
+double least_letters(const Layout& places) {
+    constexpr double kReadable = 10, kOfTicks = 0.9;  // [px]
+    return std::min(kReadable, kOfTicks * places.tick);
+}
+
 // A row of text from `x` to `right`, on its baseline.
 struct TextRow {
     double x = 0, right = 0, y = 0;
@@ -118,6 +124,7 @@ ParameterLine parameter_line(Canvas& canvas, const Layout& places, const std::st
     std::vector<TextRow> rows{{b.x, b.right(), b.y + 24 * u}};
     const auto choose = [&](const std::vector<TextRow>& into) {
         for (const auto& [size, gap] : {std::pair{21, 26}, {21, 16}, {19, 16}, {17, 14}}) {
+            if (size * u < least_letters(places)) continue;
             const TextStyle style{.size = size * u};
             const std::vector<Vec2> at = placed(canvas, pieces, style, gap * u, into);
             if (at.size() <= out.pieces.size()) continue;

@@ -1,7 +1,10 @@
 #include "render/film/tip_path.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
+#include <utility>
 
 #include "render/draw/smooth_path.hpp"
 
@@ -13,14 +16,6 @@ constexpr double kArcStep = 6;         // step of the drawn curve [design px]
 constexpr double kFarTurn =
     0.5;  // rotation of the hub between positions above which the error of a spline exceeds half a pixel [rad]
 
-// The curve between positions k and k + 1.
-std::vector<Vec2> curve_between(const MechanismView& home, std::span<const Vec2> tips, std::span<const double> angles,
-                                std::size_t k) {
-    const double turn = angles[k + 1] - angles[k], step = kArcStep * home.unit;
-    if (std::abs(turn) < kFarTurn) return smooth_piece(tips, k, step);
-    return turning_piece(home.px({0, 0}), tips[k], tips[k + 1], turn, step);
-}
-
 // A point of the path in the view of the scene's camera.
 Vec2 seen_in(const MechanismScene& s, const MechanismView& home, Vec2 p) {
     return s.on(s.at.moved ? s.at.px(home.look.camera.to_world(p)) : p);
@@ -28,42 +23,110 @@ Vec2 seen_in(const MechanismScene& s, const MechanismView& home, Vec2 p) {
 
 }  // namespace
 
-void TipPath::add_frame(Vec2 tip, double angle, bool moved) {
-    tips_.push_back(tip);
-    angles_.push_back(angle);
+TipPath::Knot knot_of(const MechanismView& home, const sim::Pose& pose) {
+    const DrawnBeam b = home.drawn(home.member, pose);
+    const std::size_t tip = b.line.size() - 1;
+    return {pose.t, home.px((b.face(tip) + b.back(tip)) * 0.5), pose.theta};
+}
+
+void TipPath::Knots::add(const Knot& knot) {
+    times.push_back(knot.t), points.push_back(knot.at), angles.push_back(knot.angle);
+}
+
+// The curve between positions k and k + 1.
+std::vector<Vec2> TipPath::curve_between(const MechanismView& home, const Knots& knots, std::size_t k) {
+    const double turn = knots.angles[k + 1] - knots.angles[k], step = kArcStep * home.unit;
+    if (std::abs(turn) < kFarTurn) return smooth_piece(knots.points, k, step);
+    return turning_piece(home.px({0, 0}), knots.points[k], knots.points[k + 1], turn, step);
+}
+
+void TipPath::add_frame(const Knot& knot, bool moved) {
+    frames_.push_back(knots_.points.size());
+    knots_.add(knot);
     moved_.push_back((moved_.empty() ? 0 : moved_.back()) + (moved ? 1 : 0));
 }
 
+void TipPath::add_between_frames(const Knot& knot) { knots_.add(knot); }
+
+// Whether the state at the end of the film, which the survey contains, is the one at its first frame.
+bool TipPath::closes(const MechanismView& home) const {
+    constexpr double kSamePlace = 1, kSameSpeed = 1e-3;  // [px], share of the speed
+    const Motion& motion = home.motion();
+    if (!motion.survey || motion.surveyed() < 2 || frames_.size() < 3) return false;
+    const sim::Pose first = motion.pose(0), end = motion.surveyed(motion.surveyed() - 1);
+    const double step = motion.time(frames_.size() - 1) - motion.time(frames_.size() - 2);
+    const bool is_next = std::abs(end.t - motion.time(frames_.size() - 1) - step) < 0.5 * step;
+    return is_next && first.t >= 0.999 * (end.t - first.t) &&
+           norm(knot_of(home, end).at - knots_.points.front()) < kSamePlace &&
+           std::abs(end.theta_dot - first.theta_dot) <= kSameSpeed * std::abs(first.theta_dot);
+}
+
+// Whether a knot between this frame and the next one is farther than a pixel from the curve through the frames alone.
+bool TipPath::needs_between(const MechanismView& home, const Knots& of_frames, std::size_t frame) const {
+    constexpr double kStray = 1;  // [px]
+    const std::vector<Vec2> curve = curve_between(home, of_frames, frame);
+    const auto distance = [&](Vec2 p, std::size_t i) {  // from a piece of the curve
+        const Vec2 a = curve[i], way = curve[i + 1] - a;
+        const double share = dot(way, way) > 0 ? std::clamp(dot(p - a, way) / dot(way, way), 0.0, 1.0) : 0;
+        return norm(p - (a + way * share));
+    };
+    for (std::size_t k = frames_[frame] + 1; k < frames_[frame + 1]; ++k) {
+        double least = std::numeric_limits<double>::infinity();
+        for (std::size_t i = 0; i + 1 < curve.size(); ++i) least = std::min(least, distance(knots_.points[k], i));
+        if (least > kStray) return true;
+    }
+    return false;
+}
+
+void TipPath::complete(const MechanismView& home) {
+    if (frames_.empty()) return;
+    Knots of_frames, needed;
+    const auto add = [&](Knots& to, std::size_t k) {
+        to.add({knots_.times[k], knots_.points[k], knots_.angles[k]});
+    };
+    for (const std::size_t k : frames_) add(of_frames, k);
+    std::vector<std::size_t> frames;
+    for (std::size_t f = 0; f < frames_.size(); ++f) {
+        frames.push_back(needed.points.size());
+        add(needed, frames_[f]);
+        if (f + 1 == frames_.size() || !needs_between(home, of_frames, f)) continue;
+        for (std::size_t k = frames_[f] + 1; k < frames_[f + 1]; ++k) add(needed, k);
+    }
+    knots_ = std::move(needed), frames_ = std::move(frames);
+    if (!closes(home)) return;
+    const std::vector<Vec2>& all = knots_.points;
+    const std::array around{all[all.size() - 2], all.back(), all[0], all[1]};
+    seam_ = smooth_piece(around, 1, kArcStep * home.unit);
+}
+
 std::vector<Vec2> TipPath::piece(const MechanismView& home, std::size_t frame) const {
-    return curve_between(home, tips_, angles_, frame);
+    std::vector<Vec2> out;
+    for (std::size_t k = frames_[frame]; k < frames_[frame + 1]; ++k) {
+        const std::vector<Vec2> next = curve_between(home, knots_, k);
+        out.insert(out.end(), next.begin() + (out.empty() ? 0 : 1), next.end());
+    }
+    return out;
 }
 
 void TipPath::find_whole(const MechanismView& home) {
-    struct Tip {
-        double t;
-        Vec2 at;
-        double angle;  // of the hub [rad]
-    };
-    std::vector<Tip> tips;
+    std::vector<Knot> tips;
+    for (std::size_t k = 0; k < knots_.points.size(); ++k)
+        tips.push_back({knots_.times[k], knots_.points[k], knots_.angles[k]});
     const double now = home.context.at(home.member, home.context.frames() - 1);
-    for (std::size_t k = 0; k < tips_.size(); ++k)
-        tips.push_back({home.context.at(home.member, static_cast<int>(k)), tips_[k], angles_[k]});
     for (std::size_t k = 0; home.motion().survey && k < home.motion().surveyed(); ++k) {
         if (home.motion().survey->time(k) > now) continue;
-        const sim::Pose pose = home.motion().surveyed(k);
-        const DrawnBeam b = home.drawn(home.member, pose);
-        tips.push_back({home.motion().survey->time(k),
-                        home.px((b.face(b.line.size() - 1) + b.back(b.line.size() - 1)) * 0.5), pose.theta});
+        tips.push_back(knot_of(home, home.motion().surveyed(k)));
     }
-    std::ranges::stable_sort(tips, {}, &Tip::t);
-    tips.erase(std::unique(tips.begin(), tips.end(), [](const Tip& a, const Tip& b) { return a.t == b.t; }),
+    std::ranges::stable_sort(tips, {}, &Knot::t);
+    tips.erase(std::unique(tips.begin(), tips.end(), [](const Knot& a, const Knot& b) { return a.t == b.t; }),
                tips.end());
-    std::vector<Vec2> all, inside;
-    std::vector<double> times, angles;
-    for (const Tip& tip : tips) all.push_back(tip.at), angles.push_back(tip.angle);
-    for (std::size_t k = 0; k < all.size(); ++k) {
-        std::vector<Vec2> piece{all[k]};
-        if (k > 0) piece = curve_between(home, all, angles, k - 1), piece.erase(piece.begin());
+    Knots all;
+    for (const Knot& tip : tips) all.add(tip);
+    std::vector<Vec2> inside;
+    std::vector<double> times;
+    for (std::size_t k = 0; k < tips.size(); ++k) {
+        std::vector<Vec2> piece{tips[k].at};
+        if (k > 0) piece = curve_between(home, all, k - 1), piece.erase(piece.begin());
         for (Vec2 p : piece) {
             times.push_back(tips[k].t);
             inside.push_back(p - Vec2{home.box.x, home.box.y});
@@ -78,14 +141,20 @@ void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) con
         double opacity;
     };
     std::vector<Piece> pieces;
-    const auto now = static_cast<std::size_t>(s.frame);
-    for (std::size_t k = now; k-- > 0;) {
-        const double age = (moved_[now] - moved_[k]) / (kTrailSeconds * home.context.setup->fps);
-        if (age > 1) break;
-        if (moved_[k + 1] == moved_[k]) continue;
-        pieces.push_back({piece(home, k), 1 - age});
+    const auto now = static_cast<std::size_t>(s.frame), last = frames_.size() - 1;
+    // False beyond the end of the trail. `moved`: frames in which time moved since its beginning at frame k.
+    const auto add = [&](std::size_t k, int moved) {
+        const double age = moved / (kTrailSeconds * home.context.setup->fps);
+        if (age > 1) return false;
+        if (k < last && moved_[k + 1] == moved_[k]) return true;
+        pieces.push_back({k < last ? piece(home, k) : seam_, 1 - age});
         for (Vec2& p : pieces.back().line) p = seen_in(s, home, p);
-    }
+        return true;
+    };
+    bool more = true;
+    for (std::size_t k = now; more && k-- > 0;) more = add(k, moved_[now] - moved_[k]);
+    for (std::size_t k = last + 1; more && !seam_.empty() && k-- > now + 1;)
+        more = add(k, moved_[now] + 1 + moved_[last] - moved_[k]);
     const auto stroke = [&](Color color, double strength, double width) {
         for (const Piece& each : pieces) {
             s.canvas.polyline(each.line);

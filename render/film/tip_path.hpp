@@ -11,9 +11,19 @@ namespace beamcam::render {
 
 class TipPath {
   public:
-    // Adds a frame: position of the drawn tip [px] and hub angle [rad]. `moved`: time is later than at the previous
-    // frame; a freeze does not shorten the trail.
-    void add_frame(Vec2 tip, double angle, bool moved);
+    // A position of the drawn tip [px], with the hub angle [rad].
+    struct Knot {
+        double t;
+        Vec2 at;
+        double angle;
+    };
+    // `moved`: time is later than at the previous frame; a freeze does not shorten the trail.
+    void add_frame(const Knot& knot, bool moved);
+    void add_between_frames(const Knot& knot);  // after the last frame that was added
+    // To be called when all are added. Leaves out the knots between frames where the curve through the frames passes
+    // within a pixel of them. A film of a period that was passed before it begins loops: its trail at the first frame is
+    // the one at the last.
+    void complete(const MechanismView& home);
     // The curve from the tip's position at a frame to the next one, in the view `home` of the fixed camera.
     std::vector<Vec2> piece(const MechanismView& home, std::size_t frame) const;
     // Computes the whole path from the survey of the motion and the added frames, in pixels of the panel's box.
@@ -24,10 +34,23 @@ class TipPath {
     void draw_whole(const MechanismScene& s, const MechanismView& home) const;  // up to the scene's instant
 
   private:
-    std::vector<Vec2> tips_;
-    std::vector<double> angles_;
-    std::vector<int> moved_;  // number of frames up to this one in which time moved
+    struct Knots {
+        std::vector<double> times;
+        std::vector<Vec2> points;
+        std::vector<double> angles;
+        void add(const Knot& knot);
+    };
+    static std::vector<Vec2> curve_between(const MechanismView& home, const Knots& knots, std::size_t k);
+    bool needs_between(const MechanismView& home, const Knots& of_frames, std::size_t frame) const;
+    bool closes(const MechanismView& home) const;
+
+    Knots knots_;
+    std::vector<std::size_t> frames_;  // the knot of each
+    std::vector<int> moved_;           // number of frames up to this one in which time moved
+    std::vector<Vec2> seam_;           // of a film that loops: the curve from its last frame to its first
     TimedPath whole_;
 };
+
+TipPath::Knot knot_of(const MechanismView& home, const sim::Pose& pose);
 
 }  // namespace beamcam::render

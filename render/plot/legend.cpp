@@ -20,15 +20,29 @@ LegendBox::LegendBox(const Panel& panel, const PlotStyle& style, PageCanvas& she
 }
 
 Box LegendBox::size(double width) {
-    double widest = 0;
-    for (const Entry& entry : entries_) widest = std::max(widest, sheet_.measure(entry.label, style_.words()).w);
+    const double apart = 2 * style_.gap, row = kRow * style_.letters;
+    const auto count = static_cast<int>(entries_.size());
+    std::vector<double> widths;
+    for (const Entry& entry : entries_)
+        widths.push_back(kSampleLength * style_.letters + style_.gap + sheet_.measure(entry.label, style_.words()).w);
+    entry_ = std::ranges::max(widths);
     // Inside the plot one column; above it as many columns as the width holds.
-    entry_ = kSampleLength * style_.letters + style_.gap + widest;
-    const double apart = 2 * style_.gap;
-    const auto rows = static_cast<int>(entries_.size());
-    columns_ = above_ ? std::clamp(static_cast<int>((width + apart) / (entry_ + apart)), 1, rows) : 1;
-    const int lines = (rows + columns_ - 1) / columns_;
-    return {0, 0, columns_ * (entry_ + apart) - apart, lines * kRow * style_.letters};
+    const int columns = above_ ? std::clamp(static_cast<int>((width + apart) / (entry_ + apart)), 1, count) : 1;
+    places_.clear();
+    for (int k = 0; k < count; ++k) places_.push_back({k % columns * (entry_ + apart), row * (k / columns)});
+    const Box box{0, 0, columns * (entry_ + apart) - apart, places_.back().y + row};
+    if (!above_) return box;
+    // Without columns, if that saves a line.
+    std::vector<Vec2> packed;
+    Vec2 next;
+    for (const double wide : widths) {
+        if (next.x > 0 && next.x + wide > width) next = {0, next.y + row};
+        packed.push_back(next);
+        next.x += wide + apart;
+    }
+    if (packed.back().y >= places_.back().y) return box;
+    places_ = std::move(packed);
+    return {0, 0, width, places_.back().y + row};
 }
 
 bool LegendBox::place_inside(OccupancyGrid& taken) {
@@ -74,12 +88,10 @@ void LegendBox::draw() const {
     const double row = kRow * style_.letters, sample = kSampleLength * style_.letters;
     TextStyle l = style_.words();
     l.valign = VAlign::middle;
-    int k = 0;
-    for (const Entry& entry : entries_) {
-        const int column = k % columns_, line = k++ / columns_;
-        const Vec2 at{box_->x + column * (entry_ + 2 * style_.gap), box_->y + (line + 0.5) * row};
-        draw_sample(entry, at, sample);
-        sheet_.text(at + Vec2{sample + style_.gap, 0}, entry.label, l);
+    for (std::size_t k = 0; k < entries_.size(); ++k) {
+        const Vec2 at = Vec2{box_->x, box_->y + 0.5 * row} + places_[k];
+        draw_sample(entries_[k], at, sample);
+        sheet_.text(at + Vec2{sample + style_.gap, 0}, entries_[k].label, l);
     }
 }
 

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "render/plot/drawn_curve.hpp"
 #include "render/plot/placement.hpp"
@@ -40,8 +42,8 @@ class LegendBox {
     PageCanvas& sheet_;
     std::vector<Entry> entries_;
     bool above_ = false;
-    double height_ = 0, entry_ = 0;  // above the plot; width of an entry
-    int columns_ = 1;
+    double height_ = 0, entry_ = 0;  // above the plot; width of the widest entry
+    std::vector<Vec2> places_;       // of the entries in the box
     std::optional<Box> box_;
 };
 

@@ -127,6 +127,7 @@ void PanelDrawing::draw() {
         if (w.leader) {
             sheet_.line(w.leader->first, w.leader->second, {kMuted, 0.6 * style_.frame, {}, Cap::butt});
         }
+        if (w.ground) sheet_.rectangle(*w.ground), sheet_.fill(kWhite);
         sheet_.text(w.at, w.markup, w.lettering);
     }
     legend_.draw();

@@ -31,6 +31,7 @@ class PanelDrawing {
         std::string markup;
         TextStyle lettering;
         std::optional<std::pair<Vec2, Vec2>> leader;
+        std::optional<Box> ground = {};  // hides lines behind the letters
     };
 
     void fit(double width, double height);

@@ -91,7 +91,9 @@ void PanelDrawing::place_rules() {
                 if (cost < least) least = cost, best = box;
             }
         taken_->cover(best);
-        writings_.push_back({{best.x, best.y - size.y}, r.label, l, {}});
+        Writing& label = writings_.emplace_back(Writing{{best.x, best.y - size.y}, r.label, l, {}});
+        if (std::ranges::any_of(panel_.rules, [&](auto& each) { return crosses(best, each); }))
+            label.ground = best.inset(-0.5);
     }
 }
 

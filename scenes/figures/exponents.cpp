@@ -14,14 +14,20 @@ namespace {
 
 using render::figure::Panel;
 
+std::string value_text(const sim::Exponents& e, std::size_t i) {
+    const std::string name = fmt::format("$λ$_{{{}}}", i + 1);
+    if (!std::isfinite(e.lambda[i])) return name + " = −∞";
+    return fmt::format("{} = {} ± {} s^{{−1}}", name, number(e.lambda[i], 4), number(e.error[i], 1));
+}
+
 Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
     Panel panel{.x = {.label = phrase(lang, "averaged over $t$ / s", "平均时间 $t$ / s"), .tight = true},
-                .y = {.label = "$λ$ / s^{−1}"},
+                .y = {.label = "$λ$ / s^{−1}", .with_zero = true},
                 .rules = {{.at = 0}},
                 .name = "exponents"};
     for (std::size_t i = 0; i < shown; ++i)
         if (std::isfinite(e.lambda[i]))
-            panel.series.push_back({.label = fmt::format("$λ$_{{{}}}", i + 1),
+            panel.series.push_back({.label = value_text(e, i),
                                     .x = e.time,
                                     .y = e.history[i],
                                     .look = static_cast<int>(i)});
@@ -40,12 +46,7 @@ std::size_t count_of_largest(const sim::Exponents& e) {
 
 std::string values_text(const sim::Exponents& e) {
     std::string values;
-    for (std::size_t i = 0; i < e.lambda.size(); ++i) {
-        const std::string name = fmt::format("{}$λ$_{{{}}}", i > 0 ? ", " : "", i + 1);
-        values += std::isfinite(e.lambda[i])
-                      ? fmt::format("{} = {} ± {} s^{{−1}}", name, number(e.lambda[i], 4), number(e.error[i], 1))
-                      : name + " = −∞";
-    }
+    for (std::size_t i = 0; i < e.lambda.size(); ++i) values += (i > 0 ? ", " : "") + value_text(e, i);
     return values;
 }
 

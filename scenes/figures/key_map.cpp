@@ -28,9 +28,9 @@ figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {
     return {label, rgb(kPeriodColors[shown - 1])};
 }
 
-// A number of the point, or the mean of a column of its samples; NaN: none.
+// A number of the point, or the mean of a column of its samples; NaN: none; −∞: an exponent after lasting contact.
 double map_value(const SweptPoints& points, const output::StoredPoint& p, const std::string& value) {
-    if (value == "exponent") return std::isfinite(p.exponent) ? p.exponent : sim::kNan;
+    if (value == "exponent") return p.exponent;
     if (value == "impacts_per_period") return p.impacts_per_period;
     const std::size_t column = points.column(value), width = points.data.columns.size();
     double sum = 0;
@@ -58,10 +58,10 @@ void color_by_class(const SweptPoints& points, const std::vector<output::StoredP
     panel.legend = figure::Legend::box;
 }
 
-// Unknown numbers beside colours that are nearly white at 0.
-constexpr Color kUnknown{0.66, 0.66, 0.66};
+// Beside colours that are nearly white at 0.
+constexpr Color kUnknown{0.66, 0.66, 0.66}, kMinusInfinity{0.33, 0.33, 0.33};
 
-// Cells without a number stay white, or are grey beside numbers of both signs.
+// Cells without a number stay white; beside numbers of both signs they are grey, with an entry in the legend.
 void color_by_value(const SweptPoints& points, const std::vector<output::StoredPoint>& entries,
                     const std::string& value, figure::Panel& panel) {
     figure::Cells& cells = panel.cells[0];
@@ -77,19 +77,29 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
     for (std::size_t i = 0; i < cells.colors.size(); ++i) {
         const double number = cells.values[i];
         if (both_signs)
-            cells.colors[i] = std::isnan(number) ? kUnknown : figure::signed_color(number / high);
-        else if (!std::isnan(number))
+            cells.colors[i] = std::isfinite(number) ? figure::signed_color(number / high)
+                              : std::isnan(number)  ? kUnknown
+                                                    : kMinusInfinity;
+        else if (std::isfinite(number))
             cells.colors[i] = figure::map_color((number - low) / (high - low));
+        if (!std::isfinite(number)) cells.values[i] = sim::kNan;
     }
     panel.color_bar =
         figure::ColorBar{.label = map_label(points, value), .from = low, .to = high, .is_signed = both_signs};
-    panel.legend = figure::Legend::none;
+    panel.legend = both_signs ? figure::Legend::above : figure::Legend::none;
+    const auto explain = [&](Color color, std::string label) {
+        if (std::ranges::find(cells.colors, color) != cells.colors.end())
+            panel.swatches.push_back({std::move(label), color});
+    };
+    if (both_signs) explain(kUnknown, phrase(points.lang, "unknown", "未知")), explain(kMinusInfinity, "−∞");
 }
 
 // Explains the cells without a number of a map that is coloured by one.
 std::string unknown_cells_text(const SweptPoints& points, const std::string& value, bool grey) {
     const std::string color = grey ? phrase(points.lang, "Grey", "灰色") : phrase(points.lang, "White", "白色");
     if (value == "class") return "";
+    if (value == "exponent" && grey)
+        return phrase(points.lang, "−∞: lasting contact removes every difference.", "−∞：持续接触使一切差异消失。");
     if (value == "exponent")
         return phrase(points.lang,
                       "{}: the exponent is unknown, or −∞ because lasting contact removes every difference.",

@@ -38,6 +38,7 @@ render::Motion motion_of(const Pictures& p, const Study& study, const StoredPose
     motion.end = result.end_time;
     motion.stored = poses.frames;
     motion.survey = poses.survey ? poses.survey : stored(result.poses[kSurveyPoses], study.request.poses[kSurveyPoses]);
+    motion.path = poses.path ? poses.path : stored(result.poses[kPathPoses], study.request.poses[kPathPoses]);
     motion.exposures = p.view.poses();
     if (p.horizon)  // curves are paler where θ is not reproducible
         for (const Lost& lost : unreliable(result, std::numeric_limits<double>::infinity()))

@@ -9,11 +9,13 @@ namespace {
 
 // The poses of a request go to disk as they are found.
 StoredPoses store_poses(sim::Request& request) {
-    sim::PoseRequest &all = request.poses[kFramePoses], &some = request.poses[kSurveyPoses];
-    StoredPoses stored{std::make_shared<PoseSpool>(all), std::make_shared<PoseSpool>(some)};
-    all.take = [to = stored.frames](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
-    some.take = [to = stored.survey](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
-    return stored;
+    const auto store = [&](std::size_t which) {
+        sim::PoseRequest& poses = request.poses[which];
+        const auto to = std::make_shared<PoseSpool>(poses);
+        poses.take = [to](std::size_t row, const sim::Pose& pose) { to->put(row, pose); };
+        return to;
+    };
+    return {store(kFramePoses), store(kSurveyPoses), store(kPathPoses)};
 }
 
 }  // namespace

@@ -15,6 +15,7 @@ namespace beamcam::scenes {
 struct StoredPoses {
     std::shared_ptr<PoseSpool> frames;
     std::shared_ptr<PoseSpool> survey;  // for the choice of scales
+    std::shared_ptr<PoseSpool> path;    // of the tip between frames
 };
 
 struct PlanResults {

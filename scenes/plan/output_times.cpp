@@ -235,6 +235,7 @@ void put_times(Pictures& p, FilmTimes times) {
         request.end_time = p.end_time;
         request.poses[kFramePoses].times = times.exposures.empty() ? times.frames : times.exposures;
         request.poses[kSurveyPoses].times = times.survey;
+        request.poses[kPathPoses].times = times.path;
         request.tables[kChartTable].times = times.chart;
         if (motion.problem.cam) request.tables[kTraceTable].times = times.trace;
     }

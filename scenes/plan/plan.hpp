@@ -60,7 +60,8 @@ struct Simulation {
 };
 
 // The parts of the request for a motion that a picture shows.
-constexpr std::size_t kFramePoses = 0, kSurveyPoses = 1;  // of Request::poses; the survey is for the choice of scales
+// Of Request::poses; the survey is for the choice of scales, the path for that of the tip.
+constexpr std::size_t kFramePoses = 0, kSurveyPoses = 1, kPathPoses = 2;
 // Of Request::tables: channels of the panels; with a cam t, contact_x, contact_s, contact_force.
 constexpr std::size_t kChartTable = 0, kTraceTable = 1;
 

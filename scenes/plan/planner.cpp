@@ -175,7 +175,7 @@ void Planner::add(Pictures p, double end) {
 void Planner::add_requests(const Pictures& p, Study& motion) const {
     motion.request.end_time = p.end_time;
     motion.request.horizon = p.horizon;
-    motion.request.poses = {{}, survey()};
+    motion.request.poses = {{}, survey(), {}};
     motion.request.tables = {{{}, p.chart_channels, drawn_curve(panels_of(p, scene_.problem)), kCurveStray}};
     if (motion.problem.cam) motion.request.tables.push_back({{}, kTraceChannels});
 }

@@ -30,6 +30,18 @@ std::vector<double> surveyed(double from, double to) {
     return out;
 }
 
+// The path of the tip has at least as many points as in a film of 30 frames per second.
+std::vector<double> between(const std::vector<double>& frames) {
+    constexpr double kFarthest = 1.0 / 30, kMost = 64, kSlack = 0.01;
+    std::vector<double> out;
+    for (std::size_t k = 1; k < frames.size(); ++k) {
+        const double from = frames[k - 1], step = frames[k] - from;
+        const double count = std::clamp(std::ceil(step / kFarthest - kSlack), 1.0, kMost);
+        for (int i = 1; i < count; ++i) out.push_back(from + step * i / count);
+    }
+    return out;
+}
+
 double chart_rate(double duration) {
     const double seconds = std::max(duration, 1e-12);
     return std::clamp(kChartRate, kFewestChartPoints / seconds, kMostChartPoints / seconds);
@@ -250,6 +262,7 @@ FilmTimes film_times(const FrameSpan& with_events, double end_time, const sim::R
     }
     if (collisions) merge(out.chart, rows_of(Contacts::collisions, motion, span.from, to));
     out.survey = surveyed(span.from, to);
+    out.path = between(out.frames);
     return out;
 }
 

@@ -25,6 +25,7 @@ struct FilmTimes {
     std::vector<double> chart, trace;           // rows [s], increasing
     // Equally spaced over the shown time, independent of the frames, for the choice of scales [s].
     std::vector<double> survey;
+    std::vector<double> path;  // between frames that are far apart, for the path of the tip [s], increasing
 };
 
 // Why a span has no frames, or too many; empty if it is valid, as far as that is known before the motion.

@@ -31,6 +31,20 @@ TEST(ParameterLine, KeepsItsDesignWhereThereIsRoom) {
     EXPECT_TRUE(line.omitted.empty());
 }
 
+TEST(ParameterLine, RatherLeavesOutThanWritesTooSmall) {
+    Measuring with;
+    Layout places;
+    places.unit = 0.5, places.tick = 11;  // of 960×540
+    bool omits = false;
+    for (double width = 400; width > 40; width -= 10) {
+        places.parameters = Box{0, 0, width, 18};
+        const ParameterLine line = parameter_line(with.canvas, places, "", kPieces);
+        if (!line.pieces.empty()) EXPECT_GE(line.size, 10) << width;
+        omits = omits || !line.omitted.empty();
+    }
+    EXPECT_TRUE(omits);
+}
+
 TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
     double size = 21;
     std::size_t shown = kPieces.size();

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <memory>
 
 #include "render/draw/canvas.hpp"
 #include "render/draw/smooth_path.hpp"
@@ -352,6 +354,69 @@ TEST(Steadiness, TheTrailOfAFastTurnIsRound) {
         EXPECT_NE(at(image, g.camera.to_pixels(sim::unit(20 * 0.5 + 2 * part) * length)),
                   opaque(palette(Theme::light).paper))
             << part;
+}
+
+namespace {
+
+class Poses final : public PoseStore {
+  public:
+    Poses(const FilmSetup& setup, const std::vector<double>& times, const std::function<double(double)>& angle) {
+        for (const double t : times) all_.push_back(turned(setup.poses.front(), setup, t, angle(t)));
+    }
+    static sim::Pose turned(sim::Pose pose, const FilmSetup& setup, double t, double angle) {
+        const double last = double(pose.centreline.size() - 1);
+        pose.t = t, pose.theta = angle;
+        for (std::size_t i = 0; i < pose.centreline.size(); ++i)
+            pose.centreline[i] = sim::unit(angle) * (setup.problem.beam.length * double(i) / last);
+        return pose;
+    }
+    std::size_t size() const override { return all_.size(); }
+    double time(std::size_t k) const override { return all_[k].t; }
+    sim::Pose pose(std::size_t k) const override { return all_[k]; }
+
+  private:
+    std::vector<sim::Pose> all_;
+};
+
+std::vector<double> times_between(double from, double to, double rate) {
+    std::vector<double> out;
+    for (int k = 0; k <= std::lround((to - from) * rate); ++k) out.push_back(from + k / rate);
+    return out;
+}
+
+// A rod that is led by `angle`, from an instant on.
+FilmSetup led_film(double from, double fps, const std::function<double(double)>& angle) {
+    FilmSetup setup = film_of(Style::flat, {.duration = 1, .fps = fps, .cam = false});
+    const sim::Pose first = setup.poses.front();
+    for (sim::Pose& pose : setup.poses) pose = Poses::turned(first, setup, from + pose.t, angle(from + pose.t));
+    setup.survey = std::make_shared<Poses>(setup, times_between(from, from + 1, 200), angle);
+    return setup;
+}
+
+bool is_painted_at_tip(FilmSetup setup, int frame, double angle) {
+    Film film(std::move(setup));
+    const Image image = drawn(film, frame);
+    const FrameGeometry g = film.geometry(frame);
+    const double length = norm((g.beam.face(g.beam.line.size() - 1) + g.beam.back(g.beam.line.size() - 1)) * 0.5);
+    return at(image, g.camera.to_pixels(sim::unit(angle) * length)) != opaque(palette(Theme::light).paper);
+}
+
+}  // namespace
+
+// At each frame the rod is level; between two frames it rises to half a radian.
+TEST(Steadiness, TheTrailFollowsThePosesBetweenFrames) {
+    const auto angle = [](double t) { return 0.5 * std::pow(std::sin(5 * 3.14159265358979 * t), 2); };
+    FilmSetup setup = led_film(0, 5, angle);
+    EXPECT_FALSE(is_painted_at_tip(setup, 3, 0.3));
+    setup.path = std::make_shared<Poses>(setup, times_between(0, 1, 60), angle);
+    EXPECT_TRUE(is_painted_at_tip(setup, 3, 0.3));
+}
+
+// One turn a second: before the first frame the rod was where it is at the end of the film.
+TEST(Steadiness, TheTrailOfALoopHasNoSeam) {
+    const auto angle = [](double t) { return 2 * 3.14159265358979 * t; };
+    EXPECT_TRUE(is_painted_at_tip(led_film(1, 24, angle), 0, -0.4));
+    EXPECT_FALSE(is_painted_at_tip(led_film(0, 24, angle), 0, -0.4));  // it began there
 }
 
 TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {

@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <set>
 #include <limits>
 #include <random>
 
@@ -218,6 +219,35 @@ TEST(Figure, LabelsOfCloseRulesKeepTheirOrder) {
         return std::ranges::find(drawn.written, words, &PageCanvas::Written::markup)->box.x;
     };
     EXPECT_LT(place("first touch of the beam"), place("next"));
+}
+
+// The text of a rule hides the other rules behind it.
+TEST(Figure, NoRuleCrossesTheLabelOfAnother) {
+    constexpr double kDpi = 288;
+    Figure figure = plot({0, 1}, {0, 0.01});
+    for (int i = 1; i < 40; ++i) figure.panels[0].rules.push_back({.at = i / 40.0, .vertical = true});
+    figure.panels[0].rules[20].label = "first touch";
+    const Drawn drawn = draw_png(figure, "elsevier", kDpi);
+    const Box box = std::ranges::find(drawn.written, "first touch", &PageCanvas::Written::markup)->box;
+    const double scale = kDpi / kPointsPerInch;
+    const auto row = static_cast<std::size_t>((box.y - 0.2) * scale);  // above the letters
+    for (auto x = static_cast<std::size_t>(box.x * scale) + 1; x < static_cast<std::size_t>(box.right() * scale); ++x)
+        EXPECT_EQ(drawn.image.pixels[row * static_cast<std::size_t>(drawn.image.width) + x], 0xFFFFFFFFU) << x;
+}
+
+// Entries of different widths stand in rows rather than in one column.
+TEST(Figure, ALegendAboveSavesLines) {
+    Figure figure = plot({0, 1}, {0, 1});
+    Panel& panel = figure.panels[0];
+    panel.legend = Legend::above;
+    panel.series[0].label = "kinetic";
+    for (const char* label : {"potential", "of bending and of contact", "lost", "external work", "sum"})
+        panel.series.push_back({.label = label, .x = {0, 1}, .y = {0, 1}});
+    std::set<double> lines;
+    for (const PageCanvas::Written& w : draw_png(figure, "aps").written)
+        for (const Series& s : panel.series)
+            if (w.markup == s.label) lines.insert(std::round(w.box.bottom() / 4));
+    EXPECT_LE(lines.size(), 4u);
 }
 
 // An inset becomes smaller, then is left out, rather than hiding a curve.

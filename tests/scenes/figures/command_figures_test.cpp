@@ -19,6 +19,15 @@ using testing::Folder;
 using ::testing::HasSubstr;
 using testing::shell;
 
+TEST(ExponentsFigure, ShowsZeroAndTheErrorsOfItsValues) {
+    sim::Exponents e;
+    e.lambda = {3.441}, e.error = {0.07};
+    e.time = {1, 2}, e.history = {{3.5, 3.44}};
+    const auto figure = exponents_figure(e, {});
+    EXPECT_TRUE(figure.panels.at(0).y.with_zero);
+    EXPECT_EQ(figure.panels.at(0).series.at(0).label, "$λ$_{1} = 3.441 ± 0.07 s^{−1}");
+}
+
 TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
     sim::Campaign campaign;
     campaign.grids = {{"grid", "rows", "columns", {"r1", "r2"}, {"c1", "c2", "10⁴ m²"}}};

@@ -43,6 +43,18 @@ TEST(Overviews, AKymographHasAColourForEachPlaceAndInstant) {
     EXPECT_NEAR(figure.panels[0].marks[0].x, 0.277394, 1e-6);
 }
 
+TEST(Overviews, AStrobeWritesItsInstantsAlike) {
+    const auto figure = overview_of("strobe", R"(, "from": 0.1, "to": 0.37)");  // apart by 0.03375 s
+    std::vector<std::string> labels;
+    for (const render::figure::Shape& shape : figure.panels.at(0).shapes)
+        if (shape.kind == render::figure::Shape::Kind::label && shape.markup.ends_with(" s"))
+            labels.push_back(shape.markup);
+    ASSERT_EQ(labels.size(), 9u);
+    EXPECT_EQ(labels[0], "0.1000 s");
+    EXPECT_EQ(labels[1], "0.3700 s");
+    for (const std::string& label : labels) EXPECT_EQ(label.size(), labels[0].size()) << label;
+}
+
 // What `--data` writes: a row for each cell with its deflection, and for each mark.
 TEST(Overviews, AStillOfLinesIsAStrobeOfOneInstant) {
     const Folder folder;

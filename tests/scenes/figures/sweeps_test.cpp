@@ -447,6 +447,19 @@ TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
     EXPECT_EQ(both.cells.at(0).colors[1], render::figure::signed_color(0));
     EXPECT_EQ(both.cells.at(0).colors[0], render::figure::signed_color(-0.5));
     EXPECT_NE(both.cells.at(0).colors[3], render::figure::signed_color(0));
+    ASSERT_THAT(both.swatches, SizeIs(1));
+    EXPECT_EQ(both.swatches[0].label, "−∞");
+    EXPECT_EQ(both.swatches[0].color, both.cells.at(0).colors[3]);
+    some.read = [read = some.read](std::uint64_t k) {
+        output::StoredPoint p = read(k);
+        if (k == 0) p.exponent = sim::kNan;
+        if (k == 1) p.exponent = -1;
+        return p;
+    };
+    const auto unknown = diagram("map", two, some, "exponent").panels.at(0);
+    ASSERT_THAT(unknown.swatches, SizeIs(2));
+    EXPECT_EQ(unknown.swatches[0].label, "unknown");
+    EXPECT_NE(unknown.swatches[0].color, unknown.swatches[1].color);
     // The mean of a column's samples, −1 and −2.
     EXPECT_EQ(diagram("map", two, some, "v_n_before").panels.at(0).cells.at(0).values[1], 1.5);
 }
