@@ -164,7 +164,7 @@ bool RigidMotion::sums_up_chatter(const SurfaceAngle& c, const Bounce& bounce) c
 // Sustained contact begins, which annihilates the tangent.
 void RigidMotion::rest_on(const SurfaceAngle& c) {
     in_contact_ = true;
-    rested_ = true;
+    motion_.rested = true;
     state_ = {c.angle, surface_.rate(c), 0, 0};
 }
 

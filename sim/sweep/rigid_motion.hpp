@@ -24,8 +24,6 @@ class RigidMotion {
     RigidMotion(const Problem& problem, const Sampling& sampling, const InitialState* start);
     // To be called once. `until_return`: stop once the motion is known to be periodic. Throws Interrupted.
     SampledMotion follow(const Progress& progress, bool until_return = false);
-    // Sustained contact, which annihilates all differences of the state, has occurred.
-    bool rested() const { return rested_; }
     // Turns and impacts between two lifts at the same phase, and therefore in the same state: the period (S89b).
     struct Return {
         long turns = 0, impacts = 0;
@@ -81,8 +79,7 @@ class RigidMotion {
     long turn_ = 0;  // whole turns since the start
     double s_ = 0;   // time within the turn [s]
     RodState state_;
-    bool in_contact_ = false;  // in sustained contact
-    bool rested_ = false;
+    bool in_contact_ = false;                        // in sustained contact
     std::vector<std::optional<Return>> last_lifts_;  // for each lift interval of the surface: turn and impacts
     std::optional<Return> returned_;
     bool sample_lasts_ = false;  // sustained contact follows the last sample

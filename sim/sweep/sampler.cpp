@@ -31,6 +31,7 @@ void Sampler::resume(double, const std::vector<double>& y, const Phase& phase) {
     system_.set_phase(phase);
     if (step_) step_->set_phase(phase);
     if (!phase.touching) left_ = true;
+    if (phase.held && system_.problem().beam.model == ModelKind::rigid) motion_.rested = true;
     motion_.end = {y, phase};
 }
 

@@ -85,6 +85,7 @@ struct SampledMotion {
     // Approach speeds of the impacts in these turns [m/s]; empty if the growth at strobes is unknown.
     std::vector<double> approaches;
     bool over_the_top = false;  // the motion ended because the beam pointed away from the cam
+    bool rested = false;        // a rigid beam was in sustained impulsive contact, which annihilates all differences
     InitialState end;           // initial state of the motion at the next parameter
     long impacts = 0;           // including the transient
     double accuracy = 0;        // approximate error of angles [rad]

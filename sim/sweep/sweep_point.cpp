@@ -87,7 +87,7 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
     // Sustained contact in each period.
     const bool returns =
         kind == AttractorClass::periodic && point.attractor.exponent.value == -std::numeric_limits<double>::infinity();
-    if (!chaotic && !returns && (kind != AttractorClass::unsettled || !motion.rested())) return point;
+    if (!chaotic && !returns && (kind != AttractorClass::unsettled || !point.motion.rested)) return point;
     std::optional<RigidMotion::Return> period = motion.returned();
     if (returns) period = {point.attractor.period, std::lround(point.attractor.impacts_per_period)};
     InitialState end = point.motion.end;
@@ -97,7 +97,7 @@ SweepPoint point_by_closed_forms(const Problem& problem, const Sampling& samplin
         const SampledMotion after = rest.follow(progress);
         period = rest.returned();
         end = after.end;
-        if (!period && chaotic && (rest.rested() || !stays_chaotic(problem, after)))
+        if (!period && chaotic && (after.rested || !stays_chaotic(problem, after)))
             point.attractor.kind = AttractorClass::unsettled;
     }
     if (!period) return point;
@@ -122,8 +122,9 @@ SweepPoint point_by_run(const Problem& problem, const Sampling& sampling, const 
         point.attractor = by_tangents(problem, sampling, point, progress);
     if (point.attractor.kind != AttractorClass::chaotic) return point;
     const InitialState end = carried(problem, point.motion.end);
-    if (!stays_chaotic(problem, sample_by_run(problem, later(problem, sampling), &end, progress)))
-        point.attractor.kind = AttractorClass::unsettled;
+    const Sampling as_long_again = later(problem, sampling);
+    const SampledMotion after = sample_by_run(problem, as_long_again, &end, progress);
+    if (after.rested || !stays_chaotic(problem, after)) point.attractor.kind = AttractorClass::unsettled;
     return point;
 }
 
