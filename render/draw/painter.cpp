@@ -104,15 +104,9 @@ void Painter::paint_path(Color color, double around, bool cached, std::initializ
 
 // ---- paths -------------------------------------------------------------------------------------
 
-void Painter::move_to(Vec2 p) {
-    cairo_move_to(cr_, p.x, p.y);
-}
-void Painter::line_to(Vec2 p) {
-    cairo_line_to(cr_, p.x, p.y);
-}
-void Painter::close() {
-    cairo_close_path(cr_);
-}
+void Painter::move_to(Vec2 p) { cairo_move_to(cr_, p.x, p.y); }
+void Painter::line_to(Vec2 p) { cairo_line_to(cr_, p.x, p.y); }
+void Painter::close() { cairo_close_path(cr_); }
 
 void Painter::polyline(std::span<const Vec2> points) {
     bool pen_down = false;
@@ -139,9 +133,7 @@ void Painter::circle(Vec2 c, double radius) {
     cairo_close_path(cr_);
 }
 
-void Painter::rectangle(const Box& b) {
-    cairo_rectangle(cr_, b.x, b.y, b.w, b.h);
-}
+void Painter::rectangle(const Box& b) { cairo_rectangle(cr_, b.x, b.y, b.w, b.h); }
 
 // A shaft and a filled head; an arrow shorter than its head is only a smaller head.
 void Painter::arrow(Vec2 from, Vec2 to, const Pen& pen, const ArrowHead& head) {
@@ -177,9 +169,7 @@ void Painter::fill_keeping_path(Color c) {
     // Translucent fills are faster in Cairo than from cached coverage.
     paint_path(c, 0, c.a == 1, {}, {}, cairo_fill_preserve);
 }
-void Painter::new_path() {
-    cairo_new_path(cr_);
-}
+void Painter::new_path() { cairo_new_path(cr_); }
 void Painter::stroke(const Pen& pen) {
     constexpr double kFaint = 0.5;
     if (casing && pen.color.a > kFaint && pen.color.faded(0) != casing->color.faded(0))

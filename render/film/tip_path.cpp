@@ -81,9 +81,7 @@ bool TipPath::needs_between(const MechanismView& home, const Knots& of_frames, s
 void TipPath::complete(const MechanismView& home) {
     if (frames_.empty()) return;
     Knots of_frames, needed;
-    const auto add = [&](Knots& to, std::size_t k) {
-        to.add({knots_.times[k], knots_.points[k], knots_.angles[k]});
-    };
+    const auto add = [&](Knots& to, std::size_t k) { to.add({knots_.times[k], knots_.points[k], knots_.angles[k]}); };
     for (const std::size_t k : frames_) add(of_frames, k);
     std::vector<std::size_t> frames;
     for (std::size_t f = 0; f < frames_.size(); ++f) {

@@ -21,8 +21,8 @@ class TipPath {
     void add_frame(const Knot& knot, bool moved);
     void add_between_frames(const Knot& knot);  // after the last frame that was added
     // To be called when all are added. Leaves out the knots between frames where the curve through the frames passes
-    // within a pixel of them. A film of a period that was passed before it begins loops: its trail at the first frame is
-    // the one at the last.
+    // within a pixel of them. A film of a period that was passed before it begins loops: its trail at the first frame
+    // is the one at the last.
     void complete(const MechanismView& home);
     // The curve from the tip's position at a frame to the next one, in the view `home` of the fixed camera.
     std::vector<Vec2> piece(const MechanismView& home, std::size_t frame) const;

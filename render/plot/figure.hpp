@@ -117,7 +117,7 @@ struct Shape {
     HAlign align = HAlign::centre;
     VAlign valign = VAlign::middle;
     bool small = false;    // label
-    bool if_room = false;  // label: left out, with all others like it, if one of them would touch another label
+    bool if_room = false;  // label: left out where it would touch one before it
 };
 
 // Labels at the curves if they have room, else a box; a box, in the plot if it has room, else above; a box above the

@@ -105,24 +105,23 @@ void draw_shapes(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, 
         throw PictureError("the schematic has no extent: its lengths are zero or not finite");
     const double margin = 1.2 * style.letters;
     Camera camera = fit(world, box.inset(margin));
-    Box within = box;
+    Box room = box;
     for (int pass = 0; pass < 100; ++pass) {  // a smaller drawing needs less room
         const auto [left, right] = beyond(panel.shapes, style, sheet, camera, box);
         if (left <= 0 && right <= 0) break;
-        within = {within.x + left, within.y, within.w - left - right, within.h};
-        camera = fit(world, within.inset(margin));
+        room = {room.x + left, room.y, room.w - left - right, room.h};
+        camera = fit(world, room.inset(margin));
     }
     const double gap = 0.15 * style.letters;
     std::vector<Box> labels;
-    bool room = true;
     for (const Shape& s : panel.shapes) {
-        if (s.kind != Shape::Kind::label) continue;
-        const Box own = label_box(s, style, sheet, camera), around = own.inset(-gap);
-        room = room && !(s.if_room && std::ranges::any_of(labels, [&](const Box& b) { return b.overlaps(around); }));
-        labels.push_back(own);
+        if (s.kind == Shape::Kind::label) {
+            const Box own = label_box(s, style, sheet, camera), around = own.inset(-gap);
+            if (s.if_room && std::ranges::any_of(labels, [&](const Box& b) { return b.overlaps(around); })) continue;
+            labels.push_back(own);
+        }
+        draw_one(s, style, sheet, camera);
     }
-    for (const Shape& s : panel.shapes)
-        if (room || !s.if_room) draw_one(s, style, sheet, camera);
 }
 
 }  // namespace beamcam::render::figure

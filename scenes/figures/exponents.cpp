@@ -27,10 +27,8 @@ Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
                 .name = "exponents"};
     for (std::size_t i = 0; i < shown; ++i)
         if (std::isfinite(e.lambda[i]))
-            panel.series.push_back({.label = value_text(e, i),
-                                    .x = e.time,
-                                    .y = e.history[i],
-                                    .look = static_cast<int>(i)});
+            panel.series.push_back(
+                {.label = value_text(e, i), .x = e.time, .y = e.history[i], .look = static_cast<int>(i)});
     return panel;
 }
 

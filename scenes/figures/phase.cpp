@@ -73,13 +73,15 @@ FigureDrawing prepare_phase(const Scene& scene, const FigureOutput&, Studies& st
                     .rules = {{.at = 0}},
                     .color_bar = render::figure::ColorBar{.label = "$t$ / s", .from = 0, .to = end},
                     .legend = Legend::none};
-        Series s = portrait(result.tables[table], angle, speed);
-        s.value = column(result.tables[table], ChannelKind::t);
+        const int period = rows_of(first, column(result.tables[table], ChannelKind::t));
+        const bool averaged = period > 1 && std::cmp_less(2 * period, result.tables[table].rows());
+        // Equally spaced rows for the mean; otherwise rows that are closer where the curve bends.
+        const sim::Table& rows = result.tables[averaged ? table : curve];
+        Series s = portrait(rows, angle, speed);
+        s.value = column(rows, ChannelKind::t);
         if (!s.x.empty())
             panel.marks.push_back(
                 {.x = s.x.front(), .y = s.y.front(), .label = phrase(lang, "start", "起点"), .look = 6});
-        const int period = rows_of(first, s.value);
-        const bool averaged = period > 1 && std::cmp_less(2 * period, s.x.size());
         if (averaged) {
             Series& raw =
                 panel.series.emplace_back(portrait(result.tables[curve], angle, speed));  // in grey beneath the mean

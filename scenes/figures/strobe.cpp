@@ -76,33 +76,49 @@ void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketc
             .if_room = if_room});
 }
 
-// Decimals with which all instants, equally spaced, are written alike: exactly, or to a hundredth of their spacing.
-int decimals_of(const std::vector<sim::Pose>& poses) {
-    const double step = poses.size() > 1 ? poses[1].t - poses[0].t : 0;
-    if (!(step > 0)) return 3;
-    const int most = std::clamp(render::decimals_of(step) + 2, 0, 9);
-    for (int digits = 0; digits < most; ++digits) {
-        const double scale = render::ten_to(digits);
-        if (std::ranges::all_of(poses, [&](const sim::Pose& p) {
-                return std::abs(p.t * scale - std::round(p.t * scale)) < 1e-6 * step * scale;
-            }))
-            return digits;
+// Writes instants that are equally spaced with the same decimals, exactly if a few are enough, without zeros at the
+// end.
+class InstantText {
+  public:
+    explicit InstantText(const std::vector<sim::Pose>& poses) {
+        const double step = poses.size() > 1 ? poses[1].t - poses[0].t : 0;
+        const int few = step > 0 ? render::decimals_of(step) : 1;
+        const auto is_exact = [&](const sim::Pose& pose) {
+            return std::abs(pose.t - std::round(pose.t * render::ten_to(decimals_)) / render::ten_to(decimals_)) <
+                   1e-6 * step;
+        };
+        while (decimals_ < few + 3 && !std::ranges::all_of(poses, is_exact)) ++decimals_;
+        if (!std::ranges::all_of(poses, is_exact)) decimals_ = few + 2;
     }
-    return most;
-}
+    std::string operator()(const sim::Pose& pose) const {
+        std::string text = render::fixed(pose.t, decimals_);
+        if (decimals_ > 0) text.erase(text.find_last_not_of('0') + 1);
+        if (text.ends_with('.')) text.pop_back();
+        return text + " s";
+    }
 
-// First and last, in one label where two would overlap; the others if all of them have room.
+  private:
+    int decimals_ = 0;
+};
+
+// First and last, in one label where two would overlap; then the others that have room.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    constexpr double kApart = 0.05;  // about the height of a label [rad]
-    const auto text_of = [digits = decimals_of(poses)](const sim::Pose& pose) {
-        return render::fixed(pose.t, digits) + " s";
+    constexpr double kApart = 0.05;  // about the height of a label [rad]; the drawing omits wider ones that touch
+    std::vector<double> labelled;
+    const auto has_room = [&](const sim::Pose& pose) {
+        return std::ranges::all_of(labelled, [&](double theta) { return std::abs(pose.theta - theta) > kApart; });
     };
+    const auto label = [&](const sim::Pose& pose, const std::string& text) {
+        add_instant(pose, text, !labelled.empty(), to);
+        labelled.push_back(pose.theta);
+    };
+    const InstantText text_of(poses);
     const sim::Pose &first = poses.front(), &last = poses.back();
     const bool joined = poses.size() > 1 && std::abs(last.theta - first.theta) <= kApart;
-    add_instant(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first), false, to);
-    if (poses.size() == 1) return;
-    if (!joined) add_instant(last, text_of(last), false, to);
-    for (std::size_t k = 1; k + 1 < poses.size(); ++k) add_instant(poses[k], text_of(poses[k]), true, to);
+    label(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first));
+    if (has_room(last)) label(last, text_of(last));
+    for (const sim::Pose& pose : poses)
+        if (has_room(pose)) label(pose, text_of(pose));
 }
 
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {

@@ -6,9 +6,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <set>
 #include <limits>
 #include <random>
+#include <set>
 
 #include "render/base/error.hpp"
 #include "render/plot/panel.hpp"
