@@ -18,6 +18,7 @@ inline constexpr long kHalvingsOfRun = 3'000'000, kHalvingsPerStep = 1000;
 inline constexpr double kRestTolerances = 10;               // times `atol`: a beam whose rates are smaller is at rest
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
+inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, until those that are beaten are dropped
 // Kept steps of a channel beyond which its bounds exclude too few.
 inline constexpr std::size_t kManyKept = 1024;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.
@@ -30,7 +31,7 @@ inline constexpr double kFormRounding = 1e-7, kFormMargin = 4;
 inline constexpr double kSignRounding = 1e-14;  // of the sum of magnitudes: values below it have no sign
 
 // ---- bounds within a step ----
-inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
+inline constexpr double kFollowedRadians = 2;   // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
 inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
 inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
 inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode

@@ -45,6 +45,7 @@ void ExtremaFinder::step(const SegmentInterval& s, const System::EnergyBalance* 
         if (const auto range = range_within(s, c, extrema[c])) add_candidates(c, *range, extrema[c]);
     }
     if (!candidates_.empty()) keep(s, extrema);
+    if (kept_numbers_ > drop_at_) drop_beaten(extrema);
     if (kept_numbers_ > kMostKeptNumbers) search_kept(extrema);
 }
 
@@ -115,22 +116,47 @@ void ExtremaFinder::keep(const SegmentInterval& s, std::vector<Extremum>& extrem
     kept_.push_back(std::move(step));
 }
 
+// Most steps of a contact promise more than those before, until the next one. What the best values have beaten since
+// goes, before it fills memory that would be new to the process.
+void ExtremaFinder::drop_beaten(const std::vector<Extremum>& extrema) {
+    kept_numbers_ = 0;
+    std::ranges::fill(kept_of_, 0);
+    for (KeptStep& step : kept_) {
+        std::erase_if(step.candidates, [&](const Candidate& of) { return is_beaten_by(extrema[of.channel], of); });
+        if (!step.candidates.empty()) kept_numbers_ += step.numbers.size();
+        for (const Candidate& candidate : step.candidates) ++kept_of_[candidate.channel];
+    }
+    std::erase_if(kept_, [](const KeptStep& step) { return step.candidates.empty(); });
+    drop_at_ = kept_numbers_ + kNumbersPerDrop;
+}
+
+// The most promising step of each channel first: it beats many others.
 void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     const Phase phase = step_.system().phase();
-    for (const KeptStep& step : kept_) search_step(step, extrema);
+    std::vector<std::pair<const KeptStep*, const Candidate*>> most(2 * channels_.size());  // by channel and sign
+    for (const KeptStep& step : kept_)
+        for (const Candidate& candidate : step.candidates) {
+            auto& best = most[2 * candidate.channel + (candidate.sign < 0)];
+            if (!best.second || candidate.high > best.second->high) best = {&step, &candidate};
+        }
+    for (const auto& [step, candidate] : most)
+        if (step) search_step(*step, {candidate, 1}, extrema);
+    for (const KeptStep& step : kept_) search_step(step, step.candidates, extrema);
     kept_.clear();
     kept_numbers_ = 0;
+    drop_at_ = kNumbersPerDrop;
     std::ranges::fill(kept_of_, 0);
     set_phase(phase);
 }
 
-// All channels of a step one after the other: they share the states that they evaluate.
-void ExtremaFinder::search_step(const KeptStep& step, std::vector<Extremum>& extrema) {
+// Channels of a step share the states that they evaluate.
+void ExtremaFinder::search_step(const KeptStep& step, std::span<const Candidate> candidates,
+                                std::vector<Extremum>& extrema) {
     std::unique_ptr<StoredSegment>& stored = stored_[step.kind];
     if (!stored) stored = make_stored_segment(step.kind, step_.system());
     const SegmentInterval s{stored.get(), step.from, step.to, false};
     bool loaded = false;
-    for (const Candidate& candidate : step.candidates) {
+    for (const Candidate& candidate : candidates) {
         Extremum& e = extrema[candidate.channel];
         if (is_beaten_by(e, candidate)) continue;
         if (!loaded) {

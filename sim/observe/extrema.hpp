@@ -10,6 +10,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/observe/constants.hpp"
@@ -58,7 +59,8 @@ class ExtremaFinder {
     void add_candidates(std::size_t channel, const ModalChannels::Range& range, const Extremum& e);
     void keep(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void search_kept(std::vector<Extremum>& extrema);
-    void search_step(const KeptStep& step, std::vector<Extremum>& extrema);
+    void drop_beaten(const std::vector<Extremum>& extrema);
+    void search_step(const KeptStep& step, std::span<const Candidate> candidates, std::vector<Extremum>& extrema);
     bool is_beaten_by(const Extremum& e, const Candidate& candidate) const;
     void search(const SegmentInterval& s, Channel channel, double sign, Extremum& e);
     bool estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e);
@@ -81,7 +83,7 @@ class ExtremaFinder {
     std::vector<Candidate> candidates_;  // in this step
     std::vector<std::size_t> kept_of_;   // steps of each channel that are kept
     std::vector<KeptStep> kept_;         // in time
-    std::size_t kept_numbers_ = 0, numbers_of_step_ = 0;
+    std::size_t kept_numbers_ = 0, numbers_of_step_ = 0, drop_at_ = kNumbersPerDrop;
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> stored_;
 };
 

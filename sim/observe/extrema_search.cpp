@@ -12,7 +12,7 @@ namespace beamcam::sim {
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     step_.begin(s);  // as if nothing had been searched before
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, e);
-    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e)) return;
+    if (traits(channel.kind).separation && estimate_is_beaten(s, channel, sign, e)) return;
     const Samples samples = step_.sample(s, channel);
     if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {  // an error: its nodes are enough
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
@@ -21,20 +21,17 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
     const auto value = [&](double t) { return step_.value(s, channel, t); };
-    const bool of_modes = channel.kind == ChannelKind::q;  // which it is the sum of, as an estimate is
-    const Variation variation =
-        of_modes ? step_.variation_of_estimate(s, channel, samples) : step_.variation(s, channel, samples);
-    if (!climb_step(value, variation, s, channel, samples, best)) ++incomplete_;
+    if (!climb_step(value, step_.variation(s, channel, samples), s, channel, samples, best)) ++incomplete_;
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
-// The estimate of a costly channel, plus its error, excludes most steps.
+// θ̈ times the longest arm, plus the error of that, excludes most steps.
 bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e) {
     BestValue best = best_so_far(channel.kind, sign, e);
     const double error = step_.modes().estimate_error(channel), most = best.value - error;
     if (!(most > 0)) return false;
     best.value = most - best.left_out;
-    const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
+    const auto estimate = [&](double t) { return step_.estimate(s, t); };
     const Samples samples = step_.estimates(s, channel);
     return climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best) &&
            best.value <= most;

@@ -32,10 +32,6 @@ class ModalChannels {
 
     void set(const StepBounds::Step& step);
     const TouchSamples* touch() const { return bounds_.step.touch; }
-    // The end of the beam that the foot of the contact does not leave within the step, if there is one.
-    std::optional<double> foot_at_end() const {
-        return bounds_.foot_moves() ? std::nullopt : std::optional(bounds_.nearest);
-    }
 
     struct Range {
         double low, high;
@@ -71,9 +67,9 @@ class ModalChannels {
     std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
-    // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes
+    // The variation of q, or of the estimate of the separation, by all its modes and the frame; false where its nodes
     // bound it better.
-    bool vary_estimate(Channel channel, Variation& out) const;
+    bool vary_by_modes(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over the step does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 

@@ -122,15 +122,8 @@ void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
     });
 }
 
-bool ModalChannels::vary_estimate(Channel channel, Variation& out) const {
+bool ModalChannels::vary_by_modes(Channel channel, Variation& out) const {
     if (bounds_.step.modes->resolved) return false;
-    const auto add_modes = [&](auto&& bound) {
-        for (std::size_t g = 0; g < bounds_.groups.size(); ++g) {
-            const auto [amplitude, frequency] = bound(basis_.groups[g], bounds_.groups[g]);
-            for (int lane = 0; lane < kNodes; ++lane) out.add(amplitude[lane], frequency[lane]);
-        }
-        return true;
-    };
     if (channel.kind == ChannelKind::q) {
         for (std::size_t i = 0; i < modes_.size(); ++i) {
             const ModalBounds::Mode& mode = bounds_.step.modes->modes[i];
@@ -139,21 +132,13 @@ bool ModalChannels::vary_estimate(Channel channel, Variation& out) const {
         }
         return true;
     }
-    using Group = ModeBasis::Group;
-    using Vibrations = ModeVibrations;
-    if (channel.kind == ChannelKind::tip_deflection)
-        return add_modes([](const Group& of, const Vibrations& m) {
-            return std::pair{magnitude(of.tip) * m.amplitude, m.q_frequency};
-        });
-    if (channel.kind == ChannelKind::tip_rate)
-        return add_modes([](const Group& of, const Vibrations& m) {
-            return std::pair{magnitude(of.tip) * m.rate, m.rate_frequency};
-        });
     if (!accelerated_by_modes()) return false;
     out.add_polynomial(bounds_.arm * forced().frame, bounds_.step.modes->h);
-    return add_modes([&](const Group& of, const Vibrations& m) {
-        return std::pair{bounds_.arm * of.h * m.acceleration, m.acceleration_frequency};
-    });
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        const ModalBounds::Mode& mode = bounds_.step.modes->modes[i];
+        out.add(bounds_.arm * modes_[i].h * mode.acceleration, mode.acceleration_frequency);
+    }
+    return true;
 }
 
 // Distance of the channel from the lines between neighbouring nodes: of their polynomial, and of unresolved vibration.

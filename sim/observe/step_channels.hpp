@@ -45,14 +45,14 @@ class StepChannels {
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
-    // An estimate of a costly channel: the channel times +1 or −1 is at most this, times the same, or zero if that is
-    // more, plus ModalChannels::estimate_error.
-    double estimate(const SegmentInterval& s, Channel channel, double t);
+    // An estimate of the separation, which is costly: times +1 or −1 it is at most this, times the same, or zero if
+    // that is more, plus ModalChannels::estimate_error.
+    double estimate(const SegmentInterval& s, double t);
     Samples estimates(const SegmentInterval& s, Channel channel);
     Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    // The same of `estimates`, or of q.
+    // The same of `estimates`.
     Variation variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // The mode that the channel is, or almost is, in closed form if it has one.
     std::optional<UndampedMode> undamped_mode(Channel channel) const { return modal_channels_.undamped_mode(channel); }
@@ -71,10 +71,11 @@ class StepChannels {
     };
     Instant& at(const SegmentInterval& s, double t);
     const double* beam(const SegmentInterval& s, double t);
+    Variation variation_by_nodes(const SegmentInterval& s, Channel channel, const Samples& values) const;
+    Variation closer_by_modes(const SegmentInterval& s, Channel channel, const Variation& by_nodes) const;
     double value_at(double t, Channel channel, Instant& shared);
     void share_contact(double t, Instant& shared);
     double share_hub_acceleration(Instant& shared);
-    void forget();
     void search_again();
     void bound(const SegmentInterval& s);
     void sample_touch(const SegmentInterval& s);
@@ -89,15 +90,14 @@ class StepChannels {
     std::array<Instant, kSamples> polynomial_samples_;
     TouchSamples polynomial_touch_;
     const Segment* segment_ = nullptr;
-    double segment_from_ = kNan, segment_to_ = kNan;
-    std::unordered_map<double, Instant> instants_;  // of that segment
+    double from_ = kNan, to_ = kNan;                // the interval of it
+    std::unordered_map<double, Instant> instants_;  // of that interval
     std::optional<Samples> balance_;
     std::vector<double> y_;
     bool polynomial_ = false;
-    bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
-    bool bristled_ = false;                       // it has a bristle
-    bool at_rest_ = false;                        // all rates at the nodes are errors
-    double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
+    bool probing_ = false;   // the contact of this phase is evaluated by `probe_`
+    bool bristled_ = false;  // it has a bristle
+    bool at_rest_ = false;   // all rates at the nodes are errors
 };
 
 double sample_time(const SegmentInterval& s, std::size_t k);
