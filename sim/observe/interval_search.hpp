@@ -66,8 +66,10 @@ void climb(const F& f, const Variation& variation, const TimedValue& a, const Ti
         climb_crest(f, variation, a, m, b, best);
         return;
     }
-    climb(f, variation, a, m, best);
+    const bool left_first = best.sign * a.value > best.sign * b.value;
+    if (left_first) climb(f, variation, a, m, best);
     climb(f, variation, m, b, best);
+    if (!left_first) climb(f, variation, a, m, best);
 }
 
 // Where the function is an undamped mode, only the crests that exceed the best value are searched.
