@@ -3,8 +3,6 @@
 // events end a segment early.
 #pragma once
 
-#include <algorithm>
-#include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
