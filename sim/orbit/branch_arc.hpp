@@ -36,6 +36,8 @@ class BranchArc {
 
     // The same curve with its section in the middle of this point's longest flight.
     BranchArc recentred(const BranchPoint& point) const;
+    // The curve of the orbits with that many turns, with the same section and coordinates.
+    BranchArc of_turns(int turns) const { return {family_, request_, like_, turns, scale_, progress_}; }
 
     // The solution on the plane through z perpendicular to the tangent; nothing if Newton's method does not converge.
     std::optional<ArcPoint> correct(Eigen::VectorXd z, const Eigen::VectorXd& tangent) const;

@@ -39,7 +39,10 @@ inline constexpr double kFirstArc = 0.1;                     // of the longest s
 inline constexpr double kArcShrink = 0.3, kArcGrowth = 1.4;  // step factors after failure and success
 inline constexpr double kLeastCosine = 0.98;                 // between the tangents of neighbouring points
 inline constexpr double kRealMultiplier = 1e-9;              // of the imaginary part: rounding
-inline constexpr double kOnCircle = 1e-7;  // of |μ|² − 1: rounding, as of pairs that never leave the circle
+inline constexpr double kUnitMultiplier = 1e-3;              // distance from 1 of the multiplier at a fold
+inline constexpr double kRepeatedImpact = 1e-3;  // relative difference of impact speeds half a period apart: the same
+inline constexpr double kNearDoubling = 1e-3;    // of the range: distance at which that doubling is bracketed
+inline constexpr double kOnCircle = 1e-7;        // of |μ|² − 1: rounding, as of pairs that never leave the circle
 inline constexpr double kAtTip =
     1e-6;  // of the beam's length: a branch that ends with a foot this close ends at a corner
 // Relative uncertainty of the parameter at which an interval of sustained contact vanishes: the impacts before it are

@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "sim/base/counted.hpp"
 #include "sim/base/linear_algebra.hpp"
 #include "sim/base/numerics.hpp"
 #include "sim/orbit/branch_arc.hpp"
@@ -51,6 +52,21 @@ double circle_test(const ArcPoint& p) { return circle_of(p).product; }
 bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
     const CircleTest before = circle_of(a), after = circle_of(b);
     return before.product * after.product < 0 && std::min(before.nearest, after.nearest) > kOnCircle;
+}
+
+// Otherwise the tangent turned for another reason.
+bool has_unit_multiplier(const PeriodicOrbit& orbit) {
+    return std::ranges::any_of(orbit.multipliers, [](auto mu) { return std::abs(mu - 1.0) < kUnitMultiplier; });
+}
+// The orbit repeats itself after half of its turns.
+bool repeats_within(const PeriodicOrbit& orbit) {
+    const std::size_t half = orbit.impacts.size() / 2;
+    if (orbit.turns % 2 != 0 || half == 0 || orbit.impacts.size() % 2 != 0) return false;
+    for (std::size_t i = 0; i < half; ++i) {
+        const double first = orbit.impacts[i].approach, second = orbit.impacts[half + i].approach;
+        if (!(std::fabs(first - second) < kRepeatedImpact * std::fabs(first))) return false;
+    }
+    return true;
 }
 
 bool beyond_range(const Eigen::VectorXd& z) { return z[z.size() - 1] < 0 || z[z.size() - 1] > 1; }
@@ -109,8 +125,11 @@ class Continuation {
     Then overcome(Walk& walk, const Attempt& tried, Branch& branch, std::string& end);
     void advance(Walk& walk, Attempt found, Branch& branch);
     std::optional<ArcPoint> root(const ArcPoint& a, const ArcPoint& b, const Test& test) const;
+    std::optional<ArcPoint> doubling_of_half(const ArcPoint& near) const;
+    void add(OrbitChange change, const ArcPoint& point, Branch& branch) const;
     void locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test, Branch& branch) const;
-    void find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
+    bool locate_turn(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
+    bool find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const;
     std::optional<ArcPoint> recentre(const ArcPoint& at);
     bool end_at_range(const ArcPoint& last, const Eigen::VectorXd& beyond, Branch& branch) const;
     bool passes(const ArcPoint& last, const std::optional<ArcPoint>& beyond, double step, Branch& branch,
@@ -134,17 +153,56 @@ std::optional<ArcPoint> Continuation::root(const ArcPoint& a, const ArcPoint& b,
     return point(find_root(value, 0.0, a.tangent.dot(b.z - a.z), low, high));
 }
 
+// The residual of a point lets its parameter err as far.
+void Continuation::add(OrbitChange change, const ArcPoint& point, Branch& branch) const {
+    const double range = std::fabs(request_.to - request_.from);
+    branch.special.push_back({change, arc_.branch_point(point), kArcConverged * range});
+}
+
 void Continuation::locate(const ArcPoint& a, const ArcPoint& b, OrbitChange change, const Test& test,
                           Branch& branch) const {
     const auto point = root(a, b, test);
     if (!point) return;
     if (change == OrbitChange::neimark_sacker && !circle_of(*point).complex) return;  // a saddle with μ_iμ_j = 1
-    const double range = std::fabs(request_.to - request_.from);
-    branch.special.push_back(
-        {change, arc_.branch_point(*point), kArcConverged * range * std::fabs(fold_test(a)) + 1e-15});
+    add(change, *point, branch);
 }
 
-void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
+// The period doubling of the orbit with half as many turns that is nearest to this point.
+std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) const {
+    const BranchArc half = arc_.of_turns(near.orbit.turns / 2);
+    const Eigen::Index n = near.z.size() - 1;
+    const auto point = [&](double share) {
+        Eigen::VectorXd z = near.z;
+        z[n] = share;
+        return half.correct(z, Eigen::VectorXd::Unit(n + 1, n));
+    };
+    const auto value = [&](double share) {
+        const auto at = point(share);
+        return at ? doubling_test(*at) : std::numeric_limits<double>::quiet_NaN();
+    };
+    const double low = near.z[n] - kNearDoubling, high = near.z[n] + kNearDoubling;
+    const double before = value(low), after = value(high);
+    if (!std::isfinite(before * after) || std::signbit(before) == std::signbit(after)) return std::nullopt;
+    return point(find_root(value, low, high, before, after));
+}
+
+// Where the branch turns, it has a fold, or it is a branch of doubled period at its origin: there it meets itself, each
+// orbit begun half of its period later. True if so, and the branch ends.                                       (S77)
+bool Continuation::locate_turn(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
+    const auto turn = root(a, b, fold_test);
+    if (!turn) return false;
+    const auto origin = repeats_within(turn->orbit) ? doubling_of_half(*turn) : std::nullopt;
+    if (origin) {
+        add(OrbitChange::period_doubling, *origin, branch);
+        branch.points.push_back(arc_.branch_point(*turn));
+    } else if (has_unit_multiplier(turn->orbit)) {
+        add(OrbitChange::fold, *turn, branch);
+    }
+    return origin.has_value();
+}
+
+// True if the branch ends between the points.
+bool Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
     const auto changes = [&](auto test) { return std::signbit(test(a)) != std::signbit(test(b)); };
     const std::size_t count = a.orbit.impacts.size();
     if (count == b.orbit.impacts.size())
@@ -155,14 +213,15 @@ void Continuation::find_changes(const ArcPoint& a, const ArcPoint& b, Branch& br
             };
             if (changes(overhang)) locate(a, b, OrbitChange::corner, overhang, branch);
         }
-    const bool folds = changes(fold_test);
-    if (folds) locate(a, b, OrbitChange::fold, fold_test, branch);
+    const bool turns = changes(fold_test);
+    if (turns && locate_turn(a, b, branch)) return true;
     if (changes(doubling_test)) locate(a, b, OrbitChange::period_doubling, doubling_test, branch);
-    if (!folds && changes(branching_test)) locate(a, b, OrbitChange::branching, branching_test, branch);
+    if (!turns && changes(branching_test)) locate(a, b, OrbitChange::branching, branching_test, branch);
     if (crosses_circle(a, b)) locate(a, b, OrbitChange::neimark_sacker, circle_test, branch);
     const Test beyond_start = [this](const ArcPoint& p) { return p.z[p.z.size() - 1] - start_; };
     if (changes(beyond_start))
         if (auto passage = root(a, b, beyond_start)) branch.at_start.push_back(std::move(passage->orbit));
+    return false;
 }
 
 // Classifies the change within `step`, which is too short to be divided. True if the branch continues beyond it.
@@ -211,7 +270,7 @@ bool Continuation::end_at_range(const ArcPoint& last, const Eigen::VectorXd& bey
     auto point = arc_.correct(z, Eigen::VectorXd::Unit(n + 1, n));
     if (!point || !same_pattern(last.orbit, point->orbit)) return false;
     if (fold_test(*point) * fold_test(last) < 0) point->tangent *= -1;
-    find_changes(last, *point, branch);
+    if (find_changes(last, *point, branch)) return true;
     branch.points.push_back({end == 1 ? request_.to : request_.from, point->orbit});
     return true;
 }
@@ -275,8 +334,10 @@ void Continuation::follow(ArcPoint from, Branch& branch, std::string& end) {
             if (then == Then::retry) continue;
         } else if (beyond_range(tried.next->z)) {
             end_at_range(walk.at, tried.next->z, branch);
-        } else {
-            find_changes(walk.at, *tried.next, branch);
+        } else if (find_changes(walk.at, *tried.next, branch)) {
+            end = fmt::format("{}: there the orbit repeats itself after {}", name(OrbitChange::period_doubling),
+                              counted(static_cast<std::size_t>(walk.at.orbit.turns / 2), "turn"));
+            return;
         }
         if (beyond_range(tried.next->z)) return;
         advance(walk, std::move(tried), branch);
@@ -340,7 +401,8 @@ std::vector<Branch> continue_orbit(const Family& family, const BranchPoint& star
     for (std::size_t i = 0; i < branches.size() && static_cast<int>(i) < request.doublings; ++i) {
         const std::vector<SpecialPoint> special = branches[i].special;
         for (const SpecialPoint& point : special) {
-            if (point.change != OrbitChange::period_doubling) continue;
+            const bool origin = point.at.orbit.turns != branches[i].points.front().orbit.turns;
+            if (point.change != OrbitChange::period_doubling || origin) continue;
             const BranchArc once(family, request, point.at.orbit, point.at.orbit.turns, scale, counting);
             const BranchArc twice(family, request, point.at.orbit, 2 * point.at.orbit.turns, scale, counting);
             if (auto at = doubled(once, twice, point)) run(twice, *at, false, branches.emplace_back());
