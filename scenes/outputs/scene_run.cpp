@@ -254,7 +254,8 @@ void SceneRun::write_partial_data() {
     if (!partial) return;
     for (const DataFile& d : plan_.data) {
         const bool rows = d.table && *d.table < partial->tables.size() && partial->tables[*d.table].rows() > 0;
-        if (is_stdout(d.file) || !(rows || d.holds_events)) continue;
+        const bool events = d.holds_events && !partial->impacts.empty();
+        if (is_stdout(d.file) || !(rows || events)) continue;
         fs::path file = files_.path_of(d.file);
         file.replace_extension(".partial" + (rows ? std::string(".csv") : ending_of(d.file)));
         const output::Target target = files_.target(file);

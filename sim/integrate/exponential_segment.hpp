@@ -105,8 +105,8 @@ class ExponentialSegment final : public StoredSegment {
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     struct ForcingBounds;
-    struct Distances {  // of the modes of a group from their forcing: bounds of them and their rates
-        Lanes value, rate;
+    struct Distances {  // of the modes of a group from their forcing: bounds of them and their derivatives
+        Lanes value, rate, second;
     };
     ForcingBounds forcing_bounds(std::size_t group, const Lanes* legendre) const;
     Distances distances_of(std::size_t group, const ForcingBounds& forcing) const;

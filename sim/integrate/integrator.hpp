@@ -3,6 +3,8 @@
 // events end a segment early.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <memory>
 #include <span>
@@ -50,9 +52,13 @@ struct ModalBounds {
         double q_frequency = 0, rate_frequency = 0, acceleration_frequency = 0;
         double lag = 0;  // of its vibration behind the natural frequency [rad/s]
         // A free vibration or decay since the start of the step, which no polynomial through the nodes follows: bounds
-        // of it and its derivatives, and its frequency.
+        // of it and its derivatives there, and its frequency. After the time τ they are at most overshoot·e^(−fading τ)
+        // times as large, and no larger.
         struct Swing {
-            double value = 0, rate = 0, second = 0, frequency = 0;
+            double value = 0, rate = 0, second = 0, frequency = 0, fading = 0, overshoot = 1;
+            double left(double tau) const {
+                return fading * tau > 0 ? std::min(1.0, overshoot * std::exp(-fading * tau)) : 1;
+            }
         };
         static constexpr int kSwings = 2;
         Swing swings[kSwings];  // the vibration, or both decays

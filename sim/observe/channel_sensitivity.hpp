@@ -1,4 +1,4 @@
-// How each channel depends on the modes within a step: bounds of |∂c/∂q|, |∂c/∂q̇| and |∂c/∂q̈|, which turn the
+// How each channel depends on the modes within a part of a step: bounds of |∂c/∂q|, |∂c/∂q̇| and |∂c/∂q̈|, which turn the
 // bounds of each mode (ModeVibrations) into vibrations of the channel. MODEL.md §12, (S59).
 #pragma once
 
@@ -8,7 +8,7 @@
 
 #include "sim/observe/channels.hpp"
 #include "sim/observe/constants.hpp"
-#include "sim/observe/step_bounds.hpp"
+#include "sim/observe/part_bounds.hpp"
 
 namespace beamcam::sim {
 
@@ -20,9 +20,9 @@ struct Sensitivity {
 
 class ChannelSensitivity {
   public:
-    // Basis and bounds must outlive it.
-    ChannelSensitivity(System& system, const ModeBasis& basis, const StepBounds& step)
-        : system_(system), basis_(basis), step_(step), gravity_(std::fabs(system.problem().gravity)) {
+    // Basis and part must outlive it.
+    ChannelSensitivity(System& system, const ModeBasis& basis, const PartBounds& part)
+        : system_(system), basis_(basis), part_(part), gravity_(std::fabs(system.problem().gravity)) {
         if (!system.has_cam()) return;
         cam_radius_ = system.problem().cam->radius;
         friction_ = std::max(system.friction().kinetic, system.friction().limit);
@@ -39,33 +39,33 @@ class ChannelSensitivity {
   private:
     using Group = ModeBasis::Group;
     using Vibrations = ModeVibrations;
-    double theta_dot() const { return step_.step.motion->theta_dot; }
+    double theta_dot() const { return part_.part.motion->theta_dot; }
     // Of the inertia: a mode vibrates about the shape of the others.
     Lanes turning(const Group& of, const Vibrations& m) const {
-        return of.inertia * m.amplitude * (theta_dot() * step_.inertia_root);
+        return of.inertia * m.amplitude * (theta_dot() * part_.inertia_root);
     }
     // Of the place of contact: a slope rotates the normal, which passes the disc's centre at the distance `away`.
     Lanes foot(const Group& of) const {
-        if (!step_.foot_moves()) return {};
-        return kBentContactShift * (of.slope * step_.away + of.shape * step_.inclination);
+        if (!part_.foot_moves()) return {};
+        return kBentContactShift * (of.slope * part_.away + of.shape * part_.inclination);
     }
     // Displacement of the beam at the contact: from that of the root on it grows by its slopes.
     Lanes displacement(const Group& of) const {
-        return smaller(of.shape, of.h * (basis_.reach - basis_.length) + of.slope * step_.farthest);
+        return smaller(of.shape, of.h * (basis_.reach - basis_.length) + of.slope * part_.farthest);
     }
     // Where tangents turn by δ, sin δ is δ but for ½δ²δ_i of each mode; against the hub they turn by twice the
     // inclination at most. The deflection of the tip changes by that over the length.
     Lanes far_tip(const Group& of) const {
-        return basis_.bends_far ? of.slope * (2 * basis_.length * step_.inclination * step_.inclination) : Lanes{};
+        return basis_.bends_far ? of.slope * (2 * basis_.length * part_.inclination * part_.inclination) : Lanes{};
     }
     // The same of velocities across the beam; and those along it, L|v′v̇′|, squared and times those by the rotation.
     Lanes far_kinetic(const Group& of, const Vibrations& m) const {
         if (!basis_.bends_far) return {};
-        const double speed = theta_dot() * basis_.reach + step_.step.motion->deflection_speed,
-                     along = basis_.length * step_.inclination * step_.step.motion->slope_speed;
+        const double speed = theta_dot() * basis_.reach + part_.part.motion->deflection_speed,
+                     along = basis_.length * part_.inclination * part_.part.motion->slope_speed;
         return of.slope * m.rate *
-               (basis_.mass * basis_.length * step_.inclination *
-                (2 * speed * step_.inclination + 0.5 * along + theta_dot() * step_.deflection));
+               (basis_.mass * basis_.length * part_.inclination *
+                (2 * speed * part_.inclination + 0.5 * along + theta_dot() * part_.deflection));
     }
     template <class Visit>
     void visit_coordinate(std::size_t j, const Visit& visit) const;
@@ -78,12 +78,12 @@ class ChannelSensitivity {
     template <class Visit, class Each>
     void visit_all(const Visit& visit, const Each& sensitivity) const {
         for (std::size_t g = 0; g < basis_.groups.size(); ++g)
-            visit(sensitivity(basis_.groups[g], step_.groups[g]), step_.groups[g]);
+            visit(sensitivity(basis_.groups[g], part_.groups[g]), part_.groups[g]);
     }
 
     System& system_;
     const ModeBasis& basis_;
-    const StepBounds& step_;
+    const PartBounds& part_;
     const double gravity_;
     double friction_ = 0, cam_radius_ = 0;
 };
@@ -107,9 +107,9 @@ void ChannelSensitivity::each_group(Channel channel, Visit&& visit) const {
         case ChannelKind::separation_paper: {  // (S41)
             const double pull = 1.5 * gravity_ / basis_.length;
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
-                return Sensitivity{.acceleration = of.h * step_.arm,
-                                   .mixed = (foot(of) + of.h * step_.arm) * pull * m.amplitude,
-                                   .mixed_rate = foot(of) * step_.hub_acceleration * m.amplitude};
+                return Sensitivity{.acceleration = of.h * part_.arm,
+                                   .mixed = (foot(of) + of.h * part_.arm) * pull * m.amplitude,
+                                   .mixed_rate = foot(of) * part_.hub_acceleration * m.amplitude};
             });
         }
         case ChannelKind::gap:
@@ -141,16 +141,16 @@ void ChannelSensitivity::visit_coordinate(std::size_t j, const Visit& visit) con
         Sensitivity of{.q = Lanes{}};
         for (std::size_t i = g * kNodes; i < std::min(basis_.size(), (g + 1) * kNodes); ++i)
             (*of.q)[static_cast<int>(i % kNodes)] = std::fabs(basis_.share(j, i));
-        visit(of, step_.groups[g]);
+        visit(of, part_.groups[g]);
     }
 }
 
 // −(L + Δu) sin α + Δv cos α: what is not linear is of third order.
 template <class Visit>
 void ChannelSensitivity::visit_tip(ChannelKind kind, const Visit& visit) const {
-    const double length = basis_.length, alpha = step_.alpha;
-    const double third = length * alpha * alpha / 6 + 0.5 * length * step_.inclination * step_.inclination +
-                         0.5 * step_.deflection * alpha;
+    const double length = basis_.length, alpha = part_.alpha;
+    const double third = length * alpha * alpha / 6 + 0.5 * length * part_.inclination * part_.inclination +
+                         0.5 * part_.deflection * alpha;
     if (kind == ChannelKind::tip_deflection)
         return visit_all(visit, [&](const Group& of, const Vibrations& m) {
             return Sensitivity{.q = magnitude(of.tip), .mixed = (of.h * (3 * third) + far_tip(of)) * m.amplitude};
@@ -164,7 +164,7 @@ template <class Visit>
 void ChannelSensitivity::visit_contact(ChannelKind kind, const Visit& visit) const {
     const auto by_shape = [&](auto&& q) {
         visit_all(visit, [&](const Group& of, const Vibrations&) {
-            return Sensitivity{.q = q(of), .shift = of.wave * step_.slide};
+            return Sensitivity{.q = q(of), .shift = of.wave * part_.slide};
         });
     };
     switch (kind) {
@@ -174,16 +174,16 @@ void ChannelSensitivity::visit_contact(ChannelKind kind, const Visit& visit) con
             return by_shape([&](const Group& of) { return foot(of); });
         case ChannelKind::contact_s:
             return by_shape(
-                [&](const Group& of) { return cam_radius_ * of.slope + step_.rim_share * displacement(of); });
+                [&](const Group& of) { return cam_radius_ * of.slope + part_.rim_share * displacement(of); });
         case ChannelKind::energy_contact:
-            return by_shape([&](const Group& of) { return step_.force * displacement(of); });
+            return by_shape([&](const Group& of) { return part_.force * displacement(of); });
         default: {
             const double share = kind == ChannelKind::contact_force ? 1 : friction_,
-                         per_depth = share * step_.force_per_depth, per_rate = share * step_.force_per_rate;
+                         per_depth = share * part_.force_per_depth, per_rate = share * part_.force_per_rate;
             return visit_all(visit, [&](const Group& of, const Vibrations&) {
-                return Sensitivity{.q = per_depth * displacement(of) + (per_rate * step_.slide) * of.slope,
+                return Sensitivity{.q = per_depth * displacement(of) + (per_rate * part_.slide) * of.slope,
                                    .rate = per_rate * displacement(of),
-                                   .shift = of.wave * step_.slide};
+                                   .shift = of.wave * part_.slide};
             });
         }
     }
@@ -203,7 +203,7 @@ void ChannelSensitivity::visit_energy(ChannelKind kind, const Visit& visit) cons
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
                 return Sensitivity{
                     .q = gravity_ * of.W,
-                    .mixed = gravity_ * (of.weight * step_.weight_root + basis_.mass * far_tip(of)) * m.amplitude,
+                    .mixed = gravity_ * (of.weight * part_.weight_root + basis_.mass * far_tip(of)) * m.amplitude,
                     .shift = Lanes{} + 2 * fastest};
             });
         case ChannelKind::energy_elastic:
@@ -211,12 +211,12 @@ void ChannelSensitivity::visit_energy(ChannelKind kind, const Visit& visit) cons
                 return Sensitivity{.mixed = 0.25 * of.stiffness * m.amplitude * m.amplitude};
             });
         default:  // work_drive: where all is resolved, a polynomial
-            if (step_.step.modes->resolved) return;
+            if (part_.part.modes->resolved) return;
             if (!system_.drive().prescribed())  // (S55)
                 return visit_all(
-                    visit, [&](const Group& of, const Vibrations&) { return Sensitivity{.q = step_.torque * of.h}; });
+                    visit, [&](const Group& of, const Vibrations&) { return Sensitivity{.q = part_.torque * of.h}; });
             return visit_all(visit, [&](const Group& of, const Vibrations& m) {
-                return Sensitivity{.q = of.U * step_.step.motion->theta_ddot,
+                return Sensitivity{.q = of.U * part_.part.motion->theta_ddot,
                                    .rate = (2 * fastest) * of.U,
                                    .mixed_rate = (2 * fastest) * turning(of, m)};
             });

@@ -56,6 +56,7 @@ struct ChannelTraits {
     bool zero_where_held = false;  // but for errors, where contact is a constraint
     bool zero_at_rest = false;     // but for errors, where nothing moves
     bool estimated() const { return of_tip || separation; }
+    bool follows_contact() const { return needs_contact && !separation; }
 };
 
 struct ChannelRow {

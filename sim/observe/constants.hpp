@@ -19,6 +19,10 @@ inline constexpr double kRestTolerances = 10;               // times `atol`: a b
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, until those that are beaten are dropped
+// A costly channel with loose bounds is evaluated where its bound is this many times the highest so far, so that later
+// steps are excluded sooner.
+inline constexpr double kHigherPromise = 1.2;
+inline constexpr std::size_t kMostPromising = 64;  // steps of a channel that are searched before all others
 // Kept steps of a channel beyond which its bounds exclude too few.
 inline constexpr std::size_t kManyKept = 1024;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.
@@ -31,7 +35,10 @@ inline constexpr double kFormRounding = 1e-7, kFormMargin = 4;
 inline constexpr double kSignRounding = 1e-14;  // of the sum of magnitudes: values below it have no sign
 
 // ---- bounds within a step ----
-inline constexpr double kFollowedRadians = 2;   // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
+inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
+// A step in which a vibration decays by more than the first, e⁻⁸ = 3·10⁻⁴, is searched in parts; each is eight times as
+// long as the one before.
+inline constexpr double kFadedRadians = 8, kPartRatio = 0.125;
 inline constexpr double kBentContactShift = 2;  // a bent beam moves the contact by at most this times a straight one
 inline constexpr double kProductFrequency = 3;  // products of up to three modes vibrate no faster than this many times
 inline constexpr double kProductSwing = 4;      // and swing by at most this many times the share of one mode

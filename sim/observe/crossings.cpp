@@ -16,20 +16,23 @@ template <class Found>
 void each_sign_change(StepChannels& step, const SegmentInterval& s, Channel channel, double level, double scale,
                       Found&& found) {
     const auto above = [&](double t) { return step.value(s, channel, t) - level; };
-    StepChannels::Samples values = step.sample(s, channel);
-    double largest = scale;
-    for (double& value : values) {
-        value -= level;
-        largest = std::max(largest, std::fabs(value));
+    for (const SegmentInterval& part : step.parts(s)) {
+        step.begin(part);
+        StepChannels::Samples values = step.sample(part, channel);
+        double largest = scale;
+        for (double& value : values) {
+            value -= level;
+            largest = std::max(largest, std::fabs(value));
+        }
+        // A start from rest is no crossing, whatever its rounding: no earlier step determines the sign.
+        if (part.from == 0 && std::fabs(values[0]) <= kSignRounding * largest) values[0] = 0;
+        const Variation variation = step.variation(part, channel, values);
+        const auto [low, high] = std::ranges::minmax(values);
+        if (std::max(low, -high) > variation.strays(kWidestNodeGap * (part.to - part.from))) continue;
+        for (std::size_t k = 0; k + 1 < values.size(); ++k)
+            sign_changes(above, variation, kSignRounding * largest, {sample_time(part, k), values[k]},
+                         {sample_time(part, k + 1), values[k + 1]}, found);
     }
-    // A start from rest is no crossing, whatever its rounding: no earlier step determines the sign.
-    if (s.from == 0 && std::fabs(values[0]) <= kSignRounding * largest) values[0] = 0;
-    const Variation variation = step.variation(s, channel, values);
-    const auto [low, high] = std::ranges::minmax(values);
-    if (std::max(low, -high) > variation.strays(kWidestNodeGap * (s.to - s.from))) return;
-    for (std::size_t k = 0; k + 1 < values.size(); ++k)
-        sign_changes(above, variation, kSignRounding * largest, {sample_time(s, k), values[k]},
-                     {sample_time(s, k + 1), values[k + 1]}, found);
 }
 
 }  // namespace

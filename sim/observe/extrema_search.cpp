@@ -9,32 +9,55 @@
 
 namespace beamcam::sim {
 
-void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
+void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     step_.begin(s);  // as if nothing had been searched before
+    const std::vector<SegmentInterval> parts = step_.parts(s);
+    if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, e);
+    // Vibrations of which too little reaches the channel need no parts.
+    if (is_beaten(step_.sampled_range(s, channel), channel.kind, sign, e)) return;
+    for (const SegmentInterval& part : parts) {
+        step_.begin(part);
+        if (is_beaten(step_.range(part, channel), channel.kind, sign, e)) continue;
+        step_.begin(part);
+        search(part, channel, sign, e);
+    }
+    step_.begin(s);
+}
+
+void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, e);
-    if (traits(channel.kind).separation && estimate_is_beaten(s, channel, sign, e)) return;
+    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e)) return;
     const Samples samples = step_.sample(s, channel);
-    if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {  // an error: its nodes are enough
+    if (has_only_nodes(channel.kind)) {
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
         return;
     }
     BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
     const auto value = [&](double t) { return step_.value(s, channel, t); };
-    if (!climb_step(value, step_.variation(s, channel, samples), s, channel, samples, best)) ++incomplete_;
+    const bool of_modes = channel.kind == ChannelKind::q;  // which it is the sum of, as an estimate is
+    const Variation variation =
+        of_modes ? step_.variation_of_estimate(s, channel, samples) : step_.variation(s, channel, samples);
+    if (!climb_step(value, variation, s, channel, samples, best)) ++incomplete_;
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
-// θ̈ times the longest arm, plus the error of that, excludes most steps.
+// The estimate of a costly channel, plus its error, excludes most steps.
 bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e) {
     BestValue best = best_so_far(channel.kind, sign, e);
     const double error = step_.modes().estimate_error(channel), most = best.value - error;
-    if (!(most > 0)) return false;
-    best.value = most - best.left_out;
-    const auto estimate = [&](double t) { return step_.estimate(s, t); };
+    const bool shared = traits(channel.kind).separation;
+    double& proven = step_.proven_separation()[sign > 0 ? 0 : 1];
+    if (shared && proven <= most) return true;
+    const double aim = shared ? most - 2 * error : most;  // the other separation differs by this
+    if (!(aim > 0)) return false;
+    best.value = aim - best.left_out;
+    const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
     const Samples samples = step_.estimates(s, channel);
-    return climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best) &&
-           best.value <= most;
+    const bool complete =
+        climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best);
+    if (complete && shared) proven = best.value;
+    return complete && best.value <= most;
 }
 
 // Raises `best` to the largest value of f in the step; false if the search ended before.
@@ -111,7 +134,7 @@ void ExtremaFinder::contact_peaks(const SegmentInterval& s, ImpactPeaks& peaks) 
     Extremum of_force{0, s.from, peaks.force.value_or(0), s.from}, of_gap{-peaks.penetration, s.from, 0, s.from};
     const auto raise = [&](ChannelKind kind, double sign, Extremum& e) {
         if (step_.modes().touch() && is_beaten(step_.modes().range({kind}, 0, 0), kind, sign, e)) return;
-        search(s, {kind}, sign, e);
+        search_parts(s, {kind}, sign, e);
     };
     if (step_.system().phase().touching) raise(ChannelKind::contact_force, 1, of_force);
     if (!step_.system().phase().held) raise(ChannelKind::gap, -1, of_gap);

@@ -15,10 +15,18 @@ ModalChannels::ModalChannels(System& system, const ModeBasis& basis)
     disc_speed_ = system.problem().cam->eccentricity * cam_speed_;
 }
 
-void ModalChannels::set(const StepBounds::Step& step) {
-    bounds_.set(step);
+void ModalChannels::set(const PartBounds::Part& part) {
+    bounds_.set(part);
     turning_.reset();
     forced_.reset();
+}
+
+double ModalChannels::fading() const {
+    double fastest = 0;
+    for (const ModalBounds::Mode& b : bounds_.part.modes->modes)
+        for (const ModalBounds::Mode::Swing& swing : b.swings)
+            if (swing.value > 0) fastest = std::max(fastest, swing.fading);
+    return fastest;
 }
 
 double ModalChannels::tip(ChannelKind kind, const double* y) const {
@@ -36,13 +44,13 @@ double ModalChannels::hub(ChannelKind kind, const double* y) const {
 }
 
 bool ModalChannels::accelerated_by_modes() const {
-    return !bounds_.step.modes->resolved && !system_.drive().prescribed();
+    return !bounds_.part.modes->resolved && !system_.drive().prescribed();
 }
 
 const ForcedAcceleration& ModalChannels::forced() const {
     if (forced_) return *forced_;
     const Collocation& gauss = Collocation::get();
-    const ModalBounds& modes = *bounds_.step.modes;
+    const ModalBounds& modes = *bounds_.part.modes;
     forced_.emplace();
     Lanes &frame = forced_->frame, &nodes = forced_->nodes;
     for (std::size_t l = 0; l < kNodes; ++l) frame += (modes.theta_dot[static_cast<int>(l)] / modes.h) * gauss.slope[l];
@@ -61,14 +69,14 @@ double ModalChannels::hub_acceleration(double t, const double* y) const {
     std::copy_n(y + size, size, rate);
     basis_.to_modes(z);
     basis_.to_modes(rate);
-    const StepBounds::Step& step = bounds_.step;
-    double total = forced().polynomial(2 * (t - step.from) / step.modes->h - 1);
+    const PartBounds::Part& part = bounds_.part;
+    double total = forced().polynomial(2 * (t - part.from + part.elapsed) / part.modes->h - 1);
     for (std::size_t i = 0; i < modes_.size(); ++i) total += modes_[i].turn * modes_[i].restored(z[1 + i], rate[1 + i]);
     return total;
 }
 
 ModalChannels::Range ModalChannels::mode_range(Channel channel) const {
-    const std::vector<ModalBounds::Mode>& modes = bounds_.step.modes->modes;
+    const std::vector<ModalBounds::Mode>& modes = bounds_.part.modes->modes;
     const std::size_t j = static_cast<std::size_t>(channel.index) - 1;
     if (basis_.are_coordinates()) return {modes[j].low, modes[j].high};
     Range range{0, 0};
@@ -80,13 +88,13 @@ ModalChannels::Range ModalChannels::mode_range(Channel channel) const {
 }
 
 std::optional<UndampedMode> ModalChannels::undamped_mode(Channel channel) const {
-    const StepBounds::Step& step = bounds_.step;
+    const PartBounds::Part& part = bounds_.part;
     const std::size_t j = static_cast<std::size_t>(channel.index) - 1;
-    if (channel.kind != ChannelKind::q || step.modes->resolved || basis_.modes[j].damping != 0) return {};
+    if (channel.kind != ChannelKind::q || part.modes->resolved || basis_.modes[j].damping != 0) return {};
     double other = 0;
     for (std::size_t i = 0; i < modes_.size(); ++i)
-        other += std::fabs(basis_.share(j, i) - (i == j ? 1 : 0)) * step.modes->modes[i].amplitude;
-    const UndampedMode mode(*step.modes, j, basis_.modes[j].omega, step.from, other);
+        other += std::fabs(basis_.share(j, i) - (i == j ? 1 : 0)) * part.modes->modes[i].amplitude;
+    const UndampedMode mode(*part.modes, j, basis_.modes[j].omega, part.from - part.elapsed, other);
     return mode.has_crests() ? std::optional(mode) : std::nullopt;
 }
 
@@ -94,17 +102,17 @@ std::optional<ModalChannels::Range> ModalChannels::crest_range(Channel channel, 
     const std::optional<UndampedMode> mode = undamped_mode(channel);
     if (!mode) return {};
     Range range{std::min(first, last), std::max(first, last)};
-    const StepBounds::Step& step = bounds_.step;
-    mode->each_crest(1, step.from, step.to,
+    const PartBounds::Part& part = bounds_.part;
+    mode->each_crest(1, part.from, part.to,
                      [&](double, double, double high) { range.high = std::max(range.high, high); });
-    mode->each_crest(-1, step.from, step.to,
+    mode->each_crest(-1, part.from, part.to,
                      [&](double, double, double high) { range.low = std::min(range.low, -high); });
     return range;
 }
 
 bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
-    if (!bounds_.step.whole) return false;
-    const ModalBounds& modes = *bounds_.step.modes;
+    if (!bounds_.part.whole) return false;
+    const ModalBounds& modes = *bounds_.part.modes;
     const auto weigh = [&](const Lanes& start, std::span<const Lanes> x, auto&& weight) {
         values = start;
         for (std::size_t i = 0; i < modes_.size(); ++i) values += weight(i) * x[i];
@@ -143,6 +151,22 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
         default:
             return false;
     }
+}
+
+bool ModalChannels::known_at_nodes(Channel channel, Lanes& values) const {
+    if (channel.kind == ChannelKind::q || channel.kind == ChannelKind::theta || channel.kind == ChannelKind::theta_dot)
+        return at_nodes(channel, values);
+    const TouchSamples* touch = bounds_.part.touch;
+    if (!touch || touch->t[0] != bounds_.part.from || touch->t[TouchSamples::kCount - 1] != bounds_.part.to)
+        return false;
+    const double* all = channel.kind == ChannelKind::gap              ? touch->gap
+                        : channel.kind == ChannelKind::contact_force  ? touch->force
+                        : channel.kind == ChannelKind::friction_force ? touch->friction
+                        : channel.kind == ChannelKind::contact_x      ? touch->x
+                                                                      : nullptr;
+    if (!all) return false;
+    for (int k = 0; k < kNodes; ++k) values[k] = all[k + 1];
+    return true;
 }
 
 }  // namespace beamcam::sim

@@ -1,4 +1,4 @@
-// Bounds of the channels within one step, and their values at its nodes. MODEL.md §12, (S59).
+// Bounds of the channels within one step, or a part of it, and their values at its nodes. MODEL.md §12, (S59).
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 #include "sim/observe/channel_sensitivity.hpp"
 #include "sim/observe/channels.hpp"
 #include "sim/observe/mode_basis.hpp"
-#include "sim/observe/step_bounds.hpp"
+#include "sim/observe/part_bounds.hpp"
 #include "sim/observe/undamped_mode.hpp"
 #include "sim/observe/variation.hpp"
 
@@ -30,8 +30,13 @@ class ModalChannels {
     ModalChannels(const ModalChannels&) = delete;
     ModalChannels& operator=(const ModalChannels&) = delete;
 
-    void set(const StepBounds::Step& step);
-    const TouchSamples* touch() const { return bounds_.step.touch; }
+    void set(const PartBounds::Part& part);
+    const TouchSamples* touch() const { return bounds_.part.touch; }
+    // The end of the beam that the foot of the contact does not leave within the part, if there is one.
+    std::optional<double> foot_at_end() const {
+        return bounds_.foot_moves() ? std::nullopt : std::optional(bounds_.nearest);
+    }
+    double fading() const;  // the fastest, of vibration that a polynomial over the part does not resolve [1/s]
 
     struct Range {
         double low, high;
@@ -45,10 +50,14 @@ class ModalChannels {
     bool accelerated_by_modes() const;
     double hub_acceleration(double t, const double* y) const;
     // The same at the nodes, or q, or the elastic energy, or the kinetic but for the change of inertia by bending;
-    // false where the step is not whole, or the channel is none of these. Of the separation θ̈ times the
+    // false where the part is not the whole step, or the channel is none of these. Of the separation θ̈ times the
     // longest arm.
     bool at_nodes(Channel channel, Lanes& values) const;
-    // Of a channel within the step, from its values at the ends.
+    // The values of a channel at the nodes that need no evaluation, if there are any.
+    bool known_at_nodes(Channel channel, Lanes& values) const;
+    // Of a channel of the contact in flight, without any value.
+    Range flight_range(ChannelKind kind) const;
+    // Of a channel within that part, from its values at the ends.
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.
     std::optional<Range> range_by_nodes(Channel channel, double first, double last) const;
@@ -67,10 +76,10 @@ class ModalChannels {
     std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
-    // The variation of q, or of the estimate of the separation, by all its modes and the frame; false where its nodes
+    // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes
     // bound it better.
-    bool vary_by_modes(Channel channel, Variation& out) const;
-    // Vibrations that a polynomial of degree 7 over the step does not resolve.
+    bool vary_estimate(Channel channel, Variation& out) const;
+    // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 
   private:
@@ -88,7 +97,7 @@ class ModalChannels {
     System& system_;
     const ModeBasis& basis_;
     const std::vector<ModeBasis::Mode>& modes_ = basis_.modes;
-    StepBounds bounds_;
+    PartBounds bounds_;
     ChannelSensitivity sensitivity_;
     mutable std::optional<Range> turning_;  // `turning_range`, which both separations share
     mutable std::optional<ForcedAcceleration> forced_;

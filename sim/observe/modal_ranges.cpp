@@ -1,4 +1,4 @@
-// The ranges of channels within a step, (S59): how far each strays from lines between known values.
+// The ranges of channels within a part of a step, (S59): how far each strays from lines between known values.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,8 +12,8 @@ namespace beamcam::sim {
 
 // Bound of |dc/dt| with the modes at rest; zero where the channel is monotone.
 double ModalChannels::drift(ChannelKind kind) const {
-    const MotionBounds& motion = *bounds_.step.motion;
-    const ModalBounds& modes = *bounds_.step.modes;
+    const MotionBounds& motion = *bounds_.part.motion;
+    const ModalBounds& modes = *bounds_.part.modes;
     const double theta_dot = motion.theta_dot, acceleration = motion.theta_ddot;
     switch (kind) {
         case ChannelKind::theta:
@@ -59,7 +59,7 @@ double ModalChannels::drift(ChannelKind kind) const {
 // Of gravity in the separation, at any place that the contact may have (S41). cos θ differs from that in the middle of
 // the angles of the hub by the distance of their ends from it at most.
 ModalChannels::Range ModalChannels::pull(ChannelKind kind) const {
-    const MotionBounds& motion = *bounds_.step.motion;
+    const MotionBounds& motion = *bounds_.part.motion;
     const double middle = std::cos(0.5 * (motion.angle_low + motion.angle_high)),
                  around = 0.5 * (motion.angle_high - motion.angle_low) + bounds_.alpha;
     const double sign = kind == ChannelKind::separation ? 1 : -1,
@@ -73,7 +73,7 @@ ModalChannels::Range ModalChannels::pull(ChannelKind kind) const {
 // Largest distance of the channel from the line between two of its values that are `length` apart in time.
 double ModalChannels::line_strays(Channel channel, double length) const {
     if (is_mode(channel)) {
-        const ModalBounds::Mode& mode = bounds_.step.modes->modes[static_cast<std::size_t>(channel.index) - 1];
+        const ModalBounds::Mode& mode = bounds_.part.modes->modes[static_cast<std::size_t>(channel.index) - 1];
         const double radians = mode.q_frequency * length;
         return mode.amplitude * std::min(2.0, radians * radians * 0.125);
     }
@@ -89,12 +89,12 @@ double ModalChannels::line_strays(Channel channel, double length) const {
     return 0.5 * drift(channel.kind) * length + sum(total);
 }
 
-// Calls add(amplitude, frequency), in lanes, with every vibration that a polynomial of degree 7 over the step does not
+// Calls add(amplitude, frequency), in lanes, with every vibration that a polynomial of degree 7 over the part does not
 // resolve; the others have amplitude 0.
 template <class Add>
 void ModalChannels::each_unresolved(Channel channel, Add&& add) const {
     if (traits(channel.kind).of_gap && channel.kind != ChannelKind::gap && !touch()) return;
-    const double least = kFollowedRadians / bounds_.step.length();
+    const double least = kFollowedRadians / bounds_.part.length();
     const auto add_above = [&](const Lanes& amplitude, const Lanes& frequency) {
         add(where_above(frequency, least, amplitude), frequency);
     };
@@ -122,28 +122,43 @@ void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
     });
 }
 
-bool ModalChannels::vary_by_modes(Channel channel, Variation& out) const {
-    if (bounds_.step.modes->resolved) return false;
+bool ModalChannels::vary_estimate(Channel channel, Variation& out) const {
+    if (bounds_.part.modes->resolved) return false;
+    const auto add_modes = [&](auto&& bound) {
+        for (std::size_t g = 0; g < bounds_.groups.size(); ++g) {
+            const auto [amplitude, frequency] = bound(basis_.groups[g], bounds_.groups[g]);
+            for (int lane = 0; lane < kNodes; ++lane) out.add(amplitude[lane], frequency[lane]);
+        }
+        return true;
+    };
     if (channel.kind == ChannelKind::q) {
         for (std::size_t i = 0; i < modes_.size(); ++i) {
-            const ModalBounds::Mode& mode = bounds_.step.modes->modes[i];
+            const ModalBounds::Mode& mode = bounds_.part.modes->modes[i];
             out.add(std::fabs(basis_.share(static_cast<std::size_t>(channel.index) - 1, i)) * mode.amplitude,
                     mode.q_frequency);
         }
         return true;
     }
+    using Group = ModeBasis::Group;
+    using Vibrations = ModeVibrations;
+    if (channel.kind == ChannelKind::tip_deflection)
+        return add_modes([](const Group& of, const Vibrations& m) {
+            return std::pair{magnitude(of.tip) * m.amplitude, m.q_frequency};
+        });
+    if (channel.kind == ChannelKind::tip_rate)
+        return add_modes([](const Group& of, const Vibrations& m) {
+            return std::pair{magnitude(of.tip) * m.rate, m.rate_frequency};
+        });
     if (!accelerated_by_modes()) return false;
-    out.add_polynomial(bounds_.arm * forced().frame, bounds_.step.modes->h);
-    for (std::size_t i = 0; i < modes_.size(); ++i) {
-        const ModalBounds::Mode& mode = bounds_.step.modes->modes[i];
-        out.add(bounds_.arm * modes_[i].h * mode.acceleration, mode.acceleration_frequency);
-    }
-    return true;
+    out.add_polynomial(bounds_.arm * forced().frame, bounds_.part.modes->h);
+    return add_modes([&](const Group& of, const Vibrations& m) {
+        return std::pair{bounds_.arm * of.h * m.acceleration, m.acceleration_frequency};
+    });
 }
 
 // Distance of the channel from the lines between neighbouring nodes: of their polynomial, and of unresolved vibration.
 double ModalChannels::strays_between_nodes(Channel channel, const Variation& polynomial) const {
-    const double length = kWidestNodeGap * bounds_.step.modes->h;
+    const double length = kWidestNodeGap * bounds_.part.modes->h;
     Lanes stray{};
     each_unresolved(channel, [&](const Lanes& amplitude, const Lanes& frequency) {
         stray += amplitude * strays(frequency * length);
@@ -159,25 +174,30 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
         return {pulled.low - most, pulled.high + most};
     }
     Range range{std::min(first, last), std::max(first, last)};
-    const MotionBounds& motion = *bounds_.step.motion;
+    const MotionBounds& motion = *bounds_.part.motion;
     if (kind == ChannelKind::theta && (motion.rate_low > 0 || motion.rate_high < 0)) return range;
     if (kind == ChannelKind::energy_residual) {
-        const double error = bounds_.step.modes->balance_error;
+        const double error = bounds_.part.modes->balance_error;
         return {range.low - error, range.high + error};
     }
     if (touch() && traits(kind).of_gap) return contact_range(channel);
     if (traits(kind).of_gap && kind != ChannelKind::gap) return {0, 0};
     const double stray =
-        line_strays(channel, bounds_.step.length()) + (traits(kind).of_tip ? estimate_error(channel) : 0);
+        line_strays(channel, bounds_.part.length()) + (traits(kind).of_tip ? estimate_error(channel) : 0);
     range = {range.low - stray, range.high + stray};
     if (kind == ChannelKind::q) {
         const Range mode = mode_range(channel);
         range = {std::max(range.low, mode.low), std::min(range.high, mode.high)};
     }
     if (kind == ChannelKind::energy_elastic) range.low = std::max(range.low, 0.0);
-    if (kind == ChannelKind::gap && !bounds_.step.modes->resolved)  // no touch within (S56)
+    if (kind == ChannelKind::gap && !bounds_.part.modes->resolved)  // no touch within (S56)
         range.low = std::max(range.low, std::min({first, last, 0.0}));
     return within(kind, range);
+}
+
+ModalChannels::Range ModalChannels::flight_range(ChannelKind kind) const {
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    return traits(kind).of_gap && kind != ChannelKind::gap ? Range{0, 0} : within(kind, {-kInfinity, kInfinity});
 }
 
 // The arc jumps at the mark on the disc.
@@ -193,7 +213,7 @@ ModalChannels::Range ModalChannels::within(ChannelKind kind, const Range& range)
 
 // Of the tip, terms of third order; of the kinetic energy, ½Θ̇²qᵀBq.
 double ModalChannels::estimate_error(Channel channel) const {
-    const double fastest = bounds_.step.motion->theta_dot;
+    const double fastest = bounds_.part.motion->theta_dot;
     if (channel.kind == ChannelKind::energy_kinetic)
         return 0.5 * fastest * fastest * bounds_.inertia_root * bounds_.inertia_root;
     if (traits(channel.kind).separation) {
@@ -228,14 +248,14 @@ double ModalChannels::rounding(ChannelKind kind) const {
 }
 
 std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channel, double first, double last) const {
-    if (traits(channel.kind).separation && (bounds_.step.modes->resolved || !system_.drive().prescribed())) {
+    if (traits(channel.kind).separation && (bounds_.part.modes->resolved || !system_.drive().prescribed())) {
         if (!turning_) turning_ = turning_range();
         const Range pulled = pull(channel.kind);
         return Range{turning_->low + pulled.low, turning_->high + pulled.high};
     }
     Lanes nodes;
     if (!at_nodes(channel, nodes)) return {};
-    const double h = bounds_.step.modes->h;
+    const double h = bounds_.part.modes->h;
     Variation variation;
     variation.add_polynomial(nodes, h);
     variation.add_missed(nodes, first, last, h);
@@ -250,7 +270,7 @@ std::optional<ModalChannels::Range> ModalChannels::range_by_nodes(Channel channe
 // last the line through the two nearest goes on: there vibrations leave it by at most 5/4 of what they do between
 // nodes.
 ModalChannels::Range ModalChannels::turning_range() const {
-    const ModalBounds& modes = *bounds_.step.modes;
+    const ModalBounds& modes = *bounds_.part.modes;
     const double length = kWidestNodeGap * modes.h, least = kFollowedRadians / modes.h;
     Lanes nodes{}, vibrations{}, unresolved{};
     for (std::size_t i = 0; i < modes_.size(); ++i)
@@ -267,20 +287,20 @@ ModalChannels::Range ModalChannels::turning_range() const {
     Variation variation;
     variation.add_polynomial(nodes, modes.h);
     const double between = std::min(variation.strays(length) + sum(unresolved), sum(vibrations)),
-                 stray = kBeyondNodes * between + bounds_.step.motion->theta_ddot;
+                 stray = kBeyondNodes * between + bounds_.part.motion->theta_ddot;
     Range range{0, 0};
     const auto add = [&](double value) { range = {std::min(range.low, value), std::max(range.high, value)}; };
     const Lanes& at = Collocation::get().c;
-    const double last = bounds_.step.length() / modes.h;
+    const double first = bounds_.part.elapsed / modes.h, last = first + bounds_.part.length() / modes.h;
     const auto add_on_line = [&](double s) {
         int k = 0;
         while (k < kNodes - 2 && at[k + 1] < s) ++k;
         add(nodes[k] + (nodes[k + 1] - nodes[k]) * ((s - at[k]) / (at[k + 1] - at[k])));
     };
-    add_on_line(0);
+    add_on_line(first);
     add_on_line(last);
     for (int k = 0; k < kNodes; ++k)
-        if (at[k] < last) add(nodes[k]);
+        if (at[k] > first && at[k] < last) add(nodes[k]);
     return {-bounds_.arm * (stray - range.low), bounds_.arm * (range.high + stray)};
 }
 
@@ -296,7 +316,7 @@ ModalChannels::Range ModalChannels::contact_range(Channel channel) const {
     Variation variation;
     Lanes nodes;
     for (int k = 0; k < kNodes; ++k) nodes[k] = contact_value(channel.kind, k + 1);
-    variation.add_polynomial(nodes, bounds_.step.modes->h);
+    variation.add_polynomial(nodes, bounds_.part.modes->h);
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     Range range{kInfinity, -kInfinity};
     for (int k = 0; k < TouchSamples::kCount; ++k) {

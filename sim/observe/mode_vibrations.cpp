@@ -7,7 +7,7 @@
 namespace beamcam::sim {
 namespace {
 
-void pack_mode(const ModalBounds::Mode& mode, int lane, ModeVibrations& group) {
+void pack_mode(const ModalBounds::Mode& mode, double elapsed, int lane, ModeVibrations& group) {
     group.amplitude[lane] = mode.amplitude;
     group.rate[lane] = mode.rate;
     group.acceleration[lane] = mode.acceleration;
@@ -16,10 +16,11 @@ void pack_mode(const ModalBounds::Mode& mode, int lane, ModeVibrations& group) {
     group.acceleration_frequency[lane] = mode.acceleration_frequency;
     for (int k = 0; k < ModalBounds::Mode::kSwings; ++k) {
         const ModalBounds::Mode::Swing& swing = mode.swings[k];
+        const double left = swing.left(elapsed);
         ModeVibrations::Free& free = group.free[k];
-        free.value[lane] = swing.value;
-        free.rate[lane] = swing.rate;
-        free.second[lane] = swing.second;
+        free.value[lane] = left * swing.value;
+        free.rate[lane] = left * swing.rate;
+        free.second[lane] = left * swing.second;
         free.frequency[lane] = swing.frequency;
         if (swing.value > 0) group.free_count = std::max(group.free_count, k + 1);
     }
@@ -27,11 +28,11 @@ void pack_mode(const ModalBounds::Mode& mode, int lane, ModeVibrations& group) {
 
 }  // namespace
 
-void set_vibrations(const ModalBounds& bounds, std::vector<ModeVibrations>& groups) {
+void set_vibrations(const ModalBounds& bounds, double elapsed, std::vector<ModeVibrations>& groups) {
     for (std::size_t i = 0; i < bounds.modes.size(); ++i) {
         const int lane = static_cast<int>(i % kNodes);
         if (lane == 0) groups[i / kNodes].free_count = 0;
-        pack_mode(bounds.modes[i], lane, groups[i / kNodes]);
+        pack_mode(bounds.modes[i], elapsed, lane, groups[i / kNodes]);
     }
     for (ModeVibrations& group : groups) {
         for (int k = 0; k < group.free_count; ++k) {

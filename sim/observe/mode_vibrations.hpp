@@ -1,4 +1,4 @@
-// Bounds of the modes within a step, eight side by side, and how far they stray from a straight line there.
+// Bounds of the modes within a part of a step, eight side by side, and how far they stray from a straight line there.
 // MODEL.md §12, (S59).
 #pragma once
 
@@ -20,7 +20,8 @@ struct ModeVibrations {
     int free_count = 0;
 };
 
-void set_vibrations(const ModalBounds& bounds, std::vector<ModeVibrations>& groups);
+// Of the part of a step that begins `elapsed` after its start.
+void set_vibrations(const ModalBounds& bounds, double elapsed, std::vector<ModeVibrations>& groups);
 
 // Largest distance of a vibration of amplitude 1 from a straight line while it turns by these radians.
 BEAMCAM_INLINE Lanes strays(const Lanes& radians) { return smaller(Lanes{} + 2.0, radians * radians * 0.125); }

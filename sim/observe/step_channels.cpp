@@ -7,6 +7,21 @@
 #include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
+namespace {
+
+StepChannels::Samples copied(const double* samples) {
+    StepChannels::Samples values;
+    std::copy_n(samples, values.size(), values.begin());
+    return values;
+}
+
+// The contact at the samples of the interval, if `touch` has it there.
+const TouchSamples* touch_at_samples(const TouchSamples* touch, const SegmentInterval& s) {
+    return touch && touch->t[0] == s.from && touch->t[StepChannels::kSamples - 1] == s.to ? touch : nullptr;
+}
+
+}  // namespace
+
 double sample_time(const SegmentInterval& s, std::size_t k) {
     if (k == 0) return s.from;
     if (k > kNodes) return s.to;
@@ -25,22 +40,44 @@ StepChannels::StepChannels(const System& system)
 
 void StepChannels::set_phase(const Phase& phase) {
     evaluator_.set_phase(phase);
-    segment_ = nullptr;
+    bounded_from_ = -1;
+    forget();
+}
+
+void StepChannels::forget() {
+    instants_.clear();
+    balance_.reset();
 }
 
 void StepChannels::begin(const SegmentInterval& s) {
     const Phase& phase = evaluator_.system().phase();
     probing_ = !(phase.touching && phase.held);
     bristled_ = phase.touching && evaluator_.system().has_bristle();
-    if (segment_ != s.segment || from_ != s.from || to_ != s.to) {
-        segment_ = s.segment;
-        from_ = s.from;
-        to_ = s.to;
-        instants_.clear();
-        balance_.reset();
+    if (segment_ != s.segment || segment_from_ != s.segment->t0 || segment_to_ != s.segment->t1) forget();
+    segment_ = s.segment;
+    segment_from_ = s.segment->t0;
+    segment_to_ = s.segment->t1;
+    if (bounded_from_ != s.from || bounded_to_ != s.to) {
+        bounded_from_ = -1;  // those of the last interval hold no more
         bound(s);
     }
+    bounded_from_ = s.from;
+    bounded_to_ = s.to;
     search_again();
+}
+
+std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s) const {
+    const double length = s.to - s.from, fading = modal_channels_.fading();
+    std::vector<SegmentInterval> out;
+    double to = s.to, share = 1;
+    for (bool first = false; !first; share *= kPartRatio) {
+        first = !(fading * share * length > kFadedRadians) || !(s.from + kPartRatio * share * length > s.from);
+        const double from = first ? s.from : s.from + kPartRatio * share * length;
+        out.push_back({s.segment, from, to, s.last && to == s.to});
+        to = from;
+    }
+    std::ranges::reverse(out);
+    return out;
 }
 
 // Results must not depend on where the contact was searched before.
@@ -54,12 +91,13 @@ void StepChannels::bound(const SegmentInterval& s) {
     System& system = evaluator_.system();
     const ModalBounds* modes = segment.modal_bounds();
     polynomial_ = !modes;
+    proven_separation_ = {kNan, kNan};
     const double resting = kRestTolerances * system.problem().solver.atol;
     at_rest_ = modes && largest(modes->theta_dot) < resting;
     if (modes) {
         for (const Lanes& rate : modes->rate) at_rest_ = at_rest_ && largest(rate) < resting;
         const bool whole = s.from == segment.t0 && std::fabs(s.from + modes->h - s.to) <= kWholeStep * modes->h;
-        modal_channels_.set({s.from, s.to, whole, modes, segment.bounds(), segment.touch()});
+        modal_channels_.set({s.from, s.to, s.from - segment.t0, whole, modes, segment.bounds(), segment.touch()});
         return;
     }
     PolynomialBounds::States states;
@@ -74,7 +112,7 @@ void StepChannels::bound(const SegmentInterval& s) {
     polynomial_bounds_.set(system, s.from, s.to, states);
     const bool touching = system.has_cam() && system.phase().touching;
     if (touching) sample_touch(s);
-    modal_channels_.set({s.from, s.to, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
+    modal_channels_.set({s.from, s.to, 0, true, &polynomial_bounds_.modes(), &polynomial_bounds_.motion(),
                          touching ? &polynomial_touch_ : nullptr});
 }
 
@@ -111,10 +149,13 @@ bool StepChannels::is_linear(ChannelKind kind) {
     return traits(kind).of_hub && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
-// Geometry and forces, except in sustained contact, by the probe, which costs less than a search of the whole beam.
+// Geometry and forces, except in sustained contact: at the end of the beam where the foot stays, else by the probe,
+// which costs less than a search of the whole beam.
 void StepChannels::probe_contact(double t) {
     System& system = evaluator_.system();
-    ContactState c = probe_.evaluate(t, y_.data(), false);
+    const std::optional<double> end = bounded_from_ >= 0 ? modal_channels_.foot_at_end() : std::nullopt;
+    if (end) system.begin_contact_at(*end);
+    ContactState c = end ? system.contact(t, y_.data(), false) : probe_.evaluate(t, y_.data(), false);
     const Phase& phase = system.phase();
     if (phase.touching) {
         c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
@@ -152,7 +193,8 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
     return value_at(t, channel, at(s, t));
 }
 
-double StepChannels::estimate(const SegmentInterval& s, double t) {
+double StepChannels::estimate(const SegmentInterval& s, Channel channel, double t) {
+    if (!traits(channel.kind).separation) return modal_channels_.tip(channel.kind, beam(s, t));
     if (modal_channels_.accelerated_by_modes())
         return modal_channels_.longest_arm() * modal_channels_.hub_acceleration(t, beam(s, t));
     Instant& shared = at(s, t);
@@ -167,7 +209,8 @@ StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel 
     Lanes nodes;
     const bool at_nodes = modal_channels_.at_nodes(channel, nodes);
     for (std::size_t k = 0; k < kSamples; ++k)
-        values[k] = at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, sample_time(s, k));
+        values[k] =
+            at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, channel, sample_time(s, k));
     return values;
 }
 
@@ -206,16 +249,18 @@ double StepChannels::share_hub_acceleration(Instant& shared) {
 }
 
 void StepChannels::values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                          const System::EnergyBalance* balance, std::vector<double>& out) {
+                          const System::EnergyBalance* balance, bool contact, std::vector<double>& out) {
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
-    if (probing_ && evaluator_.system().has_cam()) probe_contact(t);
+    if (contact && probing_ && evaluator_.system().has_cam()) probe_contact(t);
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (channels[c].kind == ChannelKind::q)
             out[c] = y_[static_cast<std::size_t>(channels[c].index)];
         else if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
+        else if (!contact && traits(channels[c].kind).follows_contact())
+            out[c] = kNan;
         else if (!traits(channels[c].kind).estimated())
             out[c] = evaluator_.value(channels[c]);
         else if (!traits(channels[c].kind).separation)
@@ -223,6 +268,71 @@ void StepChannels::values(const SegmentInterval& s, double t, const std::vector<
         else
             out[c] = evaluator_.system().has_cam() ? 0 : kNan;
     }
+}
+
+StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel channel) {
+    const TouchSamples* touch = touch_at_samples(modal_channels_.touch(), s);
+    if (touch && channel.kind == ChannelKind::contact_force) return copied(touch->force);
+    if (touch && channel.kind == ChannelKind::gap) return copied(touch->gap);
+    if (touch && channel.kind == ChannelKind::friction_force) return copied(touch->friction);
+    if (touch && channel.kind == ChannelKind::contact_x) return copied(touch->x);
+    const bool is_balance = channel.kind == ChannelKind::energy_residual;
+    if (is_balance && balance_) return *balance_;
+    Samples values;
+    Lanes nodes;
+    const bool at_nodes =
+        (channel.kind == ChannelKind::q || is_linear(channel.kind)) && modal_channels_.at_nodes(channel, nodes);
+    for (std::size_t k = 0; k < kSamples; ++k) {
+        const double t = sample_time(s, k);
+        if (at_nodes && k > 0 && k <= kNodes) {
+            values[k] = nodes[static_cast<int>(k) - 1];
+        } else if (touch && probing_ && traits(channel.kind).needs_gap) {
+            s.segment->value(t, y_.data());
+            evaluator_.set(t, y_.data());
+            evaluator_.set_gap(touch->gap[k], touch->force[k]);
+            values[k] = evaluator_.value(channel);
+        } else if (polynomial_) {
+            values[k] = value_at(t, channel, polynomial_samples_[k]);
+        } else {
+            values[k] = value(s, channel, t);
+        }
+    }
+    if (is_balance) balance_ = values;
+    return values;
+}
+
+// The polynomial through the inner samples, its error at the ends, and the vibrations that it does not resolve.
+Variation StepChannels::variation(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    const double h = s.to - s.from;
+    Lanes nodes;
+    for (int k = 0; k < kNodes; ++k) nodes[k] = values[static_cast<std::size_t>(k) + 1];
+    Variation out;
+    out.add_polynomial(nodes, h);
+    out.add_missed(nodes, values[0], values[kSamples - 1], h);
+    modal_channels_.add_unresolved(channel, out);
+    return out;
+}
+
+// A polynomial through nodes also follows, much too steeply, vibrations that they do not resolve.
+Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    const Variation by_nodes = variation(s, channel, values);
+    Variation by_modes;
+    const double length = kWidestNodeGap * (s.to - s.from);
+    const bool closer =
+        modal_channels_.vary_estimate(channel, by_modes) && by_modes.strays(length) < by_nodes.strays(length);
+    return closer ? by_modes : by_nodes;
+}
+
+ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {
+    const double first = value(s, channel, s.from), last = value(s, channel, s.to);
+    return modal_channels_.range(channel, first, last);
+}
+
+ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel) {
+    const Samples values = sample(s, channel);
+    const auto [low, high] = std::ranges::minmax(values);
+    const double stray = variation(s, channel, values).strays(kWidestNodeGap * (s.to - s.from));
+    return modal_channels_.within(channel.kind, {low - stray, high + stray});
 }
 
 }  // namespace beamcam::sim

@@ -25,6 +25,8 @@ class StepChannels {
 
     // Every other call on a step follows this one.
     void begin(const SegmentInterval& s);
+    // A step in which vibrations fade, cut into parts that grow in length from its start; every other step is one part.
+    std::vector<SegmentInterval> parts(const SegmentInterval& s) const;
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
@@ -39,25 +41,33 @@ class StepChannels {
 
     double value(const SegmentInterval& s, Channel channel, double t);
     // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
-    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available.
+    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available. `contact`:
+    // else those of the contact are undefined.
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                const System::EnergyBalance* balance, std::vector<double>& out);
+                const System::EnergyBalance* balance, bool contact, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
-    // An estimate of the separation, which is costly: times +1 or −1 it is at most this, times the same, or zero if
-    // that is more, plus ModalChannels::estimate_error.
-    double estimate(const SegmentInterval& s, double t);
+    // An estimate of a costly channel: the channel times +1 or −1 is at most this, times the same, or zero if that is
+    // more, plus ModalChannels::estimate_error.
+    double estimate(const SegmentInterval& s, Channel channel, double t);
     Samples estimates(const SegmentInterval& s, Channel channel);
     Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    // The same of `estimates`.
+    // The same of `estimates`, or of q.
     Variation variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // The mode that the channel is, or almost is, in closed form if it has one.
     std::optional<UndampedMode> undamped_mode(Channel channel) const { return modal_channels_.undamped_mode(channel); }
-    // Bounds of the channel from its samples.
+    // Bounds of the channel from its values at the ends.
+    ModalChannels::Range range(const SegmentInterval& s, Channel channel);
+    // The same from its samples.
     ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel);
+    // The samples of the energy balance if they have been asked for.
+    const std::optional<Samples>& balance() const { return balance_; }
+    // Proven by a search: within this interval the estimate of the separation is at most the first, and at least minus
+    // the second.
+    std::array<double, 2>& proven_separation() { return proven_separation_; }
 
     System& system() { return evaluator_.system(); }
 
@@ -71,11 +81,10 @@ class StepChannels {
     };
     Instant& at(const SegmentInterval& s, double t);
     const double* beam(const SegmentInterval& s, double t);
-    Variation variation_by_nodes(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    Variation closer_by_modes(const SegmentInterval& s, Channel channel, const Variation& by_nodes) const;
     double value_at(double t, Channel channel, Instant& shared);
     void share_contact(double t, Instant& shared);
     double share_hub_acceleration(Instant& shared);
+    void forget();
     void search_again();
     void bound(const SegmentInterval& s);
     void sample_touch(const SegmentInterval& s);
@@ -90,14 +99,16 @@ class StepChannels {
     std::array<Instant, kSamples> polynomial_samples_;
     TouchSamples polynomial_touch_;
     const Segment* segment_ = nullptr;
-    double from_ = kNan, to_ = kNan;                // the interval of it
-    std::unordered_map<double, Instant> instants_;  // of that interval
+    double segment_from_ = kNan, segment_to_ = kNan;
+    std::unordered_map<double, Instant> instants_;  // of that segment
     std::optional<Samples> balance_;
+    std::array<double, 2> proven_separation_{kNan, kNan};
     std::vector<double> y_;
     bool polynomial_ = false;
-    bool probing_ = false;   // the contact of this phase is evaluated by `probe_`
-    bool bristled_ = false;  // it has a bristle
-    bool at_rest_ = false;   // all rates at the nodes are errors
+    bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
+    bool bristled_ = false;                       // it has a bristle
+    bool at_rest_ = false;                        // all rates at the nodes are errors
+    double bounded_from_ = -1, bounded_to_ = -1;  // the interval of `modal_channels_`
 };
 
 double sample_time(const SegmentInterval& s, std::size_t k);

@@ -1,4 +1,4 @@
-#include "sim/observe/step_bounds.hpp"
+#include "sim/observe/part_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -7,29 +7,29 @@
 
 namespace beamcam::sim {
 
-StepBounds::StepBounds(System& system, const ModeBasis& basis)
+PartBounds::PartBounds(System& system, const ModeBasis& basis)
     : groups(basis.groups.size()), system_(system), basis_(basis) {
     if (system.has_cam()) disc_speed_ = system.problem().cam->eccentricity * std::fabs(system.problem().cam->speed);
 }
 
-void StepBounds::set(const Step& of) {
-    step = of;
-    set_vibrations(*step.modes, groups);
+void PartBounds::set(const Part& of) {
+    part = of;
+    set_vibrations(*part.modes, part.elapsed, groups);
     sum_modes();
     const DriveLaw& drive = system_.drive();
-    torque = drive.has_torque() ? std::max(std::fabs(drive.torque(step.from)), std::fabs(drive.torque(step.to))) : 0;
+    torque = drive.has_torque() ? std::max(std::fabs(drive.torque(part.from)), std::fabs(drive.torque(part.to))) : 0;
     if (!system_.has_cam()) return;
     place_contact();
-    const MotionBounds& motion = *step.motion;
+    const MotionBounds& motion = *part.motion;
     foot_speed = slide = 0;
     if (foot_moves()) {
         foot_speed = kBentContactShift * (motion.theta_dot * (basis_.reach + away) + disc_speed_);
         slide = foot_speed + kBentContactShift * (motion.slope_speed * away + motion.deflection_speed);
     }
-    if (step.touch) bound_force();
+    if (part.touch) bound_force();
 }
 
-void StepBounds::sum_modes() {
+void PartBounds::sum_modes() {
     Lanes shapes{}, slopes{}, turns{}, inertia{}, weight{}, accelerations{};
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const ModeBasis::Group& of = basis_.groups[g];
@@ -46,19 +46,19 @@ void StepBounds::sum_modes() {
     alpha = sum(turns);
     inertia_root = sum(inertia);
     weight_root = sum(weight);
-    hub_acceleration = step.motion->theta_ddot + sum(accelerations);
+    hub_acceleration = part.motion->theta_ddot + sum(accelerations);
 }
 
 // Distance of the disc's centre from the beam, and of the contact from the root. At a foot where the tangent is
 // inclined by δ against the frame, x = foot − u + tan δ (across − v), 0 ≤ −u ≤ ½xs² + ½|a|α² and |tan δ| ≤ s/(1 − ½s²)
 // by (S7), (S13) and (S24), with the largest inclination s.
-void StepBounds::place_contact() {
-    const MotionBounds& motion = *step.motion;
+void PartBounds::place_contact() {
+    const MotionBounds& motion = *part.motion;
     const double angle = 0.5 * (motion.angle_low + motion.angle_high),
                  turn = 0.5 * (motion.angle_high - motion.angle_low) - motion.ripple;  // of the frame
-    const Vec2 disc = system_.cam(step.from).disc, along = unit(angle);
+    const Vec2 disc = system_.cam(part.from).disc, along = unit(angle);
     const double root = system_.problem().hub.radius, foot = dot(disc, along),
-                 on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * step.length();
+                 on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * part.length();
     const double distance = norm(disc - on_beam * along);
     away = distance + turn * basis_.reach + moved + deflection;
     bound_gap(distance, norm(disc - root * along), turn, moved);
@@ -76,7 +76,7 @@ void StepBounds::place_contact() {
 // From the distances of the disc's centre, which moves, from a straight beam in the middle of the angles and from its
 // root; the frame turns. Every point of the bent beam is next to one of the straight beam, and the other way round but
 // for what the beam shortens by; and the root is no farther than its distance.
-void StepBounds::bound_gap(double distance, double to_root, double turn, double moved) {
+void PartBounds::bound_gap(double distance, double to_root, double turn, double moved) {
     const double root = std::fabs(system_.problem().hub.radius), radius = system_.problem().cam->radius,
                  touching = radius + system_.offset() - system_.phase().gap_offset;
     const double shortened = 0.5 * root * alpha * alpha, around = turn * basis_.reach + moved + deflection + shortened;
@@ -89,13 +89,13 @@ void StepBounds::bound_gap(double distance, double to_root, double turn, double 
 
 // The law is convex in the penetration and linear in its rate: its slopes just beyond the deepest and fastest point are
 // the largest.
-void StepBounds::bound_force() {
+void PartBounds::bound_force() {
     double depth = 0, rate = 0;
     for (int k = 0; k < TouchSamples::kCount; ++k) {
-        depth = std::max(depth, std::fabs(step.touch->gap[k]));
-        rate = std::max(rate, std::fabs(step.touch->gap_rate[k]));
+        depth = std::max(depth, std::fabs(part.touch->gap[k]));
+        rate = std::max(rate, std::fabs(part.touch->gap_rate[k]));
     }
-    const double least = kFollowedRadians / step.length();
+    const double least = kFollowedRadians / part.length();
     for (std::size_t g = 0; g < groups.size(); ++g) {
         const ModeBasis::Group& of = basis_.groups[g];
         for (int k = 0; k < groups[g].free_count; ++k) {

@@ -1,4 +1,4 @@
-// Bounds of the beam, its hub and its contact within a step, from those of its modes: what the bounds of all
+// Bounds of the beam, its hub and its contact within a part of a step, from those of its modes: what the bounds of all
 // channels have in common. MODEL.md §12, (S59).
 #pragma once
 
@@ -11,22 +11,23 @@
 
 namespace beamcam::sim {
 
-class StepBounds {
+class PartBounds {
   public:
-    StepBounds(System& system, const ModeBasis& basis);  // which must outlive it
+    PartBounds(System& system, const ModeBasis& basis);  // which must outlive it
 
-    // What bounds a step, or what an event or the end of the run leaves of it; it lives while it is observed.
-    struct Step {
+    // What bounds the part [from, to] of a step; they live while it is observed.
+    struct Part {
         double from = 0, to = 0;
-        bool whole = false;  // the nodes of `modes` are those of [from, to]
+        double elapsed = 0;  // since the start of the step [s]
+        bool whole = false;  // all of it: the nodes of `modes` are those of the part
         const ModalBounds* modes = nullptr;
         const MotionBounds* motion = nullptr;
         const TouchSamples* touch = nullptr;  // null in flight
         double length() const { return to - from; }
     };
-    void set(const Step& part);
+    void set(const Part& part);
 
-    Step step;
+    Part part;
     std::vector<ModeVibrations> groups;
     double deflection = 0, inclination = 0, alpha = 0;  // of |v|, |v′|, |α|
     double inertia_root = 0, weight_root = 0;           // of √|qᵀBq|, √|qᵀGq|
