@@ -389,7 +389,9 @@ FilmSetup led_film(double from, double fps, const std::function<double(double)>&
     FilmSetup setup = film_of(Style::flat, {.duration = 1, .fps = fps, .cam = false});
     const sim::Pose first = setup.poses.front();
     for (sim::Pose& pose : setup.poses) pose = Poses::turned(first, setup, from + pose.t, angle(from + pose.t));
-    setup.survey = std::make_shared<Poses>(setup, times_between(from, from + 1, 200), angle);
+    std::vector<double> surveyed = times_between(from, from + 1, 200);
+    surveyed.push_back(from + 0.5);  // samples of collisions come last
+    setup.survey = std::make_shared<Poses>(setup, surveyed, angle);
     return setup;
 }
 
@@ -417,6 +419,8 @@ TEST(Steadiness, TheTrailOfALoopHasNoSeam) {
     const auto angle = [](double t) { return 2 * 3.14159265358979 * t; };
     EXPECT_TRUE(is_painted_at_tip(led_film(1, 24, angle), 0, -0.4));
     EXPECT_FALSE(is_painted_at_tip(led_film(0, 24, angle), 0, -0.4));  // it began there
+    const auto from_apex = [](double t) { return 0.4 * std::cos(2 * 3.14159265358979 * t); };
+    EXPECT_TRUE(is_painted_at_tip(led_film(1, 24, from_apex), 0, 0.1));
 }
 
 TEST(SmoothPath, StandingStillAndUnevenStepsAreFine) {

@@ -131,6 +131,27 @@ TEST(Continuation_, DoubledBranchesDoubleAgain) {
     EXPECT_NEAR((second - first) / (third - second), 4.669, 0.3);  // on the way to Feigenbaum's number
 }
 
+// Backwards along the branch of two turns. At its origin it meets itself, each orbit begun a turn later: no fold.
+TEST(Continuation_, ABranchOfDoubledPeriodEndsAtThePeriodDoubling) {
+    const PressedBeam b;
+    const Family family = [&](double w) { return b.problem(w); };
+    const auto both = branches_of(family, 49, {48, 52, 0.02, 500, 1});
+    ASSERT_EQ(both.size(), 2u);
+    const BranchPoint& start = both[1].points.back();
+    ASSERT_EQ(start.orbit.turns, 2);
+    const auto branches = continue_orbit(family, start, {46, 52.5, 0.01, 500, 1});
+    ASSERT_EQ(branches.size(), 1u) << "the origin doubles nothing";
+    const Branch& branch = branches.front();
+    EXPECT_EQ(first_of(branch, OrbitChange::fold), nullptr);
+    const SpecialPoint* origin = first_of(branch, OrbitChange::period_doubling);
+    ASSERT_TRUE(origin);
+    EXPECT_NEAR(origin->at.parameter, 50.86884987331, 1e-8);
+    EXPECT_EQ(origin->at.orbit.turns, 1);
+    EXPECT_EQ(branch.special.size(), 1u);
+    EXPECT_NE(branch.first_end.find("repeats itself after 1 turn"), std::string::npos) << branch.first_end;
+    EXPECT_NEAR(branch.points.front().parameter, origin->at.parameter, 1e-6);
+}
+
 // No value beyond an end of the range has a problem. The branch begins and ends there, once.
 TEST(Continuation_, ABranchMayStartAtTheLastValueWithAProblem) {
     const PressedBeam b;
