@@ -238,6 +238,11 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         });
     }
     progress.end();
+    if (range && table.start != start_value(args, *range))
+        inform(args.common,
+               fmt::format("at {} no orbit was found, or only such that rest on the cam; the search went "
+                           "on at {}",
+                           value_text(table, start_value(args, *range), units), value_text(table, table.start, units)));
     return table;
 }
 

@@ -17,7 +17,11 @@ using render::figure::Panel;
 std::string value_text(const sim::Exponents& e, std::size_t i) {
     const std::string name = fmt::format("$λ$_{{{}}}", i + 1);
     if (!std::isfinite(e.lambda[i])) return name + " = −∞";
-    return fmt::format("{} = {} ± {} s^{{−1}}", name, number(e.lambda[i], 4), number(e.error[i], 1));
+    if (!(e.error[i] > 0)) return fmt::format("{} = {} s^{{−1}}", name, number(e.lambda[i], 4));
+    // Two digits of the error, and the value to the same place.
+    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.error[i]))), 0, 12);
+    return fmt::format("{} = {}{:.{}f} ± {:.{}f} s^{{−1}}", name, e.lambda[i] < 0 ? "−" : "", std::abs(e.lambda[i]),
+                       decimals, e.error[i], decimals);
 }
 
 Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {

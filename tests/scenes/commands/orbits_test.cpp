@@ -289,8 +289,10 @@ TEST(OrbitsCommand, BeginsElsewhereInTheRangeWhereTheSceneHasNoOrbit) {
     folder.write("s.json", kPressed);
     const Finished done = shell(folder,
                                 "$BEAMCAM orbits s.json --set cam.speed=41 --over cam.speed=40:48 --impacts 1 "
-                                "--transient 0 -q");
+                                "--transient 0 --progress none");
     ASSERT_EQ(done.code, 0) << done.err;
+    EXPECT_THAT(done.err, HasSubstr("at 41 rad/s no orbit was found, or only such that rest on the cam; the search "
+                                    "went on at 44 rad/s"));
     EXPECT_THAT(done.out, HasSubstr("fold             cam.speed = 42.235"));
 }
 

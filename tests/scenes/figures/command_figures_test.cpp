@@ -21,11 +21,12 @@ using testing::shell;
 
 TEST(ExponentsFigure, ShowsZeroAndTheErrorsOfItsValues) {
     sim::Exponents e;
-    e.lambda = {3.441}, e.error = {0.07};
-    e.time = {1, 2}, e.history = {{3.5, 3.44}};
+    e.lambda = {3.4412345, -8.21}, e.error = {0.0702, 1.3};
+    e.time = {1, 2}, e.history = {{3.5, 3.44}, {-8, -8.2}};
     const auto figure = exponents_figure(e, {});
     EXPECT_TRUE(figure.panels.at(0).y.with_zero);
-    EXPECT_EQ(figure.panels.at(0).series.at(0).label, "$λ$_{1} = 3.441 ± 0.07 s^{−1}");
+    EXPECT_EQ(figure.panels.at(0).series.at(0).label, "$λ$_{1} = 3.441 ± 0.070 s^{−1}");
+    EXPECT_EQ(figure.panels.at(0).series.at(1).label, "$λ$_{2} = −8.2 ± 1.3 s^{−1}");
 }
 
 TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
