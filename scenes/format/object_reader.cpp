@@ -12,8 +12,7 @@ using sim::Alternative, sim::Range, sim::Unit;
 
 void Diagnostics::error(const Place& place, const std::string& path, std::string text) {
     failed_.insert(path);
-    const auto same = [&](const Message& known) { return known.fatal && known.place == place && known.text == text; };
-    if (std::ranges::none_of(messages_, same)) messages_.push_back({place, std::move(text), true});
+    if (errors_.emplace(place, text).second) messages_.push_back({place, std::move(text), true});
 }
 
 ObjectReader::ObjectReader(Diagnostics& diagnostics, const Node* object, std::string path, std::string root,

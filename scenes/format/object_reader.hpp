@@ -40,6 +40,7 @@ class Diagnostics {
 
   private:
     std::vector<Message> messages_;
+    std::set<std::pair<Place, std::string>> errors_;  // among the messages
     std::set<std::string> failed_;
 };
 
