@@ -29,7 +29,10 @@ Box LegendBox::size(double width) {
     // Inside the plot one column; above it as many columns as the width holds.
     const int columns = above_ ? std::clamp(static_cast<int>((width + apart) / (entry_ + apart)), 1, count) : 1;
     places_.clear();
-    for (int k = 0; k < count; ++k) places_.push_back({k % columns * (entry_ + apart), row * (k / columns)});
+    for (int k = 0; k < count; ++k) {
+        const int line = k / columns;
+        places_.push_back({k % columns * (entry_ + apart), row * line});
+    }
     const Box box{0, 0, columns * (entry_ + apart) - apart, places_.back().y + row};
     if (!above_) return box;
     // Without columns, if that saves a line.
