@@ -53,19 +53,19 @@ bool TipPath::closes(const MechanismView& home) const {
     constexpr double kSamePlace = 1, kSameSpeed = 1e-3;  // [px], share of the largest speed
     const Motion& motion = home.motion();
     if (!motion.survey || motion.surveyed() < 2 || frames_.size() < 3) return false;
-    const sim::Pose first = motion.pose(0);
-    sim::Pose end = first;
-    double fastest = 0;
-    for (std::size_t k = 0; k < motion.surveyed(); ++k) {  // not in time: samples of collisions come last
-        sim::Pose pose = motion.surveyed(k);
-        fastest = std::max(fastest, std::abs(pose.theta_dot));
-        if (pose.t > end.t) end = std::move(pose);
-    }
+    std::size_t latest = 0;  // not the last: samples of collisions come after it
+    for (std::size_t k = 0; k < motion.surveyed(); ++k)
+        if (motion.survey->time(k) > motion.survey->time(latest)) latest = k;
+    const sim::Pose first = motion.pose(0), end = motion.surveyed(latest);
     const double step = motion.time(frames_.size() - 1) - motion.time(frames_.size() - 2);
     const bool is_next = std::abs(end.t - motion.time(frames_.size() - 1) - step) < 0.5 * step;
-    return is_next && first.t >= 0.999 * (end.t - first.t) &&
-           norm(knot_of(home, end).at - knots_.points.front()) < kSamePlace &&
-           std::abs(end.theta_dot - first.theta_dot) <= kSameSpeed * fastest;
+    if (!is_next || first.t < 0.999 * (end.t - first.t) ||
+        !(norm(knot_of(home, end).at - knots_.points.front()) < kSamePlace))
+        return false;
+    double fastest = 0;
+    for (std::size_t k = 0; k < motion.surveyed(); ++k)
+        fastest = std::max(fastest, std::abs(motion.surveyed(k).theta_dot));
+    return std::abs(end.theta_dot - first.theta_dot) <= kSameSpeed * fastest;
 }
 
 // Whether a knot between this frame and the next one is farther than a pixel from the curve through the frames alone.

@@ -223,13 +223,14 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         need_narrow(table, units);
         problem = problem_with(problem, range->key.path, table.start);
     }
+    const double start = table.start;
     if (const auto refusal = sim::orbit_refusal(problem)) throw UsageError(*refusal);
     const sim::OrbitRequest request = request_of(args, problem);
     Progress progress(progress_style(args.common));
     table.orbits = sim::find_orbits(problem, request, search_progress(progress, request.transient));
     if (range) {
         progress.begin("branches", std::nullopt, "points");
-        double last = table.start;
+        double last = start;
         long points = 0;
         follow_branches(table, family, *range, request, args, [&](double value) {
             if (value != last) ++points;
@@ -238,11 +239,10 @@ output::BranchTable compute(const OrbitsArguments& args, sim::Problem& problem, 
         });
     }
     progress.end();
-    if (range && table.start != start_value(args, *range))
-        inform(args.common,
-               fmt::format("at {} no orbit was found, or only such that rest on the cam; the search went "
-                           "on at {}",
-                           value_text(table, start_value(args, *range), units), value_text(table, table.start, units)));
+    if (table.start != start)
+        inform(args.common, fmt::format("at {} no orbit was found, or only such that rest on the cam; the search went "
+                                        "on at {}",
+                                        value_text(table, start, units), value_text(table, table.start, units)));
     return table;
 }
 

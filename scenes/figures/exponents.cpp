@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "render/base/error.hpp"
+#include "render/plot/ticks.hpp"
 #include "scenes/figures/caption.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/figures/figure_types.hpp"
@@ -20,8 +21,8 @@ std::string value_text(const sim::Exponents& e, std::size_t i) {
     if (!(e.error[i] > 0)) return fmt::format("{} = {} s^{{−1}}", name, number(e.lambda[i], 4));
     // Two digits of the error, and the value to the same place.
     const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.error[i]))), 0, 12);
-    return fmt::format("{} = {}{:.{}f} ± {:.{}f} s^{{−1}}", name, e.lambda[i] < 0 ? "−" : "", std::abs(e.lambda[i]),
-                       decimals, e.error[i], decimals);
+    return fmt::format("{} = {} ± {} s^{{−1}}", name, render::fixed(e.lambda[i], decimals),
+                       render::fixed(e.error[i], decimals));
 }
 
 Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {

@@ -91,14 +91,17 @@ void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
         return;
     }
     if (r.diagnostics().failed(r.path("set"))) return;
+    std::vector<sim::Issue> findings = sim::validate(problem);
+    std::erase_if(findings, [](const sim::Issue& finding) { return !finding.fatal; });
+    if (findings.empty()) return;
     const std::vector<sim::Issue> known = sim::validate(r.context().scene.problem);
     const auto of_scene = [&](const sim::Issue& finding) {
         return std::ranges::any_of(known, [&](const sim::Issue& each) {
             return each.path == finding.path && each.message == finding.message;
         });
     };
-    for (const sim::Issue& finding : sim::validate(problem))
-        if (finding.fatal && !of_scene(finding)) r.reject("", ": {}: {}", finding.path, finding.message);
+    for (const sim::Issue& finding : findings)
+        if (!of_scene(finding)) r.reject("", ": {}: {}", finding.path, finding.message);
 }
 
 }  // namespace

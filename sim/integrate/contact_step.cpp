@@ -156,7 +156,7 @@ bool ContactStep::improve(const StepTable& table, int corrections) {
     NodalMatrix matrix;
     for (std::size_t l = 0; l < kNodes; ++l) {
         matrix[l] = by_depth * compliance_.value[l] + by_rate * compliance_.rate[l];
-        if (couples_ && !friction_.bristle) {  // the friction that the normal force causes
+        if (held_ && couples_) {  // the friction that the normal force causes
             const double ratio = friction_.ratio(contact.slip[static_cast<int>(l)]);
             matrix[l] += ratio * (by_depth * across_.value[l] + by_rate * across_.rate[l]);
         }

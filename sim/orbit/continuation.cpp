@@ -93,6 +93,23 @@ struct Work {
     bool spent() const { return steps > most_steps; }
 };
 
+using Test = std::function<double(const ArcPoint&)>;
+double value_at(const std::optional<ArcPoint>& point, const Test& test) {
+    return point ? test(*point) : std::numeric_limits<double>::quiet_NaN();
+}
+
+// The point at which the test changes its sign between two places with known values, if it does.
+struct TestedPlace {
+    double place, value;
+};
+template <class PointAt>
+std::optional<ArcPoint> sign_change(const PointAt& point, const Test& test, const TestedPlace& a,
+                                    const TestedPlace& b) {
+    if (!std::isfinite(a.value * b.value) || std::signbit(a.value) == std::signbit(b.value)) return std::nullopt;
+    const auto value = [&](double place) { return value_at(point(place), test); };
+    return point(find_root(value, a.place, b.place, a.value, b.value));
+}
+
 constexpr const char* kRangeEnds = "the range ends";
 
 class Continuation {
@@ -106,7 +123,6 @@ class Continuation {
     void follow(ArcPoint from, Branch& branch, std::string& end);
 
   private:
-    using Test = std::function<double(const ArcPoint&)>;
     struct Walk {
         ArcPoint at;
         std::optional<ArcPoint> before;  // the point before on a smooth piece with the same section
@@ -144,13 +160,7 @@ class Continuation {
 
 std::optional<ArcPoint> Continuation::root(const ArcPoint& a, const ArcPoint& b, const Test& test) const {
     const auto point = [&](double s) { return arc_.correct(cubic(a, b, s), a.tangent); };
-    const auto value = [&](double s) {
-        const auto at = point(s);
-        return at ? test(*at) : std::numeric_limits<double>::quiet_NaN();
-    };
-    const double low = test(a), high = test(b);
-    if (!std::isfinite(low * high) || std::signbit(low) == std::signbit(high)) return std::nullopt;
-    return point(find_root(value, 0.0, a.tangent.dot(b.z - a.z), low, high));
+    return sign_change(point, test, {0, test(a)}, {a.tangent.dot(b.z - a.z), test(b)});
 }
 
 // The residual of a point lets its parameter err as far.
@@ -176,14 +186,9 @@ std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) con
         z[n] = share;
         return half.correct(z, Eigen::VectorXd::Unit(n + 1, n));
     };
-    const auto value = [&](double share) {
-        const auto at = point(share);
-        return at ? doubling_test(*at) : std::numeric_limits<double>::quiet_NaN();
-    };
     const double low = near.z[n] - kNearDoubling, high = near.z[n] + kNearDoubling;
-    const double before = value(low), after = value(high);
-    if (!std::isfinite(before * after) || std::signbit(before) == std::signbit(after)) return std::nullopt;
-    return point(find_root(value, low, high, before, after));
+    return sign_change(point, doubling_test, {low, value_at(point(low), doubling_test)},
+                       {high, value_at(point(high), doubling_test)});
 }
 
 // Where the branch turns, it has a fold, or it is a branch of doubled period at its origin: there it meets itself, each
