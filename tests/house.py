@@ -33,7 +33,7 @@ PRIVATE_LIBRARIES = [
     ("libnetcdf", re.compile(r"^netcdf"), {"output": 4}),
     ("HDF5", re.compile(r"^hdf5"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
-    ("libpng", re.compile(r"^png\.h$"), {"output": 1}),
+    ("libspng", re.compile(r"^spng\.h$"), {"output": 1}),
     ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2}),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')

@@ -1,4 +1,4 @@
-// Reads any PNG file through libpng. A damaged file is an IoError, never an incomplete picture.
+// Reads any PNG file through libspng. A damaged file is an IoError, never an incomplete picture.
 #pragma once
 
 #include <filesystem>
