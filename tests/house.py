@@ -18,12 +18,6 @@ IGNORED = {"build"}  # made by the build, never committed
 
 # A top-level folder may include itself and those before it; so may its subfolders. Tests may include everything.
 ROOMS = ["sim", "render", "output", "scenes"]
-FOLDERS = {
-    "sim": ["base", "problem", "beam", "contact", "dynamics", "integrate", "observe", "run", "orbit", "sweep", "studies"],
-    "render": ["base", "draw", "plot", "mechanism", "gl", "film"],
-    "output": ["files", "json", "data", "image", "film"],
-    "scenes": ["scene", "motions", "figures", "format", "sweep", "plan", "outputs", "regression", "commands"],
-}
 
 # Headers that only some files may include: the pattern, the number of .cpp files in each top-level folder.
 PRIVATE_LIBRARIES = [
@@ -39,6 +33,7 @@ PRIVATE_LIBRARIES = [
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")
 TEST = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
+FOLDER = re.compile(r"`(\w+)/(\w+)`")
 NAMED_TEST = re.compile(r"`(\w+\.[A-Z]\w*[a-z]\w*)`")
 
 
@@ -79,26 +74,37 @@ def check_one_way(root):
                     yield f'{path.relative_to(root)}:{number}: include from the root, as "{room}/…"'
 
 
-def folder_of(room, path):
+def folders(root):
+    """The folders of each room in the order of README.md, \"Where things are\": they include only those above them."""
+    rows = [line for line in (root / "README.md").read_text(encoding="utf-8").splitlines() if line.startswith("| `")]
+    named = [folder for row in rows for folder in FOLDER.findall(row.split("|")[1])]
+    return {room: [name for at, name in named if at == room] for room in ROOMS}
+
+
+def folder_of(order, room, path):
     """The position of a file or header in the order of the folders of `room`; None: in none of them."""
     parts = str(path).split("/")
-    inside = len(parts) > 2 and parts[0] == room and parts[1] in FOLDERS[room]
-    return FOLDERS[room].index(parts[1]) if inside else None
+    inside = len(parts) > 2 and parts[0] == room and parts[1] in order[room]
+    return order[room].index(parts[1]) if inside else None
 
 
 def check_folders(root):
+    order = folders(root)
     for room in ROOMS:
         for path in sources(root / room):
             name = path.relative_to(root)
-            rank = folder_of(room, name)
+            rank = folder_of(order, room, name)
             if rank is None:
                 if len(name.parts) > 2:
-                    yield f"{name}: {name.parts[1]} is not a folder of {room} (see tests/house.py)"
+                    yield f"{name}: README.md does not list {room}/{name.parts[1]} under \"Where things are\""
                 continue
             for number, header in includes(path):
-                target = folder_of(room, header)
+                target = folder_of(order, room, header)
                 if target is not None and target > rank:
-                    yield f"{name}:{number}: {room}/{FOLDERS[room][rank]} may not include {header}"
+                    yield f"{name}:{number}: {room}/{order[room][rank]} may not include {header}"
+        for name in order[room]:
+            if not (root / room / name).is_dir():
+                yield f"README.md: there is no folder {room}/{name}"
 
 
 def check_private_libraries(root):
@@ -153,6 +159,7 @@ def self_test():
         ("output/a.cpp", '#include "../sim/pose.hpp"\n', check_one_way),
         ("sim/beam/a.hpp", '#include "sim/run/simulate.hpp"\n', check_folders),
         ("scenes/other/a.cpp", "", check_folders),
+        ("README.md", "| `sim/beam` `sim/run` `sim/gone` | |\n", check_folders),
         ("sim/a.hpp", "#include <cvode/cvode.h>\n", check_private_libraries),
         ("render/a.cpp", "extern \"C\" {\n  #include <libavcodec/avcodec.h>\n}\n", check_private_libraries),
         ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
@@ -166,6 +173,9 @@ def self_test():
                 (root / room).mkdir()
             (root / "tests/a.cpp").write_text("TEST(Modes, AreComputed) {}  // `Modes.AreComputed`\n", encoding="utf-8")
             (root / "sim/MODEL.md").write_text("(S1)", encoding="utf-8")
+            (root / "README.md").write_text("| `sim/beam` `sim/run` | |\n", encoding="utf-8")
+            for folder in ("sim/beam", "sim/run"):
+                (root / folder).mkdir()
             (root / "sim/solver.cpp").write_text("#include <cvode/cvode.h>  // (S1)\n", encoding="utf-8")
             if found := [breach for check in CHECKS for breach in check(root)]:
                 sys.exit(f"a correct tree has violations: {found}")

@@ -42,7 +42,7 @@ void legendre(double z, int count, double* values);
 void legendre(double z, int count, int orders, double* values);
 
 // A root of f in [a, b], where f(a) and f(b) differ in sign or vanish; to the last bits.
-// Chandrupatla's method: inverse quadratic interpolation where it is safe, else bisection.
+// Chandrupatla's method: inverse quadratic interpolation where it is safe, else bisection. BENCHMARKS.md compares it.
 template <class F>
 double find_root(F&& f, double a, double b, double fa, double fb) {
     BEAMCAM_ASSERT(std::isfinite(a) && std::isfinite(b));

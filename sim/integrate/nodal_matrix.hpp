@@ -11,6 +11,7 @@ namespace beamcam::sim {
 using NodalMatrix = std::array<Lanes, kNodes>;
 
 // Solves a x = b for each b, b ← x, with partial pivoting; a is overwritten. False: a is singular.
+// BENCHMARKS.md compares it with Eigen.
 bool solve_dense(NodalMatrix& a, std::span<Lanes> b);
 
 inline Lanes operator*(const NodalMatrix& a, const Lanes& x) {

@@ -20,6 +20,8 @@
 #include <span>
 #include <stdexcept>
 #include <string>
+#include <sundials/sundials_context.hpp>
+#include <type_traits>
 #include <vector>
 
 #include "sim/integrate/constants.hpp"
@@ -147,17 +149,19 @@ struct Callbacks {
     }
 };
 
-SUNContext make_context() {
-    SUNContext context = nullptr;
-#if SUNDIALS_VERSION_MAJOR >= 7
-    const bool created = SUNContext_Create(SUN_COMM_NULL, &context) == 0;
-    if (created) SUNContext_ClearErrHandlers(context);  // failures are returned as flags and reported by the caller
-#else
-    const bool created = SUNContext_Create(nullptr, &context) == 0;
-#endif
-    if (!created) throw StepFailure("the integrator could not be set up");
-    return context;
-}
+template <auto destroy>
+struct Destroy {
+    void operator()(auto* handle) const { destroy(handle); }
+};
+template <class Handle, auto destroy>
+using Owned = std::unique_ptr<std::remove_pointer_t<Handle>, Destroy<destroy>>;
+using Vector = Owned<N_Vector, N_VDestroy>;
+
+struct FreeMemory {
+    const SolverFunctions& solver;
+    void operator()(void* memory) const { solver.free(&memory); }
+};
+using Memory = std::unique_ptr<void, FreeMemory>;
 
 // What both solvers share; the derived class creates the solver's memory and evaluates within a step.
 class SundialsIntegrator : public Integrator, protected Segment {
@@ -166,32 +170,31 @@ class SundialsIntegrator : public Integrator, protected Segment {
     SundialsIntegrator& operator=(const SundialsIntegrator&) = delete;
 
     void start(double t, const double* y) final {
-        std::copy_n(y, n_, N_VGetArrayPointer(y_));
+        std::copy_n(y, n_, N_VGetArrayPointer(y_.get()));
         std::copy_n(y, n_, end_.begin());
         t1 = t;
         if (memory_) {
             count();
-            check(solver_.restart(memory_, t, y_), "a restart");
+            check(solver_.restart(memory_.get(), t, y_.get()), "a restart");
         } else {
-            memory_ = created(t);
-            if (!memory_) throw StepFailure("the integrator could not be set up");
-            check(solver_.set_user_data(memory_, &call_), "the start");
-            check(solver_.set_weights(memory_, &Callbacks::weights), "the tolerances");
-            check(solver_.set_most_steps(memory_, 1000000), "the start");
+            create(t);
+            check(solver_.set_user_data(memory_.get(), &call_), "the start");
+            check(solver_.set_weights(memory_.get(), &Callbacks::weights), "the tolerances");
+            check(solver_.set_most_steps(memory_.get(), 1000000), "the start");
         }
-        const double h = call_.first_step(t1, end_, N_VGetArrayPointer(work_), stop_);
-        check(solver_.set_first_step(memory_, limited(h)), "the first step");
+        const double h = call_.first_step(t1, end_, N_VGetArrayPointer(work_.get()), stop_);
+        check(solver_.set_first_step(memory_.get(), limited(h)), "the first step");
     }
 
     const Segment& step() final {
         t0 = t1;
         const bool stops = std::isfinite(stop_) && stop_ > t0;
-        if (stops) check(solver_.set_stop_time(memory_, stop_), "the stop time");
+        if (stops) check(solver_.set_stop_time(memory_.get(), stop_), "the stop time");
         double t = t0;
-        const int flag = solver_.step(memory_, stops ? stop_ : t0 + kFarTime, y_, &t, CV_ONE_STEP);
+        const int flag = solver_.step(memory_.get(), stops ? stop_ : t0 + kFarTime, y_.get(), &t, CV_ONE_STEP);
         if (flag < 0) throw StepFailure(fmt::format("{} ({})", reason_of(flag), text_of(flag)));
         t1 = t;
-        std::copy_n(N_VGetArrayPointer(y_), n_, end_.begin());
+        std::copy_n(N_VGetArrayPointer(y_.get()), n_, end_.begin());
         stepped();
         count();
         return *this;
@@ -209,27 +212,29 @@ class SundialsIntegrator : public Integrator, protected Segment {
         : solver_(solver),
           call_{ode, rtol, atol},
           n_(static_cast<std::size_t>(ode.size)),
-          context_(make_context()),
           y_(N_VNew_Serial(static_cast<sunindextype>(n_), context_)),
           work_(N_VNew_Serial(static_cast<sunindextype>(n_), context_)),
-          end_(n_, 0) {}
-    ~SundialsIntegrator() override {
-        if (memory_) solver_.free(&memory_);
-        N_VDestroy(y_);
-        N_VDestroy(work_);
-        SUNContext_Free(&context_);
+          end_(n_, 0) {
+        if (!y_ || !work_) throw StepFailure("the integrator could not be set up");
+#if SUNDIALS_VERSION_MAJOR >= 7
+        SUNContext_ClearErrHandlers(context_);  // failures are returned as flags and reported by the caller
+#endif
     }
 
     void check(int flag, const char* call) const {
         if (flag < 0) throw StepFailure(fmt::format("{} of the integrator failed ({})", call, text_of(flag)));
     }
     const double* derivative(double t, int k) const {
-        check(solver_.derivative(memory_, t, k, work_), "dense output");
-        return N_VGetArrayPointer(work_);
+        check(solver_.derivative(memory_.get(), t, k, work_.get()), "dense output");
+        return N_VGetArrayPointer(work_.get());
     }
 
-    // The solver's memory, with its method; null if there is none.
-    virtual void* created(double t) = 0;
+    void own(void* memory) {
+        if (!memory) throw StepFailure("the integrator could not be set up");
+        memory_.reset(memory);
+    }
+    // Creates the solver's memory, with its method.
+    virtual void create(double t) = 0;
     virtual void stepped() {}
     // Numbers of right-hand sides and Jacobians since the last (re)start.
     virtual IntegratorCounters evaluations() const = 0;
@@ -237,9 +242,12 @@ class SundialsIntegrator : public Integrator, protected Segment {
     const SolverFunctions& solver_;
     Callbacks call_;
     std::size_t n_;
-    SUNContext context_;
-    void* memory_ = nullptr;
-    N_Vector y_, work_;
+    sundials::Context context_;
+    Vector y_, work_;
+    Owned<SUNMatrix, SUNMatDestroy> matrix_;  // of CVODE
+    Owned<SUNLinearSolver, SUNLinSolFree> linear_;
+    Owned<SUNNonlinearSolver, SUNNonlinSolFree> nonlinear_;
+    Memory memory_{nullptr, FreeMemory{solver_}};  // uses all of these
     std::vector<double> end_;
 
   private:
@@ -249,8 +257,8 @@ class SundialsIntegrator : public Integrator, protected Segment {
     }
     void count() {
         IntegratorCounters now = evaluations();
-        solver_.count_steps(memory_, &now.steps);
-        solver_.count_rejected(memory_, &now.rejected);
+        solver_.count_steps(memory_.get(), &now.steps);
+        solver_.count_rejected(memory_.get(), &now.rejected);
         // A solver's counts restart at zero with the solver.
         for (const auto each : {&IntegratorCounters::steps, &IntegratorCounters::rhs, &IntegratorCounters::rejected,
                                 &IntegratorCounters::jacobians})
@@ -265,12 +273,6 @@ class Cvode final : public SundialsIntegrator {
   public:
     Cvode(Method method, Ode& ode, double rtol, double atol)
         : SundialsIntegrator(kCvode, ode, rtol, atol), bdf_(method == Method::cvode_bdf) {}
-    ~Cvode() override {
-        CVodeFree(&memory_);  // before what it uses
-        if (linear_) SUNLinSolFree(linear_);
-        if (matrix_) SUNMatDestroy(matrix_);
-        if (nonlinear_) SUNNonlinSolFree(nonlinear_);
-    }
 
     void value(double t, double* y) const override { evaluate_taylor(polynomial_, n_, t, y); }
 
@@ -280,27 +282,25 @@ class Cvode final : public SundialsIntegrator {
     }
 
   private:
-    void* created(double t) override {
-        void* memory = CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_);
-        if (!memory) return nullptr;
-        check(CVodeInit(memory, &Callbacks::rhs, t, y_), "the start");
+    void create(double t) override {
+        own(CVodeCreate(bdf_ ? CV_BDF : CV_ADAMS, context_));
+        check(CVodeInit(memory_.get(), &Callbacks::rhs, t, y_.get()), "the start");
 #if SUNDIALS_VERSION_MAJOR < 7
-        check(CVodeSetErrFile(memory, nullptr), "the start");  // the same
+        check(CVodeSetErrFile(memory_.get(), nullptr), "the start");  // as ClearErrHandlers
 #endif
         if (bdf_) {
-            matrix_ = SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_);
-            linear_ = SUNLinSol_Dense(y_, matrix_, context_);
-            check(CVodeSetLinearSolver(memory, linear_, matrix_), "the linear solver");
+            matrix_.reset(SUNDenseMatrix(static_cast<sunindextype>(n_), static_cast<sunindextype>(n_), context_));
+            linear_.reset(SUNLinSol_Dense(y_.get(), matrix_.get(), context_));
+            check(CVodeSetLinearSolver(memory_.get(), linear_.get(), matrix_.get()), "the linear solver");
         } else {
-            nonlinear_ = SUNNonlinSol_FixedPoint(y_, 0, context_);
-            check(CVodeSetNonlinearSolver(memory, nonlinear_), "the nonlinear solver");
+            nonlinear_.reset(SUNNonlinSol_FixedPoint(y_.get(), 0, context_));
+            check(CVodeSetNonlinearSolver(memory_.get(), nonlinear_.get()), "the nonlinear solver");
         }
-        return memory;
     }
 
     void stepped() override {
         int order = 1;
-        check(CVodeGetLastOrder(memory_, &order), "the order");
+        check(CVodeGetLastOrder(memory_.get(), &order), "the order");
         polynomial_.assign(1, t1);
         double factorial = 1;
         for (int k = 0; k <= order; ++k) {
@@ -313,19 +313,16 @@ class Cvode final : public SundialsIntegrator {
     IntegratorCounters evaluations() const override {
         IntegratorCounters now;
         long linear = 0;
-        CVodeGetNumRhsEvals(memory_, &now.rhs);
+        CVodeGetNumRhsEvals(memory_.get(), &now.rhs);
         if (bdf_) {
-            CVodeGetNumJacEvals(memory_, &now.jacobians);
-            CVodeGetNumLinRhsEvals(memory_, &linear);
+            CVodeGetNumJacEvals(memory_.get(), &now.jacobians);
+            CVodeGetNumLinRhsEvals(memory_.get(), &linear);
         }
         now.rhs += linear;
         return now;
     }
 
     bool bdf_;
-    SUNMatrix matrix_ = nullptr;
-    SUNLinearSolver linear_ = nullptr;
-    SUNNonlinearSolver nonlinear_ = nullptr;
     std::vector<double> polynomial_;
 };
 
@@ -336,21 +333,19 @@ class Arkode final : public SundialsIntegrator {
     void value(double t, double* y) const override { std::copy_n(t == t1 ? end_.data() : derivative(t, 0), n_, y); }
 
   private:
-    void* created(double t) override {
-        void* memory = ARKStepCreate(&Callbacks::rhs, nullptr, t, y_, context_);
-        if (!memory) return nullptr;
-        check(ARKStepSetTableNum(memory, ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
-        check(ARKStepSetInterpolantDegree(memory, 5), "dense output");
+    void create(double t) override {
+        own(ARKStepCreate(&Callbacks::rhs, nullptr, t, y_.get(), context_));
+        check(ARKStepSetTableNum(memory_.get(), ARKODE_DIRK_NONE, ARKODE_FEHLBERG_13_7_8), "the method");
+        check(ARKStepSetInterpolantDegree(memory_.get(), 5), "dense output");
 #if SUNDIALS_VERSION_MAJOR < 7
-        check(ARKStepSetErrFile(memory, nullptr), "the start");  // the same
+        check(ARKStepSetErrFile(memory_.get(), nullptr), "the start");  // as ClearErrHandlers
 #endif
-        return memory;
     }
 
     IntegratorCounters evaluations() const override {
         IntegratorCounters now;
         long implicit = 0;
-        ARKStepGetNumRhsEvals(memory_, &now.rhs, &implicit);
+        ARKStepGetNumRhsEvals(memory_.get(), &now.rhs, &implicit);
         return now;
     }
 };

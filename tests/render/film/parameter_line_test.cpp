@@ -39,7 +39,9 @@ TEST(ParameterLine, RatherLeavesOutThanWritesTooSmall) {
     for (double width = 400; width > 40; width -= 10) {
         places.parameters = Box{0, 0, width, 18};
         const ParameterLine line = parameter_line(with.canvas, places, "", kPieces);
-        if (!line.pieces.empty()) EXPECT_GE(line.size, 10) << width;
+        if (!line.pieces.empty()) {
+            EXPECT_GE(line.size, 10) << width;
+        }
         omits = omits || !line.omitted.empty();
     }
     EXPECT_TRUE(omits);

@@ -228,11 +228,20 @@ TEST(Figure, NoRuleCrossesTheLabelOfAnother) {
     for (int i = 1; i < 40; ++i) figure.panels[0].rules.push_back({.at = i / 40.0, .vertical = true});
     figure.panels[0].rules[20].label = "first touch";
     const Drawn drawn = draw_png(figure, "elsevier", kDpi);
-    const Box box = std::ranges::find(drawn.written, "first touch", &PageCanvas::Written::markup)->box;
-    const double scale = kDpi / kPointsPerInch;
-    const auto row = static_cast<std::size_t>((box.y - 0.2) * scale);  // above the letters
-    for (auto x = static_cast<std::size_t>(box.x * scale) + 1; x < static_cast<std::size_t>(box.right() * scale); ++x)
-        EXPECT_EQ(drawn.image.pixels[row * static_cast<std::size_t>(drawn.image.width) + x], 0xFFFFFFFFU) << x;
+    figure.panels[0].rules = {figure.panels[0].rules[20]};
+    const Drawn alone = draw_png(figure, "elsevier", kDpi);
+    const auto label = [](const Drawn& of) {
+        return std::ranges::find(of.written, "first touch", &PageCanvas::Written::markup)->box;
+    };
+    const Box box = label(drawn);
+    ASSERT_EQ(box.x, label(alone).x);
+    ASSERT_EQ(box.y, label(alone).y);
+    const auto pixel = [scale = kDpi / kPointsPerInch](double at) { return static_cast<std::size_t>(at * scale); };
+    for (std::size_t y = pixel(box.y); y < pixel(box.bottom()); ++y)
+        for (std::size_t x = pixel(box.x) + 1; x < pixel(box.right()); ++x) {
+            const std::size_t at = y * static_cast<std::size_t>(drawn.image.width) + x;
+            EXPECT_EQ(drawn.image.pixels[at], alone.image.pixels[at]) << x << ", " << y;
+        }
 }
 
 // Entries of different widths stand in rows rather than in one column.
