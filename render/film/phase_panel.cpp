@@ -49,7 +49,7 @@ class PhasePanel final : public FilmPanel {
     void draw_background(Canvas& canvas) const override {
         const double u = context_.unit;
         const std::string name = plot_.y().name(),
-                          words = label_of(ChannelKind::theta_dot).heading(context_.setup->view.lang) + name;
+                          words = heading(ChannelKind::theta_dot, context_.setup->view.lang) + name;
         const TextStyle heading{.size = context_.heading(), .weight = Weight::semibold};
         const Box& plot = plot_.box();
         draw_heading(canvas, context_, {plot.x, box_.y, plot.w, plot.h},

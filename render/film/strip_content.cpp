@@ -22,8 +22,8 @@ constexpr double kRounding = 1e-15;    // of lengths, relative to the beam's: a 
 constexpr double kSingleShare = 0.45;  // of the colour of the past that a single dot of the future has
 
 std::string symbol_of(Channel channel) {
-    const ChannelLabel& label = label_of(channel.kind);
-    const std::string below = label.below(channel);
+    const sim::ChannelLabel& label = sim::row(channel.kind).label;
+    const std::string below = subscript(channel);
     return fmt::format(fmt::runtime(label.rate ? "d${}$/d$t${}" : "${}${}"), label.symbol,
                        below.empty() ? below : "_{" + below + "}");
 }
@@ -248,7 +248,7 @@ ChartContent strip_content(const FilmContext& context, const PanelSpec& spec) {
     ChartContent c = blank_content(context, spec, context.members() > 1 ? -1 : 0);
     const bool single = spec.channels.size() == 1;
     const bool dotted = first.kind == ChannelKind::contact_x && !spec.by_collision;
-    c.words = single ? label_of(first.kind).heading(context.setup->view.lang) : "";
+    c.words = single ? heading(first.kind, context.setup->view.lang) : "";
     if (c.words.starts_with("Contact point on")) c.short_words = "Contact point ";
     std::string symbols, unit = context.shown_unit(first);
     for (std::size_t i = 0; i < spec.channels.size(); ++i) {

@@ -1,4 +1,4 @@
-// Names and symbols of the channels in films and in print.
+// The labels of the channels (sim/observe/channels.hpp) in films and in print.
 #pragma once
 
 #include <string>
@@ -8,15 +8,10 @@
 
 namespace beamcam::render {
 
-struct ChannelLabel {
-    const char *words, *chinese;  // "Hub angle"
-    const char *symbol, *subscript = "";
-    bool rate = false;                              // the symbol's rate by time
-    std::string heading(Lang lang) const;           // the words before the symbol, as markup
-    std::string below(sim::Channel channel) const;  // the subscript; of a modal coordinate its number
-};
-const ChannelLabel& label_of(sim::ChannelKind kind);
-
+// The words before the symbol of a channel, as markup: "Hub angle ".
+std::string heading(sim::ChannelKind kind, Lang lang);
+// The subscript of the symbol; of a modal coordinate its number.
+std::string subscript(sim::Channel channel);
 // Markup of figures (render/draw/markup.hpp): "$\dot{θ}$", "$q_{1}$".
 std::string print_symbol(sim::Channel channel);
 

@@ -68,7 +68,7 @@ Figure series_figure(const SeriesPlan& plan, const SeriesPreset& preset, const R
         preset.aspect > 0 && all_shown ? preset.aspect : 0.2 + 0.36 * static_cast<double>(figure.panels.size());
     std::string subject = preset.names_energies ? energy_caption(figure, plan.lang) : preset.caption.in(plan.lang);
     if (subject.empty()) {
-        const render::ChannelLabel& first = render::label_of(plan.keys.panels.front().channels.front().kind);
+        const sim::ChannelLabel& first = sim::row(plan.keys.panels.front().channels.front().kind).label;
         figure.title = phrase(plan.lang, first.words, first.chinese);
         subject = series_subject(plan.keys, plan.lang);
     }

@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 namespace {
 
 std::string channel_text(const sim::Channel& channel, Lang lang) {
-    const render::ChannelLabel& label = render::label_of(channel.kind);
+    const sim::ChannelLabel& label = sim::row(channel.kind).label;
     std::string text = phrase(lang, label.words, label.chinese);
     if (lang == Lang::en) text.front() = static_cast<char>(std::tolower(text.front()));
     return fmt::format("{} {}", text, render::print_symbol(channel));

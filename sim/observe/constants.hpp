@@ -36,6 +36,7 @@ inline constexpr double kSignRounding = 1e-14;  // of the sum of magnitudes: val
 
 // ---- bounds within a step ----
 inline constexpr double kFollowedRadians = 2;  // [rad] of a vibration: a polynomial of degree 7 follows it to 10⁻⁷
+inline constexpr double kNegligibleVibration = 1e-9;  // of the largest rate of a mode
 // A step in which a vibration decays by more than the first, e⁻⁸ = 3·10⁻⁴, is searched in parts; each is eight times as
 // long as the one before.
 inline constexpr double kFadedRadians = 8, kPartRatio = 0.125;

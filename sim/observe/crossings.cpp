@@ -16,7 +16,7 @@ template <class Found>
 void each_sign_change(StepChannels& step, const SegmentInterval& s, Channel channel, double level, double scale,
                       Found&& found) {
     const auto above = [&](double t) { return step.value(s, channel, t) - level; };
-    for (const SegmentInterval& part : step.parts(s)) {
+    for (const SegmentInterval& part : step.parts(s, channel)) {
         step.begin(part);
         StepChannels::Samples values = step.sample(part, channel);
         double largest = scale;

@@ -11,11 +11,13 @@ namespace beamcam::sim {
 
 void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     step_.begin(s);  // as if nothing had been searched before
-    const std::vector<SegmentInterval> parts = step_.parts(s);
+    const std::vector<SegmentInterval> parts = step_.parts(s, channel);
     if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, e);
     // Vibrations of which too little reaches the channel need no parts.
-    if (is_beaten(step_.sampled_range(s, channel), channel.kind, sign, e)) return;
+    if (!traits(channel.kind).by_samples() && is_beaten(step_.sampled_range(s, channel), channel.kind, sign, e)) return;
+    halvings_left_ -= static_cast<long>(parts.size()) - 1;
     for (const SegmentInterval& part : parts) {
+        if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
         step_.begin(part);
         if (is_beaten(step_.range(part, channel), channel.kind, sign, e)) continue;
         step_.begin(part);
@@ -35,10 +37,7 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     BestValue best = best_so_far(channel.kind, sign, e);
     const double before = best.value;
     const auto value = [&](double t) { return step_.value(s, channel, t); };
-    const bool of_modes = channel.kind == ChannelKind::q;  // which it is the sum of, as an estimate is
-    const Variation variation =
-        of_modes ? step_.variation_of_estimate(s, channel, samples) : step_.variation(s, channel, samples);
-    if (!climb_step(value, variation, s, channel, samples, best)) ++incomplete_;
+    if (!climb_step(value, step_.variation(s, channel, samples), s, channel, samples, best)) ++incomplete_;
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 

@@ -29,6 +29,15 @@ double ModalChannels::fading() const {
     return fastest;
 }
 
+double ModalChannels::fastest() const {
+    double most = std::max(cam_speed_, bounds_.part.motion->theta_dot), rate = 0;
+    for (const ModalBounds::Mode& mode : bounds_.part.modes->modes) rate = std::max(rate, mode.rate);
+    for (const ModalBounds::Mode& mode : bounds_.part.modes->modes)
+        for (const ModalBounds::Mode::Swing& swing : mode.swings)
+            if (swing.rate > kNegligibleVibration * rate) most = std::max(most, swing.frequency);
+    return most;
+}
+
 double ModalChannels::tip(ChannelKind kind, const double* y) const {
     const double* x = kind == ChannelKind::tip_rate ? y + 2 + modes_.size() : y + 1;
     double total = 0;

@@ -37,6 +37,8 @@ class ModalChannels {
         return bounds_.foot_moves() ? std::nullopt : std::optional(bounds_.nearest);
     }
     double fading() const;  // the fastest, of vibration that a polynomial over the part does not resolve [1/s]
+    // The highest frequency of vibration, and of the rotation of hub and cam, within the part [rad/s].
+    double fastest() const;
 
     struct Range {
         double low, high;
@@ -78,7 +80,7 @@ class ModalChannels {
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
     // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes
     // bound it better.
-    bool vary_estimate(Channel channel, Variation& out) const;
+    bool vary_by_modes(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
     void add_unresolved(Channel channel, Variation& out) const;
 

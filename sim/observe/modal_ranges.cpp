@@ -10,7 +10,7 @@
 
 namespace beamcam::sim {
 
-// Bound of |dc/dt| with the modes at rest; zero where the channel is monotone.
+// Bound of |dc/dt| with the modes at rest.
 double ModalChannels::drift(ChannelKind kind) const {
     const MotionBounds& motion = *bounds_.part.motion;
     const ModalBounds& modes = *bounds_.part.modes;
@@ -36,24 +36,9 @@ double ModalChannels::drift(ChannelKind kind) const {
         case ChannelKind::work_drive:
             return modes.power_drive +
                    (system_.drive().prescribed() && !modes.resolved ? 2 * basis_.J * theta_dot * acceleration : 0);
-        case ChannelKind::tip_deflection:  // of the modes alone
-        case ChannelKind::tip_rate:
-        case ChannelKind::q:
-        case ChannelKind::energy_elastic:
-        case ChannelKind::contact_force:  // their ranges are those of the gap
-        case ChannelKind::friction_force:
-        case ChannelKind::energy_contact:
-        case ChannelKind::separation:  // with bounds of its own
-        case ChannelKind::separation_paper:
-        case ChannelKind::t:  // monotone
-        case ChannelKind::cam_angle:
-        case ChannelKind::loss_structural:
-        case ChannelKind::loss_contact:
-        case ChannelKind::loss_friction:
-        case ChannelKind::energy_residual:  // an error: nodes are enough
+        default:  // of the modes alone, monotone, or with a range of its own
             return 0;
     }
-    return 0;
 }
 
 // Of gravity in the separation, at any place that the contact may have (S41). cos θ differs from that in the middle of
@@ -122,7 +107,7 @@ void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
     });
 }
 
-bool ModalChannels::vary_estimate(Channel channel, Variation& out) const {
+bool ModalChannels::vary_by_modes(Channel channel, Variation& out) const {
     if (bounds_.part.modes->resolved) return false;
     const auto add_modes = [&](auto&& bound) {
         for (std::size_t g = 0; g < bounds_.groups.size(); ++g) {
@@ -168,6 +153,8 @@ double ModalChannels::strays_between_nodes(Channel channel, const Variation& pol
 
 ModalChannels::Range ModalChannels::range(Channel channel, double first, double last) const {
     const ChannelKind kind = channel.kind;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    if (traits(kind).by_samples()) return {-kInfinity, kInfinity};
     if (traits(kind).separation) {
         const double most = bounds_.arm * bounds_.hub_acceleration;
         const Range pulled = pull(kind);

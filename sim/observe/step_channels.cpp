@@ -66,7 +66,24 @@ void StepChannels::begin(const SegmentInterval& s) {
     search_again();
 }
 
-std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s) const {
+std::vector<SegmentInterval> StepChannels::parts(const SegmentInterval& s, Channel channel) const {
+    return traits(channel.kind).by_samples() ? followed_parts(s) : fading_parts(s);
+}
+
+std::vector<SegmentInterval> StepChannels::followed_parts(const SegmentInterval& s) const {
+    const double length = s.to - s.from, radians = length * kProductFrequency * modal_channels_.fastest();
+    const auto count = polynomial_ ? 1 : static_cast<std::size_t>(std::max(1.0, std::ceil(radians / kFollowedRadians)));
+    std::vector<SegmentInterval> out;
+    double from = s.from;
+    for (std::size_t k = 1; k <= count; ++k) {
+        const double to = k < count ? s.from + length * (static_cast<double>(k) / static_cast<double>(count)) : s.to;
+        out.push_back({s.segment, from, to, s.last && k == count});
+        from = to;
+    }
+    return out;
+}
+
+std::vector<SegmentInterval> StepChannels::fading_parts(const SegmentInterval& s) const {
     const double length = s.to - s.from, fading = modal_channels_.fading();
     std::vector<SegmentInterval> out;
     double to = s.to, share = 1;
@@ -302,7 +319,7 @@ StepChannels::Samples StepChannels::sample(const SegmentInterval& s, Channel cha
 }
 
 // The polynomial through the inner samples, its error at the ends, and the vibrations that it does not resolve.
-Variation StepChannels::variation(const SegmentInterval& s, Channel channel, const Samples& values) const {
+Variation StepChannels::variation_by_nodes(const SegmentInterval& s, Channel channel, const Samples& values) const {
     const double h = s.to - s.from;
     Lanes nodes;
     for (int k = 0; k < kNodes; ++k) nodes[k] = values[static_cast<std::size_t>(k) + 1];
@@ -314,13 +331,20 @@ Variation StepChannels::variation(const SegmentInterval& s, Channel channel, con
 }
 
 // A polynomial through nodes also follows, much too steeply, vibrations that they do not resolve.
-Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const {
-    const Variation by_nodes = variation(s, channel, values);
+Variation StepChannels::closer_by_modes(Channel channel, const Variation& by_nodes, double length) const {
     Variation by_modes;
-    const double length = kWidestNodeGap * (s.to - s.from);
-    const bool closer =
-        modal_channels_.vary_estimate(channel, by_modes) && by_modes.strays(length) < by_nodes.strays(length);
+    const bool closer = modal_channels_.vary_by_modes(channel, by_modes) &&
+                        by_modes.strays(kWidestNodeGap * length) < by_nodes.strays(kWidestNodeGap * length);
     return closer ? by_modes : by_nodes;
+}
+
+Variation StepChannels::variation(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    const Variation by_nodes = variation_by_nodes(s, channel, values);
+    return channel.kind == ChannelKind::q ? closer_by_modes(channel, by_nodes, s.to - s.from) : by_nodes;
+}
+
+Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    return closer_by_modes(channel, variation_by_nodes(s, channel, values), s.to - s.from);
 }
 
 ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {

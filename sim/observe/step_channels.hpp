@@ -25,8 +25,11 @@ class StepChannels {
 
     // Every other call on a step follows this one.
     void begin(const SegmentInterval& s);
-    // A step in which vibrations fade, cut into parts that grow in length from its start; every other step is one part.
-    std::vector<SegmentInterval> parts(const SegmentInterval& s) const;
+    // The parts in which the channel is searched. Where vibrations fade they grow in length from the start of the step;
+    // a channel without bounds has those below; every other step is one part.
+    std::vector<SegmentInterval> parts(const SegmentInterval& s, Channel channel) const;
+    // Parts so short that a polynomial follows every channel.
+    std::vector<SegmentInterval> followed_parts(const SegmentInterval& s) const;
     // The components of this step are polynomials in time; else they are oscillations, bounded mode by mode.
     bool polynomial() const { return polynomial_; }
     const ModalChannels& modes() const { return modal_channels_; }
@@ -55,7 +58,7 @@ class StepChannels {
     Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    // The same of `estimates`, or of q.
+    // The same of `estimates`.
     Variation variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // The mode that the channel is, or almost is, in closed form if it has one.
     std::optional<UndampedMode> undamped_mode(Channel channel) const { return modal_channels_.undamped_mode(channel); }
@@ -79,8 +82,11 @@ class StepChannels {
         std::optional<Energies> energies;
         std::optional<double> hub_acceleration;
     };
+    std::vector<SegmentInterval> fading_parts(const SegmentInterval& s) const;
     Instant& at(const SegmentInterval& s, double t);
     const double* beam(const SegmentInterval& s, double t);
+    Variation variation_by_nodes(const SegmentInterval& s, Channel channel, const Samples& values) const;
+    Variation closer_by_modes(Channel channel, const Variation& by_nodes, double length) const;
     double value_at(double t, Channel channel, Instant& shared);
     void share_contact(double t, Instant& shared);
     double share_hub_acceleration(Instant& shared);

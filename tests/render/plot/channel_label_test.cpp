@@ -9,8 +9,7 @@ namespace {
 
 TEST(ChannelLabel, EveryChannelHasAName) {
     for (const sim::Channel& channel : sim::all_channels({}))
-        for (const Lang lang : {Lang::en, Lang::zh})
-            EXPECT_GT(label_of(channel.kind).heading(lang).size(), 1u) << name(channel);
+        for (const Lang lang : {Lang::en, Lang::zh}) EXPECT_GT(heading(channel.kind, lang).size(), 1u) << name(channel);
 }
 
 TEST(ChannelLabel, EveryChannelHasItsOwnSymbol) {

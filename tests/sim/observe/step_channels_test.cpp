@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <string>
 
 #include "sim/run/run.hpp"
 #include "tests/sim/support.hpp"
@@ -116,6 +118,47 @@ TEST(StepChannels, TheFootOfTheContactIsWithinItsBounds) {
                 }
             });
         }
+}
+
+// So the extrema of a channel without bounds of its own are found by samples.
+TEST(StepChannels, APolynomialFollowsEveryChannelInShortParts) {
+    constexpr double kRounding = 1e-9;
+    for (const auto& [model, kind] : {std::pair{ContactModel::restitution, ModelKind::first_order},
+                                      {ContactModel::compliant, ModelKind::first_order},
+                                      {ContactModel::compliant, ModelKind::exact}}) {
+        SCOPED_TRACE(name(kind));
+        Problem p;
+        p.beam.model = kind;
+        p.beam.modes = kind == ModelKind::exact ? 3 : 6;
+        p.cam->speed = 10;
+        p.contact.model = model;
+        std::map<std::string, double> largest;
+        visit_steps(p, 0.32, [&](const SegmentInterval& s, StepChannels& step) {
+            const std::vector<SegmentInterval> parts = step.followed_parts(s);
+            EXPECT_EQ(parts.front().from, s.from);
+            EXPECT_EQ(parts.back().to, s.to);
+            for (std::size_t i = 0; i < parts.size(); i += std::max<std::size_t>(1, parts.size() / 4)) {
+                const SegmentInterval& part = parts[i];
+                step.begin(part);
+                for (const auto* name : {"theta", "theta_dot", "tip_deflection", "tip_rate", "q1", "gap", "contact_x",
+                                         "contact_force", "energy_kinetic", "energy_elastic", "separation"}) {
+                    const Channel c = channel(name);
+                    const StepChannels::Samples samples = step.sample(part, c);
+                    for (const double value : samples) largest[name] = std::max(largest[name], std::fabs(value));
+                    const Variation variation = step.variation(part, c, samples);
+                    for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
+                        const double from = sample_time(part, k), length = sample_time(part, k + 1) - from;
+                        const double stray = variation.strays(length) + kRounding * largest[name];
+                        for (const double share : {0.25, 0.5, 0.8})
+                            EXPECT_NEAR(step.value(part, c, from + share * length),
+                                        samples[k] + share * (samples[k + 1] - samples[k]), stray)
+                                << name << " at " << from << " of " << s.from << " to " << s.to;
+                    }
+                }
+            }
+            step.begin(s);
+        });
+    }
 }
 
 // Where the state of a bristle ends, the end of a step is moved without solving the step again.
