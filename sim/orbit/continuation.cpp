@@ -58,17 +58,6 @@ bool crosses_circle(const ArcPoint& a, const ArcPoint& b) {
 bool has_unit_multiplier(const PeriodicOrbit& orbit) {
     return std::ranges::any_of(orbit.multipliers, [](auto mu) { return std::abs(mu - 1.0) < kUnitMultiplier; });
 }
-// The orbit repeats itself after half of its turns.
-bool repeats_within(const PeriodicOrbit& orbit) {
-    const std::size_t half = orbit.impacts.size() / 2;
-    if (orbit.turns % 2 != 0 || half == 0 || orbit.impacts.size() % 2 != 0) return false;
-    for (std::size_t i = 0; i < half; ++i) {
-        const double first = orbit.impacts[i].approach, second = orbit.impacts[half + i].approach;
-        if (!(std::fabs(first - second) < kRepeatedImpact * std::fabs(first))) return false;
-    }
-    return true;
-}
-
 bool beyond_range(const Eigen::VectorXd& z) { return z[z.size() - 1] < 0 || z[z.size() - 1] > 1; }
 // The point is an end of the range, and its tangent points outwards.
 bool leaves_range(const ArcPoint& p) {
@@ -196,7 +185,8 @@ std::optional<ArcPoint> Continuation::doubling_of_half(const ArcPoint& near) con
 bool Continuation::locate_turn(const ArcPoint& a, const ArcPoint& b, Branch& branch) const {
     const auto turn = root(a, b, fold_test);
     if (!turn) return false;
-    const auto origin = repeats_within(turn->orbit) ? doubling_of_half(*turn) : std::nullopt;
+    const bool twice = !turn->orbit.impacts.empty() && repeats(turn->orbit, 2, kRepeatedImpact);
+    const auto origin = twice ? doubling_of_half(*turn) : std::nullopt;
     if (origin) {
         add(OrbitChange::period_doubling, *origin, branch);
         branch.points.push_back(arc_.branch_point(*turn));

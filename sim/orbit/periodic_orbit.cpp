@@ -66,17 +66,9 @@ std::optional<PeriodicOrbit> newton_quietly(const SectionMap& map, const Eigen::
 }
 
 // True if the orbit consists of repetitions of a shorter one.
-bool repeats(const PeriodicOrbit& orbit) {
-    const std::size_t count = orbit.impacts.size(), turns = static_cast<std::size_t>(orbit.turns);
-    for (std::size_t times = 2; times <= turns; ++times) {
-        if (turns % times != 0 || count % times != 0) continue;
-        const std::size_t once = count / times;
-        bool same = true;
-        for (std::size_t i = 0; same && i + once < count; ++i)
-            same = std::fabs(orbit.impacts[i].approach - orbit.impacts[i + once].approach) <
-                   kSameOrbit * orbit.impacts[i].approach;
-        if (same) return true;
-    }
+bool repeats_itself(const PeriodicOrbit& orbit) {
+    for (int times = 2; times <= orbit.turns; ++times)
+        if (repeats(orbit, times, kSameOrbit)) return true;
     return false;
 }
 
@@ -97,7 +89,7 @@ std::optional<PeriodicOrbit> orbit_through(const Problem& problem, const Place& 
         if (turns > 1) map = flow_map(here, map.end, cam_period(problem), false, progress);
         if (turns < first || (request.turns == 0 && (y_of(map.end) - start).norm() > kReturn * size)) continue;
         const SectionMap section(problem, place.section, turns, place.state, {units, size}, progress);
-        if (auto orbit = newton_quietly(section, start / size); orbit && !repeats(*orbit)) return orbit;
+        if (auto orbit = newton_quietly(section, start / size); orbit && !repeats_itself(*orbit)) return orbit;
     }
     return std::nullopt;
 }
@@ -166,6 +158,16 @@ double PeriodicOrbit::slowest_impact() const {
     double slowest = impacts.empty() ? 0 : impacts.front().approach;
     for (const OrbitImpact& impact : impacts) slowest = std::min(slowest, impact.approach);
     return slowest;
+}
+
+bool repeats(const PeriodicOrbit& orbit, int times, double difference) {
+    const std::size_t count = orbit.impacts.size(), parts = static_cast<std::size_t>(times), once = count / parts;
+    if (orbit.turns % times != 0 || count % parts != 0) return false;
+    for (std::size_t i = 0; i + once < count; ++i)
+        if (!(std::fabs(orbit.impacts[i].approach - orbit.impacts[i + once].approach) <
+              difference * orbit.impacts[i].approach))
+            return false;
+    return true;
 }
 
 bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b) {

@@ -58,6 +58,8 @@ std::vector<PeriodicOrbit> find_orbits(const Problem& problem, const OrbitReques
 
 // The same period and the same impacts.
 bool same_orbit(const PeriodicOrbit& a, const PeriodicOrbit& b);
+// The orbit is a shorter one, so many times, up to this relative difference of the speeds of impacts.
+bool repeats(const PeriodicOrbit& orbit, int times, double difference);
 
 // The same orbit with its section in the middle of its longest flight. Throws SolverError, Interrupted.
 PeriodicOrbit recentred(const Problem& problem, PeriodicOrbit orbit, const Progress& progress = {});

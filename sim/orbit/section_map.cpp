@@ -52,11 +52,15 @@ Eigen::VectorXd SectionMap::scaled(const InitialState& state) const {
     return units_.cwiseProduct(Eigen::Map<const Eigen::VectorXd>(state.y.data(), units_.size())) / size_;
 }
 
+InitialState SectionMap::state(const Eigen::VectorXd& y) const {
+    InitialState state = like_;
+    Eigen::Map<Eigen::VectorXd>(state.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
+    return state;
+}
+
 SectionMap::Value SectionMap::at(const Eigen::VectorXd& y, bool derivative) const {
-    InitialState start = like_;
-    Eigen::Map<Eigen::VectorXd>(start.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
     Value value;
-    value.map = flow_map(problem_, start, period_, derivative, progress_);
+    value.map = flow_map(problem_, state(y), period_, derivative, progress_);
     value.image = scaled(value.map.end);
     if (derivative) value.derivative = units_.asDiagonal() * value.map.derivative * units_.cwiseInverse().asDiagonal();
     return value;
@@ -65,8 +69,7 @@ SectionMap::Value SectionMap::at(const Eigen::VectorXd& y, bool derivative) cons
 PeriodicOrbit SectionMap::orbit(const Eigen::VectorXd& y, const Value& value) const {
     PeriodicOrbit orbit;
     orbit.section = section_;
-    orbit.start = like_;
-    Eigen::Map<Eigen::VectorXd>(orbit.start.y.data(), units_.size()) = size_ * y.cwiseQuotient(units_);
+    orbit.start = state(y);
     orbit.initial = initial_of(System(problem_), orbit.start.y);
     orbit.cam_phase = cam_phase_;
     orbit.turns = turns_;

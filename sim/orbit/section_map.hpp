@@ -31,6 +31,8 @@ class SectionMap {
     PeriodicOrbit orbit(const Eigen::VectorXd& y, const Value& value) const;
 
   private:
+    InitialState state(const Eigen::VectorXd& y) const;  // whose `scaled` is y
+
     Problem problem_;
     double section_, cam_phase_, period_, size_;
     int turns_;
