@@ -37,7 +37,6 @@ struct ChannelTraits {
     // ChannelSensitivity bounds how it depends on the modes; else extrema are searched by samples, which is slower.
     bool bounded = false;
     bool estimated() const { return of_tip || separation; }
-    bool follows_contact() const { return needs_contact && !separation; }
     bool by_samples() const { return !bounded && !monotone; }
 };
 

@@ -19,10 +19,6 @@ inline constexpr double kRestTolerances = 10;               // times `atol`: a b
 inline constexpr long kEvaluationsPerPoll = 256;            // of a channel, between two chances to interrupt the search
 inline constexpr std::size_t kMostKeptNumbers = 4'000'000;  // of kept steps: 32 MB
 inline constexpr std::size_t kNumbersPerDrop = 150'000;     // of kept steps, until those that are beaten are dropped
-// A costly channel with loose bounds is evaluated where its bound is this many times the highest so far, so that later
-// steps are excluded sooner.
-inline constexpr double kHigherPromise = 1.2;
-inline constexpr std::size_t kMostPromising = 64;  // steps of a channel that are searched before all others
 // Kept steps of a channel beyond which its bounds exclude too few.
 inline constexpr std::size_t kManyKept = 1024;
 // Parabolas at a crest: each squares the distance from it, or halves the interval.

@@ -2,15 +2,15 @@
 // far the channel strays from the line between them (Variation) show whether an interval can exceed the best value so
 // far; if so, it is halved until a parabola is as good as the channel. MODEL.md §12, (S59).
 //
-// Steps that may hold an extremum are kept, and searched when the run is over, the most promising first: by then the
-// bounds of most of them are below the best value.
+// Steps that may hold an extremum are kept, and searched when the run is over: by then the bounds of most of them are
+// below the best value.
 #pragma once
 
-#include <array>
 #include <functional>
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "sim/observe/constants.hpp"
@@ -40,38 +40,29 @@ class ExtremaFinder {
 
   private:
     using Samples = StepChannels::Samples;
+    struct Candidate {
+        std::size_t channel;
+        double sign;  // of its maximum, or of its minimum
+        double high;  // bound of the channel times the sign
+    };
     struct KeptStep {
         Phase phase;
         double from, to, t0, t1;
-        long order;
         SegmentKind kind;
         std::vector<double> numbers;  // of the segment
-    };
-    struct Candidate {
-        double high;  // bound of the channel, or of its negative
-        std::shared_ptr<const KeptStep> step;
-    };
-    struct Candidates {
-        std::vector<Candidate> steps;
-        double promise = 0;  // the highest bound at which a costly channel was evaluated
+        std::vector<Candidate> candidates;
     };
 
-    bool contact_may_exceed(const std::vector<Extremum>& extrema);
-    static bool less_promising(const Candidate& a, const Candidate& b);
     void offer_end(const SegmentInterval& s, std::size_t channel, Extremum& e);
-    bool has_only_nodes(ChannelKind kind) const;
-    bool offer_nodes(const SegmentInterval& s, const Lanes& nodes, Extremum& e);
     std::optional<ModalChannels::Range> range_within(const SegmentInterval& s, std::size_t channel, Extremum& e);
+    ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel, Extremum& e);
     ModalChannels::Range residual_range(const SegmentInterval& s, std::size_t channel);
-    void collect(const SegmentInterval& s, std::size_t channel, const ModalChannels::Range& range,
-                 std::shared_ptr<const KeptStep>& kept, Extremum& e);
-    bool many_kept(std::size_t channel) const;
-    std::shared_ptr<const KeptStep> keep(const SegmentInterval& s);
-    void make_room(std::vector<Extremum>& extrema);
-    void drop_beaten(const std::vector<Extremum>& extrema);
+    void add_candidates(std::size_t channel, const ModalChannels::Range& range, const Extremum& e);
+    void keep(const SegmentInterval& s, std::vector<Extremum>& extrema);
     void search_kept(std::vector<Extremum>& extrema);
-    void search_most_promising(std::size_t channel, double sign, Extremum& e);
-    bool search_candidate(std::size_t channel, double sign, const Candidate& candidate, Extremum& e);
+    void drop_beaten(const std::vector<Extremum>& extrema);
+    void search_step(const KeptStep& step, std::span<const Candidate> candidates, std::vector<Extremum>& extrema);
+    bool is_beaten_by(const Extremum& e, const Candidate& candidate) const;
     void search_parts(const SegmentInterval& s, Channel channel, double sign, Extremum& e);
     void search(const SegmentInterval& s, Channel channel, double sign, Extremum& e);
     bool estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e);
@@ -89,15 +80,13 @@ class ExtremaFinder {
     std::vector<Channel> channels_;
     std::vector<double> first_, last_;  // all channels at the ends of the step
     double last_time_ = -1;             // of `last_`, while the phase lasts
-    bool contact_known_ = true;         // in `last_`
     long incomplete_ = 0, halvings_left_ = kHalvingsOfRun, evaluations_ = 0;
 
-    std::vector<std::array<Candidates, 2>> candidates_;  // of each channel: for its maximum, its minimum; in time
-    std::vector<std::shared_ptr<const KeptStep>> kept_;  // all that candidates share
-    long kept_steps_ = 0;
+    std::vector<Candidate> candidates_;  // in this step
+    std::vector<std::size_t> kept_of_;   // steps of each channel that are kept
+    std::vector<KeptStep> kept_;         // in time
     std::size_t kept_numbers_ = 0, numbers_of_step_ = 0, drop_at_ = kNumbersPerDrop;
     std::map<SegmentKind, std::unique_ptr<StoredSegment>> stored_;
-    const KeptStep* loaded_ = nullptr;
 };
 
 }  // namespace beamcam::sim

@@ -14,7 +14,7 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
     const std::vector<SegmentInterval> parts = step_.parts(s, channel);
     if (parts.size() == 1 || channel.kind == ChannelKind::energy_residual) return search(s, channel, sign, e);
     // Vibrations of which too little reaches the channel need no parts.
-    if (!traits(channel.kind).by_samples() && is_beaten(step_.sampled_range(s, channel), channel.kind, sign, e)) return;
+    if (!traits(channel.kind).by_samples() && is_beaten(sampled_range(s, channel, e), channel.kind, sign, e)) return;
     halvings_left_ -= static_cast<long>(parts.size()) - 1;
     for (const SegmentInterval& part : parts) {
         if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
@@ -28,9 +28,9 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
 
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, e);
-    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e)) return;
+    if (traits(channel.kind).separation && estimate_is_beaten(s, channel, sign, e)) return;
     const Samples samples = step_.sample(s, channel);
-    if (has_only_nodes(channel.kind)) {
+    if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {  // an error: its nodes are enough
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
         return;
     }
@@ -41,22 +41,16 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
-// The estimate of a costly channel, plus its error, excludes most steps.
+// θ̈ times the longest arm, plus the error of that, excludes most steps.
 bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e) {
     BestValue best = best_so_far(channel.kind, sign, e);
     const double error = step_.modes().estimate_error(channel), most = best.value - error;
-    const bool shared = traits(channel.kind).separation;
-    double& proven = step_.proven_separation()[sign > 0 ? 0 : 1];
-    if (shared && proven <= most) return true;
-    const double aim = shared ? most - 2 * error : most;  // the other separation differs by this
-    if (!(aim > 0)) return false;
-    best.value = aim - best.left_out;
-    const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
+    if (!(most > 0)) return false;
+    best.value = most - best.left_out;
+    const auto estimate = [&](double t) { return step_.estimate(s, t); };
     const Samples samples = step_.estimates(s, channel);
-    const bool complete =
-        climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best);
-    if (complete && shared) proven = best.value;
-    return complete && best.value <= most;
+    return climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best) &&
+           best.value <= most;
 }
 
 // Raises `best` to the largest value of f in the step; false if the search ended before.

@@ -10,9 +10,7 @@ namespace beamcam::sim {
 
 ModalChannels::ModalChannels(System& system, const ModeBasis& basis)
     : system_(system), basis_(basis), bounds_(system, basis), sensitivity_(system, basis, bounds_) {
-    if (!system.has_cam()) return;
-    cam_speed_ = std::fabs(system.problem().cam->speed);
-    disc_speed_ = system.problem().cam->eccentricity * cam_speed_;
+    if (system.has_cam()) cam_speed_ = std::fabs(system.problem().cam->speed);
 }
 
 void ModalChannels::set(const PartBounds::Part& part) {
@@ -160,22 +158,6 @@ bool ModalChannels::at_nodes(Channel channel, Lanes& values) const {
         default:
             return false;
     }
-}
-
-bool ModalChannels::known_at_nodes(Channel channel, Lanes& values) const {
-    if (channel.kind == ChannelKind::q || channel.kind == ChannelKind::theta || channel.kind == ChannelKind::theta_dot)
-        return at_nodes(channel, values);
-    const TouchSamples* touch = bounds_.part.touch;
-    if (!touch || touch->t[0] != bounds_.part.from || touch->t[TouchSamples::kCount - 1] != bounds_.part.to)
-        return false;
-    const double* all = channel.kind == ChannelKind::gap              ? touch->gap
-                        : channel.kind == ChannelKind::contact_force  ? touch->force
-                        : channel.kind == ChannelKind::friction_force ? touch->friction
-                        : channel.kind == ChannelKind::contact_x      ? touch->x
-                                                                      : nullptr;
-    if (!all) return false;
-    for (int k = 0; k < kNodes; ++k) values[k] = all[k + 1];
-    return true;
 }
 
 }  // namespace beamcam::sim

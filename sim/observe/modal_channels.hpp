@@ -32,10 +32,6 @@ class ModalChannels {
 
     void set(const PartBounds::Part& part);
     const TouchSamples* touch() const { return bounds_.part.touch; }
-    // The end of the beam that the foot of the contact does not leave within the part, if there is one.
-    std::optional<double> foot_at_end() const {
-        return bounds_.foot_moves() ? std::nullopt : std::optional(bounds_.nearest);
-    }
     double fading() const;  // the fastest, of vibration that a polynomial over the part does not resolve [1/s]
     // The highest frequency of vibration, and of the rotation of hub and cam, within the part [rad/s].
     double fastest() const;
@@ -55,10 +51,6 @@ class ModalChannels {
     // false where the part is not the whole step, or the channel is none of these. Of the separation θ̈ times the
     // longest arm.
     bool at_nodes(Channel channel, Lanes& values) const;
-    // The values of a channel at the nodes that need no evaluation, if there are any.
-    bool known_at_nodes(Channel channel, Lanes& values) const;
-    // Of a channel of the contact in flight, without any value.
-    Range flight_range(ChannelKind kind) const;
     // Of a channel within that part, from its values at the ends.
     Range range(Channel channel, double first, double last) const;
     // The same from its values at the nodes, too: closer but costlier; nothing where `at_nodes` is false.
@@ -78,7 +70,7 @@ class ModalChannels {
     std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
-    // The variation of an estimate, or of q, by all its modes and what is left, the frame's; false where its nodes
+    // The variation of q, or of the estimate of the separation, by all its modes and the frame; false where its nodes
     // bound it better.
     bool vary_by_modes(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.
@@ -103,7 +95,7 @@ class ModalChannels {
     ChannelSensitivity sensitivity_;
     mutable std::optional<Range> turning_;  // `turning_range`, which both separations share
     mutable std::optional<ForcedAcceleration> forced_;
-    double cam_speed_ = 0, disc_speed_ = 0;
+    double cam_speed_ = 0;
 };
 
 }  // namespace beamcam::sim

@@ -21,12 +21,12 @@ double ModalChannels::drift(ChannelKind kind) const {
         case ChannelKind::theta_dot:
             return acceleration;
         case ChannelKind::gap:
-            return theta_dot * bounds_.lever() + disc_speed_;
+            return theta_dot * bounds_.lever() + bounds_.disc_speed;
         case ChannelKind::contact_x:
             return bounds_.foot_speed;
         case ChannelKind::contact_s:
             return sensitivity_.cam_radius() * (theta_dot + cam_speed_) +
-                   bounds_.rim_share * (theta_dot * bounds_.lever() + disc_speed_);
+                   bounds_.rim_share * (theta_dot * bounds_.lever() + bounds_.disc_speed);
         case ChannelKind::energy_kinetic:
             return basis_.J * theta_dot * acceleration;
         case ChannelKind::energy_potential:
@@ -109,13 +109,6 @@ void ModalChannels::add_unresolved(Channel channel, Variation& out) const {
 
 bool ModalChannels::vary_by_modes(Channel channel, Variation& out) const {
     if (bounds_.part.modes->resolved) return false;
-    const auto add_modes = [&](auto&& bound) {
-        for (std::size_t g = 0; g < bounds_.groups.size(); ++g) {
-            const auto [amplitude, frequency] = bound(basis_.groups[g], bounds_.groups[g]);
-            for (int lane = 0; lane < kNodes; ++lane) out.add(amplitude[lane], frequency[lane]);
-        }
-        return true;
-    };
     if (channel.kind == ChannelKind::q) {
         for (std::size_t i = 0; i < modes_.size(); ++i) {
             const ModalBounds::Mode& mode = bounds_.part.modes->modes[i];
@@ -124,21 +117,13 @@ bool ModalChannels::vary_by_modes(Channel channel, Variation& out) const {
         }
         return true;
     }
-    using Group = ModeBasis::Group;
-    using Vibrations = ModeVibrations;
-    if (channel.kind == ChannelKind::tip_deflection)
-        return add_modes([](const Group& of, const Vibrations& m) {
-            return std::pair{magnitude(of.tip) * m.amplitude, m.q_frequency};
-        });
-    if (channel.kind == ChannelKind::tip_rate)
-        return add_modes([](const Group& of, const Vibrations& m) {
-            return std::pair{magnitude(of.tip) * m.rate, m.rate_frequency};
-        });
     if (!accelerated_by_modes()) return false;
     out.add_polynomial(bounds_.arm * forced().frame, bounds_.part.modes->h);
-    return add_modes([&](const Group& of, const Vibrations& m) {
-        return std::pair{bounds_.arm * of.h * m.acceleration, m.acceleration_frequency};
-    });
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        const ModalBounds::Mode& mode = bounds_.part.modes->modes[i];
+        out.add(bounds_.arm * modes_[i].h * mode.acceleration, mode.acceleration_frequency);
+    }
+    return true;
 }
 
 // Distance of the channel from the lines between neighbouring nodes: of their polynomial, and of unresolved vibration.
@@ -180,11 +165,6 @@ ModalChannels::Range ModalChannels::range(Channel channel, double first, double 
     if (kind == ChannelKind::gap && !bounds_.part.modes->resolved)  // no touch within (S56)
         range.low = std::max(range.low, std::min({first, last, 0.0}));
     return within(kind, range);
-}
-
-ModalChannels::Range ModalChannels::flight_range(ChannelKind kind) const {
-    constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    return traits(kind).of_gap && kind != ChannelKind::gap ? Range{0, 0} : within(kind, {-kInfinity, kInfinity});
 }
 
 // The arc jumps at the mark on the disc.

@@ -9,7 +9,7 @@ namespace beamcam::sim {
 
 PartBounds::PartBounds(System& system, const ModeBasis& basis)
     : groups(basis.groups.size()), system_(system), basis_(basis) {
-    if (system.has_cam()) disc_speed_ = system.problem().cam->eccentricity * std::fabs(system.problem().cam->speed);
+    if (system.has_cam()) disc_speed = system.problem().cam->eccentricity * std::fabs(system.problem().cam->speed);
 }
 
 void PartBounds::set(const Part& of) {
@@ -23,7 +23,7 @@ void PartBounds::set(const Part& of) {
     const MotionBounds& motion = *part.motion;
     foot_speed = slide = 0;
     if (foot_moves()) {
-        foot_speed = kBentContactShift * (motion.theta_dot * (basis_.reach + away) + disc_speed_);
+        foot_speed = kBentContactShift * (motion.theta_dot * (basis_.reach + away) + disc_speed);
         slide = foot_speed + kBentContactShift * (motion.slope_speed * away + motion.deflection_speed);
     }
     if (part.touch) bound_force();
@@ -58,7 +58,7 @@ void PartBounds::place_contact() {
                  turn = 0.5 * (motion.angle_high - motion.angle_low) - motion.ripple;  // of the frame
     const Vec2 disc = system_.cam(part.from).disc, along = unit(angle);
     const double root = system_.problem().hub.radius, foot = dot(disc, along),
-                 on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed_ * part.length();
+                 on_beam = std::clamp(foot, root, root + basis_.length), moved = disc_speed * part.length();
     const double distance = norm(disc - on_beam * along);
     away = distance + turn * basis_.reach + moved + deflection;
     bound_gap(distance, norm(disc - root * along), turn, moved);

@@ -34,6 +34,7 @@ class PartBounds {
     double hub_acceleration = 0;                        // of |θ̈|
     double torque = 0;                                  // of the drive
     // With a cam.
+    double disc_speed = 0;             // of the disc's centre
     double nearest = 0, farthest = 0;  // of the place of the contact, x_c
     double arm = 0;                    // of the contact's distance from the root
     double lever() const { return std::min(basis_.reach, basis_.reach - basis_.length + arm); }  // from the axis
@@ -53,7 +54,6 @@ class PartBounds {
 
     System& system_;
     const ModeBasis& basis_;
-    double disc_speed_ = 0;
 };
 
 }  // namespace beamcam::sim

@@ -108,7 +108,6 @@ void StepChannels::bound(const SegmentInterval& s) {
     System& system = evaluator_.system();
     const ModalBounds* modes = segment.modal_bounds();
     polynomial_ = !modes;
-    proven_separation_ = {kNan, kNan};
     const double resting = kRestTolerances * system.problem().solver.atol;
     at_rest_ = modes && largest(modes->theta_dot) < resting;
     if (modes) {
@@ -166,13 +165,10 @@ bool StepChannels::is_linear(ChannelKind kind) {
     return traits(kind).of_hub && !(polynomial_ && evaluator_.system().drive().prescribed());
 }
 
-// Geometry and forces, except in sustained contact: at the end of the beam where the foot stays, else by the probe,
-// which costs less than a search of the whole beam.
+// Geometry and forces, except in sustained contact, by the probe, which costs less than a search of the whole beam.
 void StepChannels::probe_contact(double t) {
     System& system = evaluator_.system();
-    const std::optional<double> end = bounded_from_ >= 0 ? modal_channels_.foot_at_end() : std::nullopt;
-    if (end) system.begin_contact_at(*end);
-    ContactState c = end ? system.contact(t, y_.data(), false) : probe_.evaluate(t, y_.data(), false);
+    ContactState c = probe_.evaluate(t, y_.data(), false);
     const Phase& phase = system.phase();
     if (phase.touching) {
         c.force = system.normal_law().force(-c.gap, -c.gap_rate, phase.approach);
@@ -210,8 +206,7 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
     return value_at(t, channel, at(s, t));
 }
 
-double StepChannels::estimate(const SegmentInterval& s, Channel channel, double t) {
-    if (!traits(channel.kind).separation) return modal_channels_.tip(channel.kind, beam(s, t));
+double StepChannels::estimate(const SegmentInterval& s, double t) {
     if (modal_channels_.accelerated_by_modes())
         return modal_channels_.longest_arm() * modal_channels_.hub_acceleration(t, beam(s, t));
     Instant& shared = at(s, t);
@@ -226,8 +221,7 @@ StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel 
     Lanes nodes;
     const bool at_nodes = modal_channels_.at_nodes(channel, nodes);
     for (std::size_t k = 0; k < kSamples; ++k)
-        values[k] =
-            at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, channel, sample_time(s, k));
+        values[k] = at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, sample_time(s, k));
     return values;
 }
 
@@ -266,18 +260,16 @@ double StepChannels::share_hub_acceleration(Instant& shared) {
 }
 
 void StepChannels::values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                          const System::EnergyBalance* balance, bool contact, std::vector<double>& out) {
+                          const System::EnergyBalance* balance, std::vector<double>& out) {
     s.segment->value(t, y_.data());
     evaluator_.set(t, y_.data());
-    if (contact && probing_ && evaluator_.system().has_cam()) probe_contact(t);
+    if (probing_ && evaluator_.system().has_cam()) probe_contact(t);
     if (balance) evaluator_.set_energy_balance(*balance);
     for (std::size_t c = 0; c < channels.size(); ++c) {
         if (channels[c].kind == ChannelKind::q)
             out[c] = y_[static_cast<std::size_t>(channels[c].index)];
         else if (is_linear(channels[c].kind))
             out[c] = modal_channels_.hub(channels[c].kind, y_.data());
-        else if (!contact && traits(channels[c].kind).follows_contact())
-            out[c] = kNan;
         else if (!traits(channels[c].kind).estimated())
             out[c] = evaluator_.value(channels[c]);
         else if (!traits(channels[c].kind).separation)
@@ -352,8 +344,7 @@ ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel chann
     return modal_channels_.range(channel, first, last);
 }
 
-ModalChannels::Range StepChannels::sampled_range(const SegmentInterval& s, Channel channel) {
-    const Samples values = sample(s, channel);
+ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel, const Samples& values) const {
     const auto [low, high] = std::ranges::minmax(values);
     const double stray = variation(s, channel, values).strays(kWidestNodeGap * (s.to - s.from));
     return modal_channels_.within(channel.kind, {low - stray, high + stray});

@@ -44,16 +44,15 @@ class StepChannels {
 
     double value(const SegmentInterval& s, Channel channel, double t);
     // All channels at t. Tip deflection, tip rate and separation are costly: the first two are estimated
-    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available. `contact`:
-    // else those of the contact are undefined.
+    // (`ChannelTraits::estimated`), the last is zero. `balance`: the energy balance at t if it is available.
     void values(const SegmentInterval& s, double t, const std::vector<Channel>& channels,
-                const System::EnergyBalance* balance, bool contact, std::vector<double>& out);
+                const System::EnergyBalance* balance, std::vector<double>& out);
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
-    // An estimate of a costly channel: the channel times +1 or −1 is at most this, times the same, or zero if that is
-    // more, plus ModalChannels::estimate_error.
-    double estimate(const SegmentInterval& s, Channel channel, double t);
+    // An estimate of the separation, which is costly: times +1 or −1 it is at most this, times the same, or zero if
+    // that is more, plus ModalChannels::estimate_error.
+    double estimate(const SegmentInterval& s, double t);
     Samples estimates(const SegmentInterval& s, Channel channel);
     Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
@@ -65,12 +64,7 @@ class StepChannels {
     // Bounds of the channel from its values at the ends.
     ModalChannels::Range range(const SegmentInterval& s, Channel channel);
     // The same from its samples.
-    ModalChannels::Range sampled_range(const SegmentInterval& s, Channel channel);
-    // The samples of the energy balance if they have been asked for.
-    const std::optional<Samples>& balance() const { return balance_; }
-    // Proven by a search: within this interval the estimate of the separation is at most the first, and at least minus
-    // the second.
-    std::array<double, 2>& proven_separation() { return proven_separation_; }
+    ModalChannels::Range range(const SegmentInterval& s, Channel channel, const Samples& values) const;
 
     System& system() { return evaluator_.system(); }
 
@@ -108,7 +102,6 @@ class StepChannels {
     double segment_from_ = kNan, segment_to_ = kNan;
     std::unordered_map<double, Instant> instants_;  // of that segment
     std::optional<Samples> balance_;
-    std::array<double, 2> proven_separation_{kNan, kNan};
     std::vector<double> y_;
     bool polynomial_ = false;
     bool probing_ = false;                        // the contact of this phase is evaluated by `probe_`
