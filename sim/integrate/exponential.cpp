@@ -52,12 +52,6 @@ double solve_flight(NodalStep& step, const StepTable& table) {
     return step.forcing_error(table.h, nullptr);
 }
 
-// By how many levels a step with this error > 1 is too long, for a method of this order; `most` without an error.
-int levels_down(double error, int order, int most) {
-    return std::isfinite(error) ? std::clamp(static_cast<int>(std::ceil(std::log2(error) / (0.5 * order))), 1, 4)
-                                : most;
-}
-
 class Exponential final : public Integrator {
   public:
     Exponential(System& system, double rtol, double atol)
@@ -186,15 +180,14 @@ class Exponential final : public Integrator {
             const StepTable& table = flight_table(last);
             const double error = solve_flight(step_, table);
             if (error <= 1) {
-                if (tables_.on_ladder(table) && !rejected && error < kLongerFlight)
-                    flight_level_ = std::min(flight_level_ + (error < kMuchLongerFlight ? 2 : 1), kHighestLevel);
+                if (tables_.on_ladder(table) && !rejected)
+                    flight_level_ = higher_level(flight_level_, error, kLongerFlight, kMuchLongerFlight);
                 s.t1 = last ? stop_ : t_ + table.h;
                 first_step_ = std::numeric_limits<double>::infinity();
                 break;
             }
             ++counters.rejected;
-            while (flight_level_ > kLowestLevel && step_length(flight_level_) > table.h) --flight_level_;
-            flight_level_ -= levels_down(error, kFlightOrder, 4);
+            flight_level_ = lower_level(flight_level_, table.h, error, kFlightOrder, 4);
             if (flight_level_ < kLowestLevel || step_length(flight_level_) < kShortestFlight * std::fabs(t_))
                 throw StepFailure(step_failure_reason(std::isfinite(error)));
         }
@@ -227,8 +220,8 @@ class Exponential final : public Integrator {
                 TouchSamples::Ending ending = TouchSamples::Ending::open;
                 if (!system_.phase().held) error = contact_end_->cut(error, ending);
                 if (error <= 1) {
-                    if (ending == TouchSamples::Ending::open && !last && !rejected && error < kLongerTouch)
-                        touch_level_ = std::min(touch_level_ + (error < kMuchLongerTouch ? 2 : 1), kHighestLevel);
+                    if (ending == TouchSamples::Ending::open && !last && !rejected)
+                        touch_level_ = higher_level(touch_level_, error, kLongerTouch, kMuchLongerTouch);
                     accept_touch(ending);
                     return true;
                 }
@@ -239,8 +232,7 @@ class Exponential final : public Integrator {
                 return false;
             }
             ++counters.rejected;
-            while (touch_level_ > kLowestLevel && step_length(touch_level_) > length) --touch_level_;
-            touch_level_ -= levels_down(error, kTouchOrder, 3);
+            touch_level_ = lower_level(touch_level_, length, error, kTouchOrder, 3);
             if (touch_level_ < kLowestLevel + kTouchLevels ||
                 step_length(touch_level_) < kShortestTouch * std::fabs(t_) + kShortestTouchEver) {
                 touch_level_ = kFirstTouchLevel;

@@ -138,7 +138,6 @@ void ExponentialSegment::bound_points(const VibrationBounds& sum, MotionBounds& 
     b.deflection = form_->by_arrays()
                        ? sum.deflection.value + 0.5 * (sum.stretch.value * sum.stretch.value + a * sum.turn * sum.turn)
                        : std::numeric_limits<double>::infinity();
-    b.slope = sum.slope;
     b.curvature = sum.curvature * (1 + sum.slope);
     b.deflection_speed = std::max(sum.deflection_speed, sum.deflection.rate + axial + b.theta_dot * beyond);
     b.deflection_acceleration =

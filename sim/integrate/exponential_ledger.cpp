@@ -7,12 +7,11 @@
 
 namespace beamcam::sim {
 
-bool ExponentialSegment::resolved(std::size_t i) const { return sim::resolved(form_->oscillators[i], h); }
-
 Lanes ExponentialSegment::resolved_rate(std::size_t i) const {
-    if (resolved(i)) return v[i];
-    if (!decays(form_->oscillators[i])) return Lanes{};
-    const Decays d = decays_of(form_->oscillators[i]);
+    const Oscillator& o = form_->oscillators[i];
+    if (resolved(o, h)) return v[i];
+    if (!decays(o)) return Lanes{};
+    const Decays d = decays_of(o);
     return d.slow * h < kResolvedRadians ? (-d.slow / d.apart()) * (v[i] + d.fast * q[i]) : Lanes{};
 }
 
@@ -25,8 +24,8 @@ const ExponentialSegment::VibrationWorks& ExponentialSegment::vibration_works() 
     Lanes torque;
     for (int k = 0; k < kNodes; ++k) torque[k] = drive_.torque(t0 + h * Collocation::get().c[k]);
     for (std::size_t i = 0; i < n_; ++i) {
-        if (resolved(i)) continue;
         const Oscillator& o = form_->oscillators[i];
+        if (resolved(o, h)) continue;
         if (o.gamma > 0) works.forcing[i].emplace(o, f[i], f[i], h, VibrationWork::Position{q0[i], v0[i]});
         if (drive_.has_torque()) works.torque[i].emplace(o, torque, f[i], h, VibrationWork::Position{q0[i], v0[i]});
     }

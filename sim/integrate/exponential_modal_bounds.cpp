@@ -20,11 +20,10 @@ void ModalBounds::Mode::set_frequencies(double third, double fourth) {
 }
 
 // Of the modes of a group: the mean of the forcing, bounds of its distance from that and of its first two derivatives
-// by those of its Legendre polynomials, |P_j⁽ᵐ⁾| ≤ (j + m)!/(m!(j − m)!hᵐ), and of ω² times the distance of the motion
-// that follows it without vibration or damping from f/ω², Σ |f⁽ᵐ⁾|/ωᵐ for even m; x = q − f/ω² and ẋ at the start and
-// the nodes, and the largest √(x² + (ẋ/ω)²).
+// by those of its Legendre polynomials, |P_j⁽ᵐ⁾| ≤ (j + m)!/(m!(j − m)!hᵐ); x = q − f/ω² and ẋ at the start and the
+// nodes, and the largest √(x² + (ẋ/ω)²).
 struct ExponentialSegment::ForcingBounds {
-    Lanes mean{}, range{}, rate{}, second{}, behind{}, vibration{};
+    Lanes mean{}, range{}, rate{}, second{}, vibration{};
     Lanes x[kPoints] = {}, dx[kPoints] = {};
 };
 
@@ -39,11 +38,6 @@ ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t
         out.rate += c * j * (j + 1) / h;
         out.second += c * ((j - 1) * j * (j + 1) * (j + 2)) / (2 * h * h);
     }
-    const Lanes per_radian = 1 / (h * h * group.square);
-    const Lanes fourth = 1680 * magnitude(legendre[4]) + 15120 * magnitude(legendre[5]) +
-                         75600 * magnitude(legendre[6]) + 277200 * magnitude(legendre[7]),
-                sixth = 665280 * magnitude(legendre[6]) + 8648640 * magnitude(legendre[7]);
-    out.behind = out.second / group.square + per_radian * per_radian * (fourth + per_radian * sixth);
     const Lanes* forcing = lanes_f_.data() + g * kNodes;
     Lanes value[kPoints] = {}, slope[kPoints] = {};
     for (std::size_t l = 0; l < kNodes; ++l) {
@@ -64,7 +58,7 @@ ExponentialSegment::ForcingBounds ExponentialSegment::forcing_bounds(std::size_t
     return out;
 }
 
-// Bounds of x = q − f/ω², ẋ and ẍ. It is driven by g = −(f″ + 2γf′)/ω². From a point on, √(x² + (ẋ/ω)²) grows by at
+// Bounds of x = q − f/ω² and ẋ. It is driven by g = −(f″ + 2γf′)/ω². From a point on, √(x² + (ẋ/ω)²) grows by at
 // most |g|/ω times the time; it is the same in both directions without damping.                           (S59)
 ExponentialSegment::Distances ExponentialSegment::distances_of(std::size_t g, const ForcingBounds& forcing) const {
     const OscillatorLanes& o = form_->groups[g];
@@ -74,12 +68,10 @@ ExponentialSegment::Distances ExponentialSegment::distances_of(std::size_t g, co
     Distances out;
     out.value = forcing.vibration + time * driven / o.omega;
     out.rate = o.omega * out.value;
-    out.second = (o.square + o.damping * o.omega) * out.value + driven;
     if (!has_fast(g)) return out;
     const Lanes lag = magnitude(lag_[g]), faster = 1 + lag / o.omega;  // the lag turns x and the damped rate
     out.value = out.value * (1 + time * lag);
     out.rate = out.rate * (1 + time * lag) * faster;
-    out.second = out.second * (1 + time * lag) * (faster * faster);
     return out;
 }
 
@@ -97,7 +89,6 @@ void ExponentialSegment::set_distance_of_decays(std::size_t i, const ForcingBoun
     }
     out.value[lane] = farthest + started * memory + lasting * time;
     out.rate[lane] = started + lasting + d.slow * out.value[lane];
-    out.second[lane] = d.fast * (started + lasting) + driven + d.slow * out.rate[lane];
 }
 
 // Of the free vibration that remains besides the polynomial response to the forcing, which the state at the start
@@ -141,8 +132,7 @@ void ExponentialSegment::set_decays(std::size_t i, ModalBounds::Mode& mode) cons
     if (!(d.slow * h < kResolvedRadians)) mode.swings[1] = free_part(d.slow, 1, (v0[i] + d.fast * q0[i]) / d.apart());
 }
 
-// Of the modes of a group, from q = x + f/ω². Undamped, the free vibration has the same amplitude all the time. Lanes
-// without stiffness divide by zero; their NaN is passed over.
+// Of the modes of a group, from q = x + f/ω². Lanes without stiffness divide by zero; their NaN is passed over.
 void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing, ModalBounds::Mode* modes) const {
     const OscillatorLanes& o = form_->groups[g];
     const std::size_t first = g * kNodes, count = std::min(n_ - first, static_cast<std::size_t>(kNodes));
@@ -156,23 +146,14 @@ void ExponentialSegment::bound_modes(std::size_t g, const ForcingBounds& forcing
         if (decays(form_->oscillators[i])) set_distance_of_decays(i, forcing, x);
     }
     const Lanes free = free_vibrations(g);
-    Lanes distance = x.value;
-    for (std::size_t i = first; i < first + count; ++i) {
-        const int lane = static_cast<int>(i - first);
-        // In a short step powers of 1/ωh enlarge the rounding of both.
-        const bool is_short = o.omega[lane] * (t1 - t0) < kResolvedRadians;
-        const double undamped = free[lane] + forcing.behind[lane] / o.square[lane];
-        if (o.gamma[lane] == 0 && !is_short && undamped < distance[lane]) distance[lane] = undamped;
-    }
-    const Lanes mean = forcing.mean / o.square, range = forcing.range / o.square + distance;
+    const Lanes mean = forcing.mean / o.square, range = forcing.range / o.square + x.value;
     Lanes acceleration = o.square * amplitude + force + o.damping * speed;
     const Lanes low = larger(-amplitude, mean - range), high = smaller(amplitude, mean + range);
     amplitude = smaller(amplitude, larger(-low, high));
     speed = smaller(speed, x.rate + forcing.rate / o.square);
-    // q̈ + 2γq̇ = −ω²x, or ẍ + f″/ω².
+    // q̈ + 2γq̇ = −ω²x
     const Lanes turning = o.omega + magnitude(lag_[g]), square = turning * turning;
-    acceleration =
-        smaller(smaller(acceleration, square * x.value + o.damping * speed), x.second + forcing.second / o.square);
+    acceleration = smaller(acceleration, square * x.value + o.damping * speed);
     const Lanes third = square * speed + forcing.rate + o.damping * acceleration,
                 fourth = square * acceleration + forcing.second + o.damping * third;
     const Lanes vibrations = smaller(2 * amplitude, free);

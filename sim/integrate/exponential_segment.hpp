@@ -67,7 +67,6 @@ class ExponentialSegment final : public StoredSegment {
     // The part of the drive's work that has a closed form, at t.
     double drive_boundary(double t, const double* y) const;
     bool has_bristle() const { return controlled_ > 2 * (n_ + 1); }
-    bool resolved(std::size_t mode) const;
     // The part of q̇ of a mode that the nodes resolve: all, one of two decays, or none.
     Lanes resolved_rate(std::size_t mode) const;
     // Θ̇ for given coordinates.
@@ -105,8 +104,8 @@ class ExponentialSegment final : public StoredSegment {
     double hub_acceleration(const VibrationBounds& sum, double fastest) const;
     void bound_points(const VibrationBounds& sum, MotionBounds& b) const;
     struct ForcingBounds;
-    struct Distances {  // of the modes of a group from their forcing: bounds of them and their derivatives
-        Lanes value, rate, second;
+    struct Distances {  // of the modes of a group from their forcing: bounds of them and their rates
+        Lanes value, rate;
     };
     ForcingBounds forcing_bounds(std::size_t group, const Lanes* legendre) const;
     Distances distances_of(std::size_t group, const ForcingBounds& forcing) const;

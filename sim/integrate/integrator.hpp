@@ -28,7 +28,7 @@ struct MotionBounds {
     double deflection_speed = 0;           // ∂v/∂t anywhere on the beam [m/s]
     double deflection_acceleration = 0;    // [m/s²]
     double slope_speed = 0;                // ∂²v/∂x∂t [1/s]
-    double slope = 0, curvature = 0;       // ∂v/∂x, ∂²v/∂x² [1/m]
+    double curvature = 0;                  // ∂²v/∂x² [1/m]
     double angle_low = 0, angle_high = 0;  // of the hub angle [rad]
     double rate_low = 0, rate_high = 0;    // of its rate [rad/s]
     double ripple = 0, ripple_rate = 0;    // of the hub against the frame [rad], [rad/s]

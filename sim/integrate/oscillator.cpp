@@ -265,6 +265,17 @@ void StepTable::project_row(const Oscillator& o, const Powers& inverse, Row& row
 
 double step_length(int level) { return std::ldexp(level & 1 ? 1.4142135623730951 : 1.0, (level - (level & 1)) / 2); }
 
+int lower_level(int level, double h, double error, int order, int most) {
+    while (level > kLowestLevel && step_length(level) > h) --level;
+    if (!std::isfinite(error)) return level - most;
+    return level - std::clamp(static_cast<int>(std::ceil(std::log2(error) / (0.5 * order))), 1, 4);
+}
+
+int higher_level(int level, double error, double longer, double much_longer) {
+    if (!(error < longer)) return level;
+    return std::min(level + (error < much_longer ? 2 : 1), kHighestLevel);
+}
+
 StepTables::StepTables(const std::vector<Oscillator>& oscillators, const std::vector<OscillatorLanes>& groups)
     : oscillators_(oscillators), groups_(groups), ladder_(kHighestLevel - kLowestLevel + 1) {}
 

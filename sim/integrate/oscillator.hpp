@@ -71,6 +71,11 @@ struct StepTable {
 };
 
 double step_length(int level);  // [s] on the ladder of step lengths, two levels an octave
+// The level of the next attempt after one of length h at this level, or shorter, whose error > 1 is that of a method of
+// this order; `most` levels lower if the error is not finite. It may be below the lowest.
+int lower_level(int level, double h, double error, int order, int most);
+// The level after a step whose error is that of the tolerance or less: one higher for errors below `longer`, or two.
+int higher_level(int level, double error, double longer, double much_longer);
 
 // The step tables of the ladder, each built when it is first used, and one of any other length.
 class StepTables {

@@ -196,13 +196,10 @@ void TangentStep::advance(const Segment& motion, double t0, double t1, Eigen::Ma
         if (++steps_ % kStepsPerReport == 0 && progress_ && !progress_(t)) throw Interrupted();
         if (e > 1 && level == kLowestLevel) throw StepFailure("the tangents cannot be integrated");
         if (e > 1) {
-            const int down = std::isfinite(e) ? static_cast<int>(std::ceil(2 * std::log2(e) / kTangentOrder)) : 4;
-            while (level > kLowestLevel && step_length(level) > step.h) --level;
-            level = std::max(kLowestLevel, level - std::clamp(down, 1, 4));
+            level = std::max(kLowestLevel, lower_level(level, step.h, e, kTangentOrder, 4));
             continue;
         }
-        if (tables_.on_ladder(step) && e < kLongerFlight)
-            level = std::min(level + (e < kMuchLongerFlight ? 2 : 1), kHighestLevel);
+        if (tables_.on_ladder(step)) level = higher_level(level, e, kLongerFlight, kMuchLongerFlight);
         t = last ? t1 : t + step.h;
         at = after;
     }
