@@ -109,8 +109,8 @@ void PanelDrawing::draw() {
     sheet_.clip(plot_.box(), [&] { draw_backgrounds(); });
     std::deque<PanelDrawing> insets = draw_inset_backgrounds();
     sheet_.clip(plot_.box(), [&] {
-        for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, plot_, sheet_);
         for (const DrawnCurve& curve : curves_) curve.draw(style_, sheet_);
+        for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, plot_, sheet_);  // dots are smaller than lines
     });
     plot_.draw_x_axis(sheet_);
     plot_.draw_y_axis(sheet_);

@@ -261,6 +261,10 @@ int act(const OrbitsArguments& args) {
                    fmt::format("warning: --sweep {}: of another scene, with other {}", *args.sweep_file, keys));
     SweptImpacts swept;
     if (args.sweep_file && range) swept = swept_impacts(*args.sweep_file, range->key.path, range->from, range->to);
+    if (args.sweep_file && range && swept.parameter.empty())
+        inform(args.common,
+               fmt::format("warning: --sweep {}: it has no impacts of a lasting motion in the range of --over",
+                           *args.sweep_file));
 
     // 2. The orbits and their branches.
     const output::BranchTable table = compute(args, scene.problem, range, scene.units);

@@ -2,6 +2,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numbers>
+#include <ranges>
 
 #include "render/base/error.hpp"
 #include "scenes/figures/axis_labels.hpp"
@@ -14,23 +16,64 @@ namespace {
 
 using render::figure::Figure, render::figure::Panel, render::figure::Series;
 
-constexpr std::uint32_t kSweptColor = 0x9A9A9A;  // beneath the branches
+constexpr std::uint32_t kSweptColor = 0x333333;
+constexpr double kWiderThanDots = 1.4;  // of branches on which the dots of a sweep lie
 constexpr double kGapInCurve = std::numeric_limits<double>::quiet_NaN();
+constexpr double kTiny = std::numeric_limits<double>::min();
+
+// Approach speeds of one impact of the orbit along a branch, a value for each point; NaN where it does not occur.
+using FollowedImpact = std::vector<double>;
+
+// Impacts are numbered from the section. Where it moves, the number of the old impact that has become the first one:
+// with it the impacts move least in cam angle and speed.
+std::size_t first_impact(const sim::PeriodicOrbit& before, const sim::PeriodicOrbit& here) {
+    if (before.section == here.section) return 0;
+    const std::vector<sim::OrbitImpact>&a = before.impacts, &b = here.impacts;
+    const std::size_t count = std::max(a.size(), b.size());
+    const auto moves_by = [&](std::size_t first) {
+        double sum = 0;
+        for (std::size_t k = 0; k < b.size(); ++k) {
+            const std::size_t from = (k + first) % count;
+            if (from >= a.size()) continue;
+            const double turned = std::remainder(b[k].cam_angle - a[from].cam_angle, 2 * std::numbers::pi);
+            const double faster =
+                (b[k].approach - a[from].approach) / std::max({b[k].approach, a[from].approach, kTiny});
+            sum += turned * turned + faster * faster;
+        }
+        return sum;
+    };
+    const auto all = std::views::iota(std::size_t{0}, count);
+    return count == 0 ? 0 : *std::ranges::min_element(all, {}, moves_by);
+}
+
+std::vector<FollowedImpact> followed_impacts(const sim::Branch& branch) {
+    std::vector<FollowedImpact> out;
+    std::vector<std::size_t> before, here;  // which of them each impact of an orbit is
+    for (std::size_t i = 0; i < branch.points.size(); ++i) {
+        const sim::PeriodicOrbit& orbit = branch.points[i].orbit;
+        const std::size_t first = i > 0 ? first_impact(branch.points[i - 1].orbit, orbit) : 0;
+        here.clear();
+        for (std::size_t k = 0; k < orbit.impacts.size(); ++k) {
+            const std::size_t from = (k + first) % std::max(before.size(), orbit.impacts.size());
+            here.push_back(from < before.size() ? before[from] : out.size());
+            if (here.back() == out.size()) out.emplace_back(branch.points.size(), kGapInCurve);
+            out[here.back()][i] = orbit.impacts[k].approach;
+        }
+        before.swap(here);
+    }
+    return out;
+}
 
 // The impacts of the stable or of the unstable orbits of a branch, one after the other; pieces meet at the change.
-void add_impacts(const sim::Branch& branch, bool stable, double factor, Series& series) {
-    std::size_t impacts = 0;  // their number changes along the branch before a rest on the cam
-    for (const sim::BranchPoint& point : branch.points) impacts = std::max(impacts, point.orbit.impacts.size());
-    for (std::size_t k = 0; k < impacts; ++k)
-        for (std::size_t i = 0; i < branch.points.size(); ++i) {
-            const sim::BranchPoint& point = branch.points[i];
-            const bool before = i > 0 && branch.points[i - 1].orbit.stable() == stable;
-            const bool here = point.orbit.stable() == stable;
-            if (!here && !before) continue;
-            const bool there = k < point.orbit.impacts.size();
-            series.add(there ? factor * point.parameter : kGapInCurve,
-                       there ? point.orbit.impacts[k].approach : kGapInCurve);
-            if (!here || i + 1 == branch.points.size()) series.add(kGapInCurve, kGapInCurve);
+void add_impacts(const sim::Branch& branch, const std::vector<FollowedImpact>& impacts, bool stable, double factor,
+                 Series& series) {
+    const auto is_kind = [&](std::size_t i) { return branch.points[i].orbit.stable() == stable; };
+    for (const FollowedImpact& approach : impacts)
+        for (std::size_t i = 0; i < approach.size(); ++i) {
+            const bool shown = std::isfinite(approach[i]) && (is_kind(i) || (i > 0 && is_kind(i - 1)));
+            if (shown) series.add(factor * branch.points[i].parameter, approach[i]);
+            const bool ends = !shown || !is_kind(i) || i + 1 == approach.size();
+            if (ends && !series.x.empty() && std::isfinite(series.x.back())) series.add(kGapInCurve, kGapInCurve);
         }
 }
 
@@ -71,8 +114,9 @@ BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lan
     BranchCurves out{{.label = phrase(lang, "stable", "稳定"), .solid = true},
                      {.label = phrase(lang, "unstable", "不稳定"), .look = 1}};
     for (const sim::Branch& branch : table.branches) {
-        add_impacts(branch, true, factor, out.stable);
-        add_impacts(branch, false, factor, out.unstable);
+        const std::vector<FollowedImpact> impacts = followed_impacts(branch);
+        add_impacts(branch, impacts, true, factor, out.stable);
+        add_impacts(branch, impacts, false, factor, out.unstable);
     }
     return out;
 }
@@ -120,8 +164,10 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
         panel.clouds.push_back({phrase(lang, "sweep", "扫描"), {}, swept.approach, render::rgb(kSweptColor)});
     for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
     const std::string special = add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
-    for (Series* series : {&curves.stable, &curves.unstable})
+    for (Series* series : {&curves.stable, &curves.unstable}) {
+        if (with_sweep) series->weight = kWiderThanDots;
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
+    }
     if (panel.series.empty())
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
     return {.name = "branches",

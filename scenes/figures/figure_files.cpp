@@ -12,6 +12,7 @@
 #include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
+#include "scenes/figures/swept_points.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -84,24 +85,26 @@ render::Image figure_image(const figure::Figure& f, const FigureOutput& how) {
     return drawn(f, how, figure::Medium::png, {}, [](figure::PageCanvas& sheet) { return sheet.image(); });
 }
 
-std::vector<std::string> hidden_curves(const figure::Figure& f) {
+std::vector<std::string> missing_data(const figure::Figure& f) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
-    std::vector<std::string> hidden;
+    std::vector<std::string> missing;
     const auto check = [&](const render::Axis& axis, const std::vector<figure::Series>& curves, auto values_of) {
         render::Extent data;
         for (const figure::Series& curve : curves) data.add(values_of(curve), axis.scale);
         const auto [low, high] = std::minmax({axis.from.value_or(-kInfinity), axis.to.value_or(kInfinity)});
         if (data.any && (data.high < low || data.low > high))
-            hidden.push_back(fmt::format("{} is between {:.4g} and {:.4g}, beyond the ends of its axis",
-                                         render::to_plain(axis.label), data.low, data.high));
+            missing.push_back(fmt::format("no curve: {} is between {:.4g} and {:.4g}, beyond the ends of its axis",
+                                          render::to_plain(axis.label), data.low, data.high));
     };
     for (const figure::Panel& panel : f.panels) {
         check(panel.y, panel.series,
               [](const figure::Series& curve) { return curve.right ? std::vector<double>() : curve.y; });
         if (&panel == &f.panels.front())
             check(panel.x, panel.series, [](const figure::Series& curve) { return curve.x; });
+        if (!panel.clouds.empty() && all_empty(panel.clouds))
+            missing.push_back(fmt::format("no points: {}", render::to_plain(panel.title)));
     }
-    return hidden;
+    return missing;
 }
 
 std::string scene_of_figure(Scene scene, FigureOutput how) {

@@ -173,8 +173,7 @@ void SceneRun::write_figure(std::size_t figure) {
     Scene carried = scene_;
     if (sweep_) results.swept = sweep_->swept(), carried.sweep = sweep_->grid().sweep();
     const render::figure::Figure made = f.make(results);
-    for (const std::string& why : hidden_curves(made))
-        context_.print("warning: {} shows no curve: {}\n", how.file, why);
+    for (const std::string& what : missing_data(made)) context_.print("warning: {} shows {}\n", how.file, what);
     for (const auto& [file, bytes] : figure_files(made, how, scene_of_figure(std::move(carried), how))) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
         files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");

@@ -10,6 +10,7 @@
 #include "output/data/sweep_data.hpp"
 #include "render/base/error.hpp"
 #include "scenes/figures/command_figures.hpp"
+#include "scenes/figures/figure_files.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/sweep/sweep_grid.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -177,6 +178,8 @@ TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     EXPECT_FALSE(figure.panels[0].y.numbered);
     EXPECT_THAT(figure.caption, HasSubstr("No motion has a section to draw."));
     EXPECT_EQ(figure.panels[0].title, "No samples to draw; motions: following, over-the-top");
+    EXPECT_THAT(missing_data(figure), ElementsAre("no points: No samples to draw; motions: following, over-the-top"));
+    EXPECT_THAT(missing_data(diagram("bifurcation", speeds, data(speeds, {periodic}), "v_n_before")), SizeIs(0));
     const output::SweepData none = data(speeds, {over_the_top});
     const GrowingDiagram growing({&speeds.scene(), &none}, {}, {0, 1});
     EXPECT_EQ(growing.until(0, 1).panels[0].title, "No samples to draw; motions: over-the-top");
@@ -303,6 +306,47 @@ TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
     EXPECT_EQ(figure.panels[0].x.from, 0.5);  // the range that was asked for
     EXPECT_EQ(figure.panels[0].x.to, 3);
     EXPECT_THAT(figure.caption, HasSubstr("Dots: impacts of a sweep"));
+}
+
+// The pieces of a curve between its gaps.
+std::vector<std::vector<double>> pieces_of(const render::figure::Series& curve) {
+    std::vector<std::vector<double>> out(1);
+    for (const double y : curve.y) {
+        if (!std::isnan(y)) out.back().push_back(y);
+        if (std::isnan(y) && !out.back().empty()) out.emplace_back();
+    }
+    out.pop_back();
+    return out;
+}
+
+output::BranchTable branch_of(const std::vector<std::pair<double, std::vector<sim::OrbitImpact>>>& orbits) {
+    output::BranchTable table;
+    table.key = "cam.speed";
+    table.from = 0, table.to = 10;
+    sim::Branch& branch = table.branches.emplace_back();
+    for (const auto& [section, impacts] : orbits) {
+        sim::BranchPoint& point = branch.points.emplace_back();
+        point.parameter = static_cast<double>(branch.points.size());
+        point.orbit.section = section, point.orbit.impacts = impacts;
+    }
+    return table;
+}
+
+// Where the section moves, the first impact is another one; the cam angles are continued from the section.
+TEST(Diagram, OfBranchesFollowsEachImpactWhereTheSectionMoves) {
+    const auto table = branch_of({{1, {{-1.3, 0.54}, {-2.4, 0.23}, {-8.0, 0.67}, {-10.4, 0.01}}},
+                                  {1, {{-1.35, 0.53}, {-2.4, 0.228}, {-8.01, 0.673}, {-10.45, 0.011}}},
+                                  {1.08, {{-1.72, 0.673}, {-4.17, 0.011}, {-7.63, 0.536}, {-8.68, 0.228}}}});
+    EXPECT_THAT(pieces_of(branches_figure(table, {}, Scene(), Lang::en).panels[0].series.at(0)),
+                ElementsAre(ElementsAre(0.54, 0.53, 0.536), ElementsAre(0.23, 0.228, 0.228),
+                            ElementsAre(0.67, 0.673, 0.673), ElementsAre(0.01, 0.011, 0.011)));
+}
+
+// Along orbits that end in a rest, where their number changes.
+TEST(Diagram, OfBranchesBreaksAtTheEndsOfImpacts) {
+    const auto table = branch_of({{1, {{1, 0.2}}}, {1, {{1, 0.3}, {2, 0.01}}}, {1, {{1, 0.4}, {2, 0.02}}}});
+    EXPECT_THAT(pieces_of(branches_figure(table, {}, Scene(), Lang::en).panels[0].series.at(0)),
+                ElementsAre(ElementsAre(0.2, 0.3, 0.4), ElementsAre(0.01, 0.02)));
 }
 
 TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
