@@ -14,6 +14,8 @@
 
 namespace beamcam::render {
 
+inline constexpr double kReadable = 9;  // smallest size of letters in any picture [px]
+
 // The kinds of panels, in the order of the reference. A new panel is a name in this list and one file, which defines
 // its PanelType in a function of this name with "_panel" behind it.
 #define BEAMCAM_PANELS(entry) entry(mechanism) entry(phase) entry(energy) entry(close_up) entry(traces) entry(strip)

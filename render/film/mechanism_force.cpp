@@ -163,8 +163,10 @@ void draw_force_leader(const MechanismScene& s) {
     if (!s.arrow || !names_force(s)) return;
     const LabelPlace& label = *s.at.labels->force;
     if (label.has_sample) return;
-    draw_leader(s, label, s.at.palette.contact, leader_end(s.at, s.view, s.label_box(label, s.arrow->foot), *s.arrow),
-                s.arrow->foot, {kFarLabel, kFarthestArrow});
+    Box text = s.label_box(label, s.arrow->foot);  // has room for the widest number
+    text.w = std::min(text.w, s.canvas.measure(force_label(s.at, *s.arrow), force_style(s.at)).w);
+    draw_leader(s, label, text, s.at.palette.contact, leader_end(s.at, s.view, text, *s.arrow),
+                {kFarLabel, kFarthestArrow});
 }
 
 static void draw_arrow(Canvas& canvas, Vec2 foot, Vec2 tip, double length, Color color, double marks) {

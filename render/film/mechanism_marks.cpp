@@ -16,8 +16,9 @@ constexpr double kFadeIn = 0.2;    // a leader line fades in over this share of 
 
 }  // namespace
 
-void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base, Range lengths) {
-    const Vec2 edge = s.label_box(label, base).nearest(owner);
+void draw_leader(const MechanismScene& s, const LabelPlace& label, const Box& text, Color color, Vec2 owner,
+                 Range lengths) {
+    const Vec2 edge = text.nearest(owner);
     const double way = norm(owner - edge) / s.at.unit;
     const double opacity = label.opacity_at(s.frame) * std::min(1.0, (way / lengths.low - 1) / kFadeIn);
     if (opacity <= 0 || way > lengths.high) return;
@@ -131,12 +132,13 @@ void draw_angle_arc(const MechanismScene& s) {
     const double turned = way < 0 ? way + 2 * pi : way;
     const double foot = turned <= std::max(std::abs(angle), pi / 2) ? turned * sense : 0;
     Vec2 owner = s.on(o + down(foot) * radius);
+    const Box text = s.label_box(label, label.base);
     if (s.at.moved) {
-        const Vec2 middle = s.label_box(label, label.base).centre();
+        const Vec2 middle = text.centre();
         const std::vector<Vec2> arc = angle_arc(s.at, s.at.labels->arc_radius, s.pose);
         owner = s.on(*std::ranges::min_element(arc, {}, [&](Vec2 p) { return norm(s.on(p) - middle); }));
     }
-    draw_leader(s, label, s.at.palette.muted, owner, label.base, {kFarLetter, kLongestLeader});
+    draw_leader(s, label, text, s.at.palette.muted, owner, {kFarLetter, kLongestLeader});
     draw_label(s, label, "$θ$", {.size = 21 * angle_letter(s.at), .color = s.at.palette.muted, .align = HAlign::centre},
                label.base);
 }
@@ -162,8 +164,8 @@ void draw_cam_speed(const MechanismScene& s) {
     }
     const LabelPlace& label = *s.at.labels->speed;
     const Vec2 arrow = s.on(axis + down(middle) * radius);
-    if (!crosses_angle_arc(s, arrow, s.label_box(label, label.base).centre()))
-        draw_leader(s, label, s.at.palette.muted, arrow, label.base);
+    const Box text = s.label_box(label, label.base);
+    if (!crosses_angle_arc(s, arrow, text.centre())) draw_leader(s, label, text, s.at.palette.muted, arrow);
     draw_label(s, label, speed_label(s.at), {.size = label_size(s.at), .color = s.at.palette.muted}, label.base);
 }
 

@@ -11,15 +11,14 @@
 
 namespace beamcam::render {
 
-inline constexpr double kReadable = 9;  // smallest size of letters in any picture [px]
-
 // `indent`: of the text, from the left edge of the label's box [px].
 void draw_label(const MechanismScene& s, const LabelPlace& label, const std::string& text, TextStyle style, Vec2 base,
                 double indent = 0);
 // Draws the leader line of a label whose owner is at such a distance [design px].
 inline constexpr double kFarLabel = 60;
 inline constexpr double kLongestLeader = 200;  // a longer one would only cross the picture
-void draw_leader(const MechanismScene& s, const LabelPlace& label, Color color, Vec2 owner, Vec2 base,
+// `text`: the box of the label's text, where the line begins.
+void draw_leader(const MechanismScene& s, const LabelPlace& label, const Box& text, Color color, Vec2 owner,
                  Range lengths = {kFarLabel, kLongestLeader});
 
 inline constexpr double kLeastArc = 0.02;  // smaller angles have no arc [rad]

@@ -12,8 +12,8 @@ namespace {
 
 // The least size of the letters of parameters, whose scripts are smaller: about that of the numbers at axes.
 double least_letters(const Layout& places) {
-    constexpr double kReadable = 10, kOfTicks = 0.9;  // [px]
-    return std::min(kReadable, kOfTicks * places.tick);
+    constexpr double kAlwaysReadable = 10, kOfTicks = 0.9;  // [px]
+    return std::clamp(kOfTicks * places.tick, kReadable, kAlwaysReadable);
 }
 
 // A row of text from `x` to `right`, on its baseline.

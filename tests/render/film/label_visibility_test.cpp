@@ -96,7 +96,7 @@ TEST(MechanismMarks, LeadersHaveAGreatestLength) {
             const LabelPlace label{{}, {}, {20, 20}, {}, {}};
             const auto draw = [&](const MechanismScene& s) {
                 const Box box = s.label_box(label, label.base);
-                draw_leader(s, label, rgb(0), {box.right() + length * at.unit, box.centre().y}, label.base);
+                draw_leader(s, label, box, rgb(0), {box.right() + length * at.unit, box.centre().y});
             };
             return inked(marks.drawn(draw), marks.drawn([](const MechanismScene&) {})) > 0;
         };
@@ -126,6 +126,24 @@ TEST(MechanismMarks, TheLeaderOfAForceEndsAtTheNearerEndOfItsArrow) {
     EXPECT_FALSE(leader_meets(tip + Vec2{0, -60}, before_foot));
     EXPECT_TRUE(leader_meets(foot + Vec2{0, 60}, before_foot));
     EXPECT_FALSE(leader_meets(foot + Vec2{0, 60}, before_tip));
+}
+
+// The box of the label has room for the widest number; the line begins at the number of this frame.
+TEST(MechanismMarks, TheLeaderOfAForceBeginsAtItsNumber) {
+    Marks marks(film_of(Style::flat));
+    const ForceArrow arrow{marks.pose().cam_centre, {0, 1}, 4};
+    const MechanismView& at = marks.at();
+    const Vec2 foot = at.px(arrow.foot);
+    constexpr double kWide = 200, kFarBelow = 150;
+    marks.labels.force = LabelPlace{arrow.foot, Vec2{0, kFarBelow}, {kWide, 20}, {}, {}};
+    const Image with = marks.drawn([&](MechanismScene s) {
+        s.arrow = arrow;
+        draw_force_leader(s);
+    });
+    const Image without = marks.drawn([](const MechanismScene&) {});
+    const Box above{foot.x - kWide / 2, foot.y + kFarBelow - 40, kWide, 20};  // the label, left: its number
+    EXPECT_GT(differing_pixels(with, without, {above.x, above.y, kWide / 2, above.h}), 0);
+    EXPECT_EQ(differing_pixels(with, without, {above.centre().x, above.y, kWide / 2, above.h}), 0);
 }
 
 // The letters of a mechanism that is small in its picture have their usual size before a near camera.

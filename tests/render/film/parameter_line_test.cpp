@@ -47,6 +47,17 @@ TEST(ParameterLine, RatherLeavesOutThanWritesTooSmall) {
     EXPECT_TRUE(omits);
 }
 
+// At 640×360, where the numbers at axes are as small.
+TEST(ParameterLine, HasLettersOfNinePixelsAtLeast) {
+    Measuring with;
+    Layout places;
+    places.unit = 0.5, places.tick = 9;
+    places.parameters = Box{0, 0, 300, 18};
+    const ParameterLine line = parameter_line(with.canvas, places, "", kPieces);
+    EXPECT_FALSE(line.pieces.empty());
+    EXPECT_GE(line.size, 9);
+}
+
 TEST(ParameterLine, StandsCloserThenSmallerBeforeAnythingIsLeftOut) {
     double size = 21;
     std::size_t shown = kPieces.size();
