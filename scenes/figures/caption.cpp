@@ -304,10 +304,11 @@ std::string accuracy(const Runs& runs, Lang lang) {
         else if (result->energy_scale > 0)
             closure = std::max(closure, result->energy_residual_max / result->energy_scale);
     }
+    const std::string of = runs.size() == 1 ? "" : phrase(lang, " of each motion", "各运动的");
     const std::string but = paper ? phrase(lang, ", the model “paper” apart", "（论文模型除外）") : "";
     if (closure == 0) return phrase(lang, "Relative tolerance {}.", "相对容差 {}。", one_digit(rtol));
-    return phrase(lang, "Relative tolerance {}; at the ends of steps the energy balance closes to {} of its scale{}.",
-                  "相对容差 {}；能量平衡在各步末闭合到其尺度的 {}{}。", one_digit(rtol), one_digit(closure), but);
+    return phrase(lang, "Relative tolerance {}; at the ends of steps the energy balance{} closes to {} of its scale{}.",
+                  "相对容差 {}；{}能量平衡在各步末闭合到其尺度的 {}{}。", one_digit(rtol), of, one_digit(closure), but);
 }
 
 std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {

@@ -75,8 +75,8 @@ inline constexpr std::array kPaperSpeeds{0.0, 1.0, 5.0};
 // number of modes and the model are free.
 bool is_of_the_paper(const sim::Problem& problem);
 
-// "Relative tolerance 10⁻⁸; at the ends of steps the energy balance closes to 2 × 10⁻⁹ of its scale", of the worst of
-// the results.
+// "Relative tolerance 10⁻⁸; at the ends of steps the energy balance closes to 2 × 10⁻⁹ of its scale"; of several
+// results the worst, with the words "of each motion".
 using Runs = std::vector<std::pair<const sim::Problem*, const sim::Result*>>;
 std::string accuracy(const Runs& runs, Lang lang);
 

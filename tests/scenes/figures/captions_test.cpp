@@ -81,6 +81,9 @@ TEST(Captions, SayWhereTheEnergyBalanceCloses) {
     EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "energy"),
                 HasSubstr("at the ends of steps the energy balance closes to"));
     EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "energy", Lang::zh), HasSubstr("能量平衡在各步末闭合到"));
+    // Of several motions it is the worst, not that of the motion whose facts are listed before.
+    EXPECT_THAT(caption_of(R"({"time": {"end": 0.4}})", "speeds"),
+                HasSubstr("at the ends of steps the energy balance of each motion closes to"));
 }
 
 TEST(Captions, SayNothingOfAFlexibleBeamWhereItIsRigid) {
