@@ -117,7 +117,7 @@ struct Shape {
     HAlign align = HAlign::centre;
     VAlign valign = VAlign::middle;
     bool small = false;    // label
-    bool if_room = false;  // label: left out where it would touch one before it
+    bool if_room = false;  // label: all of these are left out if one would touch another label
 };
 
 // Labels at the curves if they have room, else a box; a box, in the plot if it has room, else above; a box above the

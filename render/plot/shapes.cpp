@@ -54,6 +54,20 @@ Vec2 beyond(const std::vector<Shape>& shapes, const PlotStyle& style, PageCanvas
     return out;
 }
 
+// Whether the labels that are drawn if there is room touch none before them.
+bool have_room(const std::vector<Shape>& shapes, const PlotStyle& style, const PageCanvas& sheet,
+               const Camera& camera) {
+    const double gap = 0.15 * style.letters;
+    std::vector<Box> labels;
+    for (const Shape& s : shapes) {
+        if (s.kind != Shape::Kind::label) continue;
+        const Box own = label_box(s, style, sheet, camera), around = own.inset(-gap);
+        if (s.if_room && std::ranges::any_of(labels, [&](const Box& b) { return b.overlaps(around); })) return false;
+        labels.push_back(own);
+    }
+    return true;
+}
+
 void draw_one(const Shape& s, const PlotStyle& style, PageCanvas& sheet, const Camera& camera) {
     const double width = s.width > 0 ? s.width : style.frame;
     const Pen pen{s.color, width, dashes(s.dash, width), Cap::butt};
@@ -112,16 +126,9 @@ void draw_shapes(const Panel& panel, const PlotStyle& style, PageCanvas& sheet, 
         room = {room.x + left, room.y, room.w - left - right, room.h};
         camera = fit(world, room.inset(margin));
     }
-    const double gap = 0.15 * style.letters;
-    std::vector<Box> labels;
-    for (const Shape& s : panel.shapes) {
-        if (s.kind == Shape::Kind::label) {
-            const Box own = label_box(s, style, sheet, camera), around = own.inset(-gap);
-            if (s.if_room && std::ranges::any_of(labels, [&](const Box& b) { return b.overlaps(around); })) continue;
-            labels.push_back(own);
-        }
-        draw_one(s, style, sheet, camera);
-    }
+    const bool all = have_room(panel.shapes, style, sheet, camera);
+    for (const Shape& s : panel.shapes)
+        if (all || !s.if_room) draw_one(s, style, sheet, camera);
 }
 
 }  // namespace beamcam::render::figure

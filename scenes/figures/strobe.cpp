@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "render/mechanism/exaggeration.hpp"
 #include "render/plot/ticks.hpp"
@@ -57,10 +58,12 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
             .align = render::HAlign::right});
 }
 
+bool is_level(const Vec2& along) { return std::abs(along.x) > 0.5; }
+
 // Beyond the tip, where no other beam is drawn.
 void add_instant(const sim::Pose& pose, std::string instant, bool if_room, Sketch& to) {
     const Vec2 along = sim::unit(pose.theta);
-    const bool level = std::abs(along.x) > 0.5;
+    const bool level = is_level(along);
     using render::VAlign;
     to.add({.kind = Sketch::Kind::label,
             .points = {pose.centreline.back()},
@@ -101,24 +104,16 @@ class InstantText {
     int decimals_ = 0;
 };
 
-// First and last, in one label where two would overlap; then the others that have room.
+// First and last, in one label where two would overlap; the others if all of them have room.
 void label_instants(const std::vector<sim::Pose>& poses, Sketch& to) {
-    constexpr double kApart = 0.05;  // about the height of a label [rad]; the drawing omits wider ones that touch
-    std::vector<double> labelled;
-    const auto has_room = [&](const sim::Pose& pose) {
-        return std::ranges::all_of(labelled, [&](double theta) { return std::abs(pose.theta - theta) > kApart; });
-    };
-    const auto label = [&](const sim::Pose& pose, const std::string& text) {
-        add_instant(pose, text, !labelled.empty(), to);
-        labelled.push_back(pose.theta);
-    };
     const InstantText text_of(poses);
     const sim::Pose &first = poses.front(), &last = poses.back();
-    const bool joined = poses.size() > 1 && std::abs(last.theta - first.theta) <= kApart;
-    label(first, joined ? text_of(first) + ", " + text_of(last) : text_of(first));
-    if (has_room(last)) label(last, text_of(last));
-    for (const sim::Pose& pose : poses)
-        if (has_room(pose)) label(pose, text_of(pose));
+    constexpr double kHeight = 0.05, kWidth = 0.15;  // about those of a label; level beams have labels below each other
+    const double room = is_level(sim::unit(first.theta)) ? kHeight : kWidth;
+    const bool joined = std::abs(std::remainder(last.theta - first.theta, 2 * std::numbers::pi)) <= room;
+    add_instant(first, joined && poses.size() > 1 ? text_of(first) + ", " + text_of(last) : text_of(first), false, to);
+    if (!joined) add_instant(last, text_of(last), false, to);
+    for (std::size_t k = 1; k + 1 < poses.size(); ++k) add_instant(poses[k], text_of(poses[k]), true, to);
 }
 
 Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& problem, render::Bounds& extent) {
