@@ -188,9 +188,9 @@ int AxisMap::choose_powers(const Axis& axis, double order, bool offset) {
 
 void AxisMap::add_linear_ticks(const Axis& axis, int most, bool whole) {
     Ticks marks = render::ticks(ends_.low, ends_.high, std::max(2, most));
-    // A single label defines no scale.
-    const bool may_have_one = axis.round_ends || axis.unit;
-    for (int more = std::max(3, most + 1); marks.values.size() < 2 && more < 8 && !may_have_one; ++more)
+    // A single label defines no scale; where four have room, two are few.
+    const std::size_t least = axis.round_ends || axis.unit ? 0 : most < 4 ? 2 : 3;
+    for (int more = std::max(3, most + 1); marks.values.size() < least && more < 8; ++more)
         marks = render::ticks(ends_.low, ends_.high, more);
     if (base_unit_ == "°" && factor_ == 0 && offset_ == 0) marks = in_turns(marks, ends_, std::max(2, most));
     if (axis.round_ends) marks = with_round_ends(ends_, marks.step);

@@ -132,6 +132,7 @@ double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
     TextStyle l = style_.words();
     l.color = color_of(curve.series());
     const Box size = sheet_.measure(curve.series().label, l);
+    const Box within = plot_.box().inset(style_.tick + 1);  // between the ticks of the frame
     double least = std::numeric_limits<double>::infinity();
     const std::size_t stride = std::max<std::size_t>(1, curve.points().size() / 60);
     for (std::size_t i = 0; i < curve.points().size(); i += stride) {
@@ -142,8 +143,8 @@ double PanelDrawing::best_direct(const DrawnCurve& curve, Writing& out) {
                 if (up == 0 && std::abs(side) < 1) continue;
                 const Vec2 middle{p.x + side * (size.w / 2 + style_.gap), p.y - up * (size.h / 2 + 1.0 * style_.gap)};
                 const Box box{middle.x - size.w / 2, middle.y - size.h / 2, size.w, size.h};
+                if (!within.contains(box)) continue;
                 const double cover = taken_->cost(box.inset(-1));
-                if (cover >= kBeyondPlot) continue;
                 const double cost = 10 * cover + 3 * std::max(0.0, crowding(box, curve)) +
                                     0.02 * (plot_.box().right() - middle.x) + std::abs(side);
                 if (cost >= least) continue;

@@ -63,14 +63,16 @@ void PanelNames::fit(const Plot& plot, double width, double height) {
     widest_y_ = widest(plot.y());
     widest_right_ = plot.right() ? widest(*plot.right()) : 0;
     widest_bar_ = plot.bar() ? widest(*plot.bar()) : 0;
-    drop_ = plot.drop(sheet_);
+    below_ = sheet_.cap_height(style_.numbers);
     beyond_left_ = beyond_right_ = 0;
     for (const Tick& tick : plot.x().ticks()) {
         if (!lowest_ || !panel_.x.numbered || tick.label.empty()) continue;
-        const double half = 0.5 * sheet_.measure(tick.label, style_.tick_numbers()).w;
-        beyond_left_ = std::max(beyond_left_, half - tick.at * width);
-        beyond_right_ = std::max(beyond_right_, half - (1 - tick.at) * width);
+        const Vec2 size = plot.size_below(sheet_, tick.label);
+        beyond_left_ = std::max(beyond_left_, 0.5 * size.x - tick.at * width);
+        beyond_right_ = std::max(beyond_right_, 0.5 * size.x - (1 - tick.at) * width);
+        below_ = std::max(below_, size.y);
     }
+    below_ += plot.drop(sheet_);
     title_ = lines_of(panel_.title, width - (panel_.letter.empty() ? 0 : 2 * style_.letters), style_.words(), sheet_);
     titles_height_ = 0;
     if (!panel_.letter.empty() || !panel_.title.empty())
@@ -87,7 +89,7 @@ Margins PanelNames::room_around(const Plot& plot) const {
     m.left = std::max(m.left, beyond_left_);
     m.bottom = number / 2;
     if (lowest_) {
-        m.bottom = panel_.x.numbered ? number + style_.gap * 1.1 + drop_ : style_.gap;
+        m.bottom = panel_.x.numbered ? below_ + style_.gap * 1.1 : style_.gap;
         if (!panel_.x.label.empty()) m.bottom += 1.05 * letter + style_.gap + x_.beside;
     }
     m.top = std::max(number / 2 + 0.5, titles_height_);
@@ -113,11 +115,10 @@ void PanelNames::draw(const Plot& plot, double top, bool legend_above) const {
 void PanelNames::draw_label_below(const Plot& plot) const {
     const Box& box = plot.box();
     const std::string& common = plot.x().common();
-    const double number = sheet_.cap_height(style_.numbers) + drop_;
     if (!panel_.x.label.empty()) {
         TextStyle l = style_.words();
         l.align = HAlign::centre, l.valign = VAlign::top;
-        double y = box.bottom() + (panel_.x.numbered ? number + style_.gap : 0) + 1.4 * style_.gap;
+        double y = box.bottom() + (panel_.x.numbered ? below_ + style_.gap : 0) + 1.4 * style_.gap;
         // Clear of the power of ten at the right end.
         const double beside = common.empty() ? 0 : sheet_.measure(common, style_.tick_numbers()).w + 2 * style_.gap;
         for (const std::string& line : x_.lines) {
@@ -129,7 +130,7 @@ void PanelNames::draw_label_below(const Plot& plot) const {
     if (common.empty()) return;
     TextStyle numbers = style_.tick_numbers();
     numbers.align = HAlign::right, numbers.valign = VAlign::top;
-    sheet_.text({box.right(), box.bottom() + number + 2.4 * style_.gap}, common, numbers);
+    sheet_.text({box.right(), box.bottom() + below_ + 2.4 * style_.gap}, common, numbers);
 }
 
 void PanelNames::draw_labels_beside(const Plot& plot) const {

@@ -48,7 +48,7 @@ class PanelNames {
     bool lowest_;
     Label x_, y_, right_;
     std::vector<std::string> title_;
-    double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0, drop_ = 0, titles_height_ = 0;
+    double widest_y_ = 0, widest_right_ = 0, widest_bar_ = 0, below_ = 0, titles_height_ = 0;
     double beyond_left_ = 0, beyond_right_ = 0;  // of the plot, reached by the numbers below it
     Margins margins_;
 };

@@ -50,6 +50,8 @@ class Plot {
     const std::optional<AxisMap>& right() const { return right_; }
     const std::optional<AxisMap>& bar() const { return bar_; }
 
+    // The room of a number or a name below the plot. Names that have no room beside each other are turned.
+    Vec2 size_below(const Painter& on, const std::string& label) const;
     // How much the numbers below the plot are lowered so that they do not touch those beside it at a corner.
     double drop(const Painter& on) const;
     // Of films: from the axis down to the baseline of its numbers [px].
@@ -71,6 +73,7 @@ class Plot {
 
     const Panel* panel_;
     const PlotStyle* style_;
+    bool turned_names_ = false;
     bool lowest_, moves_ = false;  // moves: the numbers of x
     std::string what_;
     std::optional<AxisMap> x_, y_, right_, bar_;

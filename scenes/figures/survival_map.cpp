@@ -106,12 +106,12 @@ render::figure::Figure survival_map(const sim::Campaign& campaign, const std::ve
     figure.title = fmt::format("Survival at the extremes: {} cases", campaign.cases.size());
     for (std::size_t k = 0; k < campaign.grids.size(); ++k)
         figure.panels.push_back(grid_panel(campaign.grids[k], outcomes[k]));
-    Panel& first = figure.panels.front();
-    first.legend = Legend::above;
+    Panel& last = figure.panels.back();  // alone in its row, whose other plots the legend would move
+    last.legend = Legend::above;
     for (const OutcomeLook& look : kOutcomes)
-        first.swatches.push_back({fmt::format("{}: {}", look.meaning,
-                                              std::ranges::count(results, look.outcome, &sim::StressResult::outcome)),
-                                  render::rgb(look.color)});
+        last.swatches.push_back({fmt::format("{}: {}", look.meaning,
+                                             std::ranges::count(results, look.outcome, &sim::StressResult::outcome)),
+                                 render::rgb(look.color)});
     figure.aspect = 1.1 * static_cast<double>(figure.panels.size());
     return figure;
 }

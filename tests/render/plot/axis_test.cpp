@@ -83,6 +83,12 @@ TEST(FigureAxis, LogarithmicHasPlainNumbersWithinADecade) {
     EXPECT_THAT(labels(axis(0.4, 4, {.scale = Scale::logarithmic})), ::testing::IsSupersetOf({"0.5", "1", "2"}));
 }
 
+TEST(FigureAxis, HasThreeNumbersWhereFourHaveRoom) {
+    const auto numbers = [](int most) { return labels(AxisMap({.tight = true}, {true, 18.1, 39.7}, most, "test")); };
+    EXPECT_THAT(numbers(4), ::testing::ElementsAre("20", "25", "30", "35"));
+    EXPECT_THAT(numbers(3), ::testing::ElementsAre("20", "30"));
+}
+
 TEST(FigureAxis, NamesLabelTheMiddlesOfTheirIntervals) {
     const Extent four{true, 0, 4};
     const AxisMap all({.names = {"a", "b", "c", "d"}}, four, 4, "test");

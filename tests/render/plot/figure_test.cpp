@@ -50,12 +50,17 @@ Drawn draw_png(const Figure& figure, const char* column = "elsevier", double dpi
 TEST(Figure, ABandLooksLikeItsOscillations) {
     std::vector<double> x, y;
     for (int i = 0; i < 40'000; ++i) x.push_back(i * 1e-4), y.push_back(std::sin(i * 0.37) * (1 + x.back()));
-    Figure by_outline = plot(x, y), in_tones = by_outline;
+    const auto unnamed = [&] {
+        Figure figure = plot(x, y);
+        figure.panels[0].legend = Legend::none;
+        return figure;
+    };
+    Figure by_outline = unnamed(), in_tones = by_outline;
     in_tones.panels[0].series[0].value = std::vector<double>(x.size(), 0.5);
     in_tones.panels[0].color_bar.emplace().hidden = true;
     // Back and forth in x by less than a thousandth of a pixel: nothing is a band.
     for (std::size_t i = 1; i < x.size(); i += 2) x[i] = x[i - 1] - 1e-9;
-    const Image band = draw_png(by_outline).image, lines = draw_png(plot(x, y)).image;
+    const Image band = draw_png(by_outline).image, lines = draw_png(unnamed()).image;
     const Image tones = draw_png(in_tones).image;
     ASSERT_EQ(band.pixels.size(), lines.pixels.size());
     const auto ink = [](std::uint32_t p) { return (p & 255) != (p >> 16 & 255); };  // of the curve, not the axes
@@ -250,6 +255,37 @@ TEST(Figure, ALegendAboveSavesLines) {
         for (const Series& s : panel.series)
             if (w.markup == s.label) lines.insert(std::round(w.box.bottom() / 4));
     EXPECT_LE(lines.size(), 4u);
+}
+
+// Names without room beside each other are turned, and clear of the label of the axis.
+TEST(Figure, NamesBelowAPlotAreAllWritten) {
+    Figure figure = plot({0, 1}, {0, 1});
+    Panel& panel = figure.panels[0];
+    panel.legend = Legend::none;
+    for (const char* name : {"rigid", "paper", "zeroth-order", "first-order", "second-order", "exact", "poisson"})
+        panel.x.names.emplace_back(name);
+    const auto written = draw_png(figure, "aps").written;
+    for (const std::string& name : panel.x.names) {
+        const auto found = std::ranges::find(written, name, &PageCanvas::Written::markup);
+        ASSERT_NE(found, written.end()) << name;
+        EXPECT_GT(found->box.h, found->box.w) << name;
+        for (const PageCanvas::Written& other : written)
+            EXPECT_FALSE(&other != &*found && other.box.inset(0.3).overlaps(found->box.inset(0.3))) << name;
+    }
+}
+
+// A label at a curve that ends at the frame is clear of the ticks there.
+TEST(Figure, LabelsAtCurvesAreClearOfTheFrame) {
+    Figure figure = plot({0, 1}, {3, 3});
+    Panel& panel = figure.panels[0];
+    panel.x.tight = true;
+    panel.series.push_back({.label = "$λ$_{2} = −15.37 s^{−1}", .x = {0, 1}, .y = {-15, -15}, .look = 1});
+    const PlotStyle style = style_of(*column_named("elsevier"));
+    const auto written = draw_png(figure).written;
+    const Box second = std::ranges::find(written, panel.series[1].label, &PageCanvas::Written::markup)->box;
+    const Box number =
+        std::ranges::find(written, "1.0", &PageCanvas::Written::markup)->box;  // below the frame's corner
+    EXPECT_LT(second.right(), number.centre().x - style.tick);
 }
 
 // An inset becomes smaller, then is left out, rather than hiding a curve.

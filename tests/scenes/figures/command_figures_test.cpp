@@ -50,8 +50,13 @@ TEST(SurvivalMap, HasAStripeForEachCaseAndCrossesFailures) {
 
 TEST(SurvivalMap, OfTheWholeCampaignHasRoomOnItsPage) {
     const sim::Campaign campaign = sim::stress_campaign(false);
-    const render::Image image = survival_picture(campaign, std::vector<sim::StressResult>(campaign.cases.size()));
+    const std::vector<sim::StressResult> results(campaign.cases.size());
+    const render::Image image = survival_picture(campaign, results);
     EXPECT_GT(image.height, image.width);
+    // The panels of a row keep one height: the legend is above the last one, which is alone.
+    const auto figure = survival_map(campaign, results);
+    EXPECT_EQ(figure.panels.size() % 3, 1u);
+    for (const auto& panel : figure.panels) EXPECT_EQ(panel.swatches.empty(), &panel != &figure.panels.back());
 }
 
 sim::Accuracy measured() {
