@@ -42,6 +42,24 @@ std::vector<Followed> averaged(const std::vector<Followed>& all, int half) {
     return out;
 }
 
+Vec2 place_of(const Anchor& anchor, const Followed& parts, Vec2 middle) {
+    switch (anchor.kind) {
+        case Anchor::Kind::all:
+            return middle;
+        case Anchor::Kind::tip:
+            return parts.tip;
+        case Anchor::Kind::contact:
+            return parts.contact;
+        case Anchor::Kind::cam:
+            return parts.cam;
+        case Anchor::Kind::hub:
+            return {0, 0};
+        case Anchor::Kind::place:
+            break;
+    }
+    return anchor.place;
+}
+
 // A shot evaluated at one frame.
 struct Seen {
     double zoom, yaw, pitch;
@@ -66,22 +84,7 @@ std::vector<CameraFrame> camera_frames(const Shot& first, const std::vector<Came
     std::vector<CameraFrame> out;
     for (std::size_t k = 0; k < mean.size(); ++k) {
         const auto seen = [&](const Shot& shot) -> Seen {
-            const Followed& at = mean[k];
-            switch (shot.follow.kind) {
-                case Anchor::Kind::all:
-                    break;
-                case Anchor::Kind::tip:
-                    return {shot.zoom, shot.yaw, shot.pitch, at.tip};
-                case Anchor::Kind::contact:
-                    return {shot.zoom, shot.yaw, shot.pitch, at.contact};
-                case Anchor::Kind::cam:
-                    return {shot.zoom, shot.yaw, shot.pitch, at.cam};
-                case Anchor::Kind::hub:
-                    return {shot.zoom, shot.yaw, shot.pitch, {0, 0}};
-                case Anchor::Kind::place:
-                    return {shot.zoom, shot.yaw, shot.pitch, shot.follow.place};
-            }
-            return {shot.zoom, shot.yaw, shot.pitch, middle};
+            return {shot.zoom, shot.yaw, shot.pitch, place_of(shot.follow, mean[k], middle)};
         };
         const auto frame = static_cast<double>(k);
         Seen now = seen(first);

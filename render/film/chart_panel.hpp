@@ -21,7 +21,7 @@ class ChartPanel : public FilmPanel {
                  *context.fonts) {}
     void draw_background(Canvas& canvas) const override { chart_.draw_background(canvas); }
     void draw(Canvas& canvas, int frame, Style, State*) const override {
-        chart_.draw_moving(canvas, context_.at(0, frame), readings(frame));
+        chart_.draw_moving(canvas, context_.at(frame), readings(frame));
     }
 
   protected:

@@ -58,7 +58,7 @@ void ClockLine::choose_sizes(Canvas& canvas) {
 
 double ClockLine::measure(Canvas& canvas) {
     const Box& b = *context_.places.clock;
-    const double u = context_.unit, last = context_.at(0, context_.frames() - 1);
+    const double u = context_.unit, last = context_.at(context_.frames() - 1);
     clock_width_ = canvas.measure(clock_text(context_.time, last, last), clock_style()).w;
     first_ = b.x + (context_.setup->view.show.clock ? clock_width_ + kAfterClock * u : 0);
     double right = first_ - kBetweenPills * u;
@@ -93,10 +93,10 @@ std::string ClockLine::words(const Pill& pill, int frame) const {
 void ClockLine::draw(Canvas& canvas, int frame) const {
     if (!context_.places.clock) return;
     const Box& b = *context_.places.clock;
-    const double u = context_.unit, last = context_.at(0, context_.frames() - 1);
+    const double u = context_.unit, last = context_.at(context_.frames() - 1);
     if (clock_width_ > b.w) return;
     if (context_.setup->view.show.clock)
-        canvas.text({b.x, b.y + 24 * u + 16 / kClock * size_}, clock_text(context_.time, context_.at(0, frame), last),
+        canvas.text({b.x, b.y + 24 * u + 16 / kClock * size_}, clock_text(context_.time, context_.at(frame), last),
                     clock_style());
     double x = first_;
     for (const Pill& pill : pills_) {

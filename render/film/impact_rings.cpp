@@ -12,19 +12,6 @@ namespace {
 constexpr double kRing = 0.4;             // lifetime of a ring, freezes not counted [s]
 constexpr std::ptrdiff_t kMostRings = 6;  // at once
 
-std::vector<double> frame_times(const FilmContext& context, int member) {
-    std::vector<double> out;
-    for (int k = 0; k < context.frames(); ++k) out.push_back(context.at(member, k));
-    return out;
-}
-
-// For each frame, the number of frames up to it in which time moved.
-std::vector<int> moved_frames(const std::vector<double>& times) {
-    std::vector<int> out(times.size(), 0);
-    for (std::size_t k = 1; k < times.size(); ++k) out[k] = out[k - 1] + (times[k] > times[k - 1] ? 1 : 0);
-    return out;
-}
-
 struct ShownImpact {
     const sim::Impact& impact;
     int frame = 0;       // the first frame that shows it
@@ -57,7 +44,7 @@ double largest_held_peak(const FilmContext& context, const PanelSlot& slot) {
     const int member = std::min(slot.spec.member, context.members() - 1);
     std::map<int, double> strongest;  // contact of each collision
     std::set<int> held;               // collisions
-    for (const auto& [impact, frame, brief] : shown_impacts(context.motion(member), frame_times(context, member))) {
+    for (const auto& [impact, frame, brief] : shown_impacts(context.motion(member), context.times)) {
         double& force = strongest[impact.collision];
         force = std::max(force, impact.force_peak.value_or(0));
         if (brief) held.insert(impact.collision);
@@ -68,10 +55,9 @@ double largest_held_peak(const FilmContext& context, const PanelSlot& slot) {
 }
 
 void ImpactRings::find(const MechanismView& at) {
-    frames_ = kRing * at.context.setup->fps;
+    context_ = &at.context;
     labelled_ = at.labelled();
-    const std::vector<double> times = frame_times(at.context, at.member);
-    moved_ = moved_frames(times);
+    const std::vector<double>& times = at.context.times;
     for (const auto& [impact, frame, brief] : shown_impacts(at.motion(), times)) {
         const sim::Pose pose = at.context.pose(at.member, frame);
         const DrawnBeam b = at.drawn(at.member, pose);
@@ -92,7 +78,9 @@ void ImpactRings::find(const MechanismView& at) {
 }
 
 double ImpactRings::age(const Ring& ring, int frame) const {
-    return (moved_[static_cast<std::size_t>(frame)] - moved_[static_cast<std::size_t>(ring.frame)]) / frames_;
+    const std::vector<int>& moved = context_->moved;
+    return (moved[static_cast<std::size_t>(frame)] - moved[static_cast<std::size_t>(ring.frame)]) /
+           (kRing * context_->setup->fps);
 }
 
 // Rings move with the disc.

@@ -33,10 +33,9 @@ class ImpactRings {
     };
     double age(const Ring& ring, int frame) const;  // in lifetimes; a freeze stops it
 
+    const FilmContext* context_ = nullptr;  // of the rings found
     std::vector<Ring> rings_;
-    std::vector<int> moved_;  // number of frames up to this one in which time moved
-    double frames_ = 1;       // lifetime of a ring
-    bool labelled_ = false;   // peaks are shown, because their label says that they are peaks
+    bool labelled_ = false;  // peaks are shown, because their label says that they are peaks
 };
 
 }  // namespace beamcam::render

@@ -37,9 +37,7 @@ SeenFrame::SeenFrame(const MechanismCameras& cameras, int k)
 OccupancyGrid with_bodies(OccupancyGrid room, const SeenFrame& now) {
     SweptRegion parts(now.at, std::move(room),
                       now.projection ? std::vector{*now.projection} : std::vector<Perspective>());
-    const sim::Pose pose = now.at.context.pose(now.at.member, now.frame);
-    parts.add_shape(
-        mechanism_shape(now.at.problem(), pose, now.at.drawn(now.at.member, pose), now.at.look, now.at.palette));
+    parts.add_shape(now.at.drawn_frame(now.frame).shape);
     return std::move(parts.room);
 }
 

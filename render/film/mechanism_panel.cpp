@@ -104,7 +104,7 @@ bool MechanismPanel::accumulates_path() const {
 }
 
 void MechanismPanel::draw_accumulated_path(Canvas& canvas, int frame, ThreadState& threads) const {
-    const double t = at_.context.at(at_.member, frame);
+    const double t = at_.context.at(frame);
     const Pen pen{at_.palette.motion_faint, 1.6 * at_.unit};
     const auto draw = [&](AccumulatedLayer& layer, const Pen& with) {
         layer.extend_to(t, tip_path_.whole(), canvas.fonts(), with);
@@ -128,9 +128,7 @@ void MechanismPanel::draw(Canvas& canvas, int frame, Style style, State* state) 
 
 void MechanismPanel::draw_moving(Canvas& canvas, const MechanismView& at, int frame, Style style, ThreadState& threads,
                                  std::vector<Box>* labels) const {
-    const Pose pose = at.context.pose(at.member, frame);
-    const DrawnBeam drawn = at.drawn(at.member, pose);
-    const MechanismShape shape = mechanism_shape(at.problem(), pose, drawn, at.look, at.palette);
+    const auto [pose, drawn, shape] = at.drawn_frame(frame);
     threads.trace.advance_to(pose.t);
     const std::optional<Perspective> perspective = cameras_.perspective(at, frame);
     const Perspective* view = perspective ? &*perspective : nullptr;
@@ -185,10 +183,9 @@ void MechanismPanel::draw_bodies(const MechanismScene& s, Style style, ThreadSta
 void MechanismPanel::draw_exposures(const MechanismScene& s, Style style, ThreadState& threads) const {
     const std::size_t count = s.at.motion().exposures;
     const auto draw_one = [&](Canvas& canvas, const Pose& pose) {
-        const DrawnBeam drawn = s.at.drawn(s.at.member, pose);
-        MechanismShape shape = mechanism_shape(s.at.problem(), pose, drawn, s.at.look, s.at.palette);
-        if (view_strobes()) shape.disc.reset();
-        draw_bodies({canvas, s.frame, pose, drawn, shape, s.at, s.view}, style, threads);
+        DrawnPose one = s.at.drawn_pose(s.at.member, pose);
+        if (view_strobes()) one.shape.disc.reset();
+        draw_bodies({canvas, s.frame, one.pose, one.beam, one.shape, s.at, s.view}, style, threads);
     };
     const auto pose_of = [&](std::size_t which) {
         return s.at.motion().pose(static_cast<std::size_t>(s.frame), which);

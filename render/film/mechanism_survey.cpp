@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <ranges>
 #include <vector>
 
 #include "render/film/caption_places.hpp"
@@ -58,16 +59,10 @@ static void add_measured(const MechanismView& at, const Pose& pose, const DrawnB
 void MechanismPanel::add_tips_before(int frame) {
     const PoseStore* path = at_.motion().path.get();
     if (!path || frame == 0) return;
-    const double from = at_.context.at(at_.member, frame - 1), to = at_.context.at(at_.member, frame);
-    std::size_t first = 0;
-    for (std::size_t end = path->size(); first < end;) {
-        const std::size_t middle = (first + end) / 2;
-        if (path->time(middle) <= from)
-            first = middle + 1;
-        else
-            end = middle;
-    }
-    for (std::size_t i = first; i < path->size() && path->time(i) < to; ++i)
+    const double from = at_.context.at(frame - 1), to = at_.context.at(frame);
+    const auto all = std::views::iota(std::size_t{0}, path->size());
+    const auto is_past = [&](std::size_t i) { return path->time(i) <= from; };
+    for (std::size_t i = *std::ranges::partition_point(all, is_past); i < path->size() && path->time(i) < to; ++i)
         tip_path_.add_between_frames(knot_of(at_, path->pose(i)));
 }
 
@@ -76,14 +71,12 @@ LabelNeeds MechanismPanel::add_frames(SweptRegion& swept, SweptRegion& in_contac
     Bounds seen;
     std::vector<Vec2> before;
     for (int k = 0; k < at_.context.frames(); ++k) {
-        const Pose pose = at_.context.pose(at_.member, k);
-        const DrawnBeam drawn = at_.drawn(at_.member, pose);
+        const auto [pose, drawn, shape] = at_.drawn_frame(k);
         const double angle = drawn_angle(pose);
         needs.angles = {std::min(needs.angles.low, angle), std::max(needs.angles.high, angle)};
-        const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, at_.look, at_.palette);
         const Vec2 tip = (shape.face.back() + shape.back.back()) * 0.5;
         add_tips_before(k);
-        tip_path_.add_frame({pose.t, tip, pose.theta}, k > 0 && at_.context.at(0, k) > at_.context.at(0, k - 1));
+        tip_path_.add_frame({pose.t, tip, pose.theta});
         followed.push_back({at_.look.camera.to_world(tip),
                             drawn.contact ? drawn.contact->on_disc : at_.look.camera.to_world(tip),
                             at_.problem().cam ? pose.cam_centre : Vec2{}});
@@ -124,10 +117,8 @@ std::vector<Box> MechanismPanel::moving_under(const Callout& caption) const {
                           cameras_.near() && now.projection ? std::vector{*now.projection} : cameras_.projections());
         for (int m = 0; m < (at_.ghosts ? at_.context.members() : 1); ++m)
             for (std::size_t exposure = 0; exposure < at_.context.motion(m).exposures; ++exposure) {
-                const Pose pose = at_.context.motion(m).pose(static_cast<std::size_t>(k), exposure);
-                const DrawnBeam drawn = at_.drawn(m, pose);
-                const MechanismShape shape =
-                    mechanism_shape(at_.context.motion(m).problem, pose, drawn, now.at.look, at_.palette);
+                const auto [pose, drawn, shape] =
+                    now.at.drawn_pose(m, at_.context.motion(m).pose(static_cast<std::size_t>(k), exposure));
                 swept.add_shape(shape);
                 if (m > 0 || exposure > 0) continue;
                 swept.add_motion(before, shape.face);
@@ -160,9 +151,7 @@ void MechanismPanel::place_captions() {
     Canvas canvas(scratch, *at_.context.fonts);
     for (const Callout* each : in_order) {
         const SeenFrame first(cameras_, std::clamp(each->first, 0, at_.context.frames() - 1));
-        const Pose pose = at_.context.pose(at_.member, first.frame);
-        const DrawnBeam drawn = at_.drawn(at_.member, pose);
-        const MechanismShape shape = mechanism_shape(at_.problem(), pose, drawn, first.at.look, at_.palette);
+        const auto [pose, drawn, shape] = first.at.drawn_frame(first.frame);
         const auto arrow = force_arrow_of(pose, drawn, rings_.peak(first.frame, drawn));
         const MechanismScene scene{canvas, first.frame, pose, drawn, shape, first.at, first.by(), arrow};
         labels_.captions[std::size_t(each - all.data())] = CaptionPlaces(scene).placed(*each, moving_under(*each));

@@ -1,6 +1,7 @@
 #include "render/film/mechanism_view.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace beamcam::render {
 MechanismView::MechanismView(const FilmContext& all, const PanelSlot& slot)
@@ -54,6 +55,12 @@ DrawnBeam MechanismView::drawn(int whose, const sim::Pose& pose) const {
     const sim::Problem& its = context.motion(whose).problem;
     const double factor = its.beam.model == sim::ModelKind::rigid ? 1 : look.factor;
     return drawn_beam(its, pose, factor, look.depth, context.section_reference(whose));
+}
+
+DrawnPose MechanismView::drawn_pose(int whose, sim::Pose pose) const {
+    DrawnBeam beam = drawn(whose, pose);
+    MechanismShape shape = mechanism_shape(context.motion(whose).problem, pose, beam, look, palette);
+    return {std::move(pose), std::move(beam), std::move(shape)};
 }
 
 Box MechanismView::label_area() const {

@@ -11,6 +11,13 @@
 
 namespace beamcam::render {
 
+// A motion at a pose, as it is drawn.
+struct DrawnPose {
+    sim::Pose pose;
+    DrawnBeam beam;
+    MechanismShape shape;
+};
+
 struct MechanismView {
     MechanismView(const FilmContext& context, const PanelSlot& slot);
 
@@ -43,6 +50,8 @@ struct MechanismView {
     // beam, whose front is at 0.5; unchanged if `view` is null.
     Vec2 seen(Vec2 flat, const Perspective* view, double depth = 0.5) const;
     DrawnBeam drawn(int whose, const sim::Pose& pose) const;
+    DrawnPose drawn_pose(int whose, sim::Pose pose) const;
+    DrawnPose drawn_frame(int frame) const { return drawn_pose(member, context.pose(member, frame)); }
     DrawnBeam beam_of(int whose, int frame) const { return drawn(whose, context.pose(whose, frame)); }
     // Where a moving camera shows labels: above the scale bar, which the solid view has not.
     Box label_area() const;

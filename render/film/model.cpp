@@ -73,11 +73,11 @@ class Model {
           length_(problem_.beam.length),
           wide_(kWide * length_),
           depth_(std::max(problem_.beam.depth, kThinnest * length_)) {
-        double first = context_.at(0, 0);
+        double first = context_.at(0);
         for (int k = 0; k < context_.frames(); ++k) {
             poses_.push_back(context_.pose(0, k));
             beams_.push_back(drawn_beam(problem_, poses_.back(), context_.factor, depth_));
-            times_.push_back(static_cast<float>(context_.at(0, k) - first));
+            times_.push_back(static_cast<float>(context_.at(k) - first));
         }
         keys_ = arrays_.floats(times_, "SCALAR", 1, true);
     }

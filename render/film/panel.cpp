@@ -106,6 +106,10 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     ++counts->font_sets;
     for (int m = 0; m < members(); ++m) labels.push_back(text_markup(motion(m).label));
     for (const FilmData& each : setup->data) data_labels.push_back(text_markup(each.label));
+    for (std::size_t k = 0; k < setup->frames(); ++k) {
+        times.push_back(setup->time(k));
+        moved.push_back(k == 0 ? 0 : moved[k - 1] + (times[k] > times[k - 1] ? 1 : 0));
+    }
     choose_scales();
     const int mechanisms = setup->comparison == Comparison::panels ? members() : 1;
     if (setup->layout) places = user_places(shown);
@@ -116,8 +120,6 @@ FilmContext::FilmContext(std::shared_ptr<const FilmSetup> s) : setup(std::move(s
     arrow_scale = frame_force;
     for (const PanelSlot& slot : places.panels) arrow_scale = std::max(arrow_scale, largest_held_peak(*this, slot));
     if (setup->logo) place_logo();
-    std::vector<double> times;
-    for (std::size_t k = 0; k < setup->frames(); ++k) times.push_back(setup->time(k));
     span = {times.front(), times.back()};
     if (const auto* t = column(setup->chart, {ChannelKind::t, 0}); t && !t->empty()) {
         span.low = std::min(span.low, *std::ranges::min_element(*t));

@@ -40,6 +40,8 @@ struct FilmContext {
     double arrow_scale = 0;                         // largest force of an arrow, peaks that are held included [N]
     double moment_scale = 0;                        // end of the colour scale; 0: no colouring [N m]
     ViewExtent extent;                              // of all mechanisms
+    std::vector<double> times;                      // of the frames, the same for all motions [s]
+    std::vector<int> moved;                         // for each frame, the number up to it in which time moved
     Range span;                                     // time from the first to the last instant of frames and charts [s]
     std::vector<std::vector<TraceSample>> samples;  // for each motion
     std::shared_ptr<DrawingCounts> counts = std::make_shared<DrawingCounts>();
@@ -56,7 +58,7 @@ struct FilmContext {
     sim::Pose pose(int member, int frame) const { return motion(member).pose(static_cast<std::size_t>(frame)); }
     // For a motion without a cam: one that has a cam, whose section position the drawing takes over. Otherwise null.
     const sim::Problem* section_reference(int member) const;
-    double at(int member, int frame) const { return motion(member).time(static_cast<std::size_t>(frame)); }  // [s]
+    double at(int frame) const { return times[static_cast<std::size_t>(frame)]; }  // [s]
     // Factor from SI to the unit in which a channel is displayed, and that unit.
     double shown_factor(sim::Channel channel) const;
     std::string shown_unit(sim::Channel channel) const;

@@ -67,8 +67,7 @@ class PhasePanel final : public FilmPanel {
     void draw(Canvas& canvas, int frame, Style, State* state) const override {
         auto& layers = static_cast<Layers*>(state)->layers;
         for (std::size_t m = 0; m < paths_.size(); ++m) {
-            layers[m].extend_to(context_.at(static_cast<int>(m), frame), paths_[m], canvas.fonts(),
-                                {color(m), 1.3 * context_.unit});
+            layers[m].extend_to(context_.at(frame), paths_[m], canvas.fonts(), {color(m), 1.3 * context_.unit});
             layers[m].draw(canvas, corner());
         }
         for (std::size_t m = 0; m < paths_.size(); ++m) {

@@ -59,7 +59,7 @@ std::span<const double> rows_within(const figure::Series& curve, Range time) {
 
 // The time that the chart shows in some frame.
 Range shown_time(const FilmContext& context, const PanelSpec& spec) {
-    const double first = context.at(0, 0), last = context.at(0, context.frames() - 1);
+    const double first = context.at(0), last = context.at(context.frames() - 1);
     if (!spec.window) return context.span;
     return {window_around(first, *spec.window).low, window_around(last, *spec.window).high};
 }

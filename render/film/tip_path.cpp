@@ -40,10 +40,9 @@ std::vector<Vec2> TipPath::curve_between(const MechanismView& home, const Knots&
     return turning_piece(home.px({0, 0}), knots.points[k], knots.points[k + 1], turn, step);
 }
 
-void TipPath::add_frame(const Knot& knot, bool moved) {
+void TipPath::add_frame(const Knot& knot) {
     frames_.push_back(knots_.points.size());
     knots_.add(knot);
-    moved_.push_back((moved_.empty() ? 0 : moved_.back()) + (moved ? 1 : 0));
 }
 
 void TipPath::add_between_frames(const Knot& knot) { knots_.add(knot); }
@@ -117,7 +116,7 @@ void TipPath::find_whole(const MechanismView& home) {
     std::vector<Knot> tips;
     for (std::size_t k = 0; k < knots_.points.size(); ++k)
         tips.push_back({knots_.times[k], knots_.points[k], knots_.angles[k]});
-    const double now = home.context.at(home.member, home.context.frames() - 1);
+    const double now = home.context.at(home.context.frames() - 1);
     for (std::size_t k = 0; home.motion().survey && k < home.motion().surveyed(); ++k) {
         if (home.motion().survey->time(k) > now) continue;
         tips.push_back(knot_of(home, home.motion().surveyed(k)));
@@ -147,19 +146,20 @@ void TipPath::draw_trail(const MechanismScene& s, const MechanismView& home) con
     };
     std::vector<Piece> pieces;
     const auto now = static_cast<std::size_t>(s.frame), last = frames_.size() - 1;
+    const std::vector<int>& moves = home.context.moved;  // a freeze does not shorten the trail
     // False beyond the end of the trail. `moved`: frames in which time moved since its beginning at frame k.
     const auto add = [&](std::size_t k, int moved) {
         const double age = moved / (kTrailSeconds * home.context.setup->fps);
         if (age > 1) return false;
-        if (k < last && moved_[k + 1] == moved_[k]) return true;
+        if (k < last && moves[k + 1] == moves[k]) return true;
         pieces.push_back({k < last ? piece(home, k) : seam_, 1 - age});
         for (Vec2& p : pieces.back().line) p = seen_in(s, home, p);
         return true;
     };
     bool more = true;
-    for (std::size_t k = now; more && k-- > 0;) more = add(k, moved_[now] - moved_[k]);
+    for (std::size_t k = now; more && k-- > 0;) more = add(k, moves[now] - moves[k]);
     for (std::size_t k = last + 1; more && !seam_.empty() && k-- > now + 1;)
-        more = add(k, moved_[now] + 1 + moved_[last] - moved_[k]);
+        more = add(k, moves[now] + 1 + moves[last] - moves[k]);
     const auto stroke = [&](Color color, double strength, double width) {
         for (const Piece& each : pieces) {
             s.canvas.polyline(each.line);

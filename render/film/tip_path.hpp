@@ -17,8 +17,7 @@ class TipPath {
         Vec2 at;
         double angle;
     };
-    // `moved`: time is later than at the previous frame; a freeze does not shorten the trail.
-    void add_frame(const Knot& knot, bool moved);
+    void add_frame(const Knot& knot);
     void add_between_frames(const Knot& knot);  // after the last frame that was added
     // To be called when all are added. Leaves out the knots between frames where the curve through the frames passes
     // within a pixel of them. A film of a period that was passed before it begins loops: its trail at the first frame
@@ -46,7 +45,6 @@ class TipPath {
 
     Knots knots_;
     std::vector<std::size_t> frames_;  // the knot of each
-    std::vector<int> moved_;           // number of frames up to this one in which time moved
     std::vector<Vec2> seam_;           // of a film that loops: the curve from its last frame to its first
     TimedPath whole_;
 };

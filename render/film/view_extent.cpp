@@ -89,14 +89,14 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
         for (std::size_t k = 0; k < (still || one.exposures > 1 ? one.exposures : 0); ++k) show(one.pose(0, k), false);
         for (std::size_t k = 0; k < one.surveyed(); ++k) {
             if (still && !setup.view.tip_path) break;
-            if (const sim::Pose pose = one.surveyed(k); !still || pose.t <= context.at(m, 0)) show(pose, still);
+            if (const sim::Pose pose = one.surveyed(k); !still || pose.t <= context.at(0)) show(pose, still);
         }
     }
     const sim::Problem& first = context.motion(0).problem;
     for (std::size_t k = 0; k < setup.data.size(); ++k)
         for (const double t : setup.data[k].t)
             if (const double angle = context.measured_angle(k, t);
-                t >= context.at(0, 0) && t <= context.at(0, context.frames() - 1) && !std::isnan(angle))
+                t >= context.at(0) && t <= context.at(context.frames() - 1) && !std::isnan(angle))
                 extent.beams.add(sim::unit(angle) * (first.hub.radius + first.beam.length));
     return extent;
 }

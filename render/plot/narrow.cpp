@@ -5,6 +5,8 @@
 #include <limits>
 #include <numeric>
 
+#include "render/plot/reduce.hpp"
+
 namespace beamcam::render {
 namespace {
 
@@ -12,32 +14,20 @@ constexpr double kWindow = 1.0 / 3;  // of the period of dashes: two to three wi
 constexpr double kLonger = 3;        // length of a curve in the window, in periods and in distances of its ends
 constexpr Vec2 kInterruption{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
-bool is_finite(Vec2 p) { return std::isfinite(p.x) && std::isfinite(p.y); }
-
-bool is_function_of_x(const std::vector<Vec2>& points) {
-    double last = -std::numeric_limits<double>::infinity();
-    for (const Vec2 p : points) {
-        if (!is_finite(p)) continue;
-        if (p.x < last) return false;
-        last = p.x;
-    }
-    return true;
-}
-
 }  // namespace
 
 DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double period) {
-    if (points.size() < 3 || !is_function_of_x(points)) return {points, {}};
+    if (points.size() < 3 || !increasing(points)) return {points, {}};
     std::vector<double> length{0}, x;  // along the curve up to each point; gaps have no length
     for (std::size_t i = 0; i < points.size(); ++i) {
-        const bool joined = i > 0 && is_finite(points[i]) && is_finite(points[i - 1]);
+        const bool joined = i > 0 && !broken(points[i]) && !broken(points[i - 1]);
         if (i > 0) length.push_back(length.back() + (joined ? norm(points[i] - points[i - 1]) : 0));
-        x.push_back(is_finite(points[i]) ? points[i].x : (x.empty() ? -1e300 : x.back()));
+        x.push_back(!broken(points[i]) ? points[i].x : (x.empty() ? -1e300 : x.back()));
     }
     DashedCurve out;
     const std::vector<Vec2>* open = nullptr;  // holds the last piece
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-        if (!is_finite(points[i]) || !is_finite(points[i + 1])) {
+        if (broken(points[i]) || broken(points[i + 1])) {
             open = nullptr;
             continue;
         }
@@ -46,7 +36,7 @@ DashedCurve without_dashes_in_spikes(const std::vector<Vec2>& points, double per
                    last = std::ranges::upper_bound(x, middle + kWindow * period / 2) - x.begin() - 1;
         const std::size_t from = std::min(static_cast<std::size_t>(first), i),
                           to = std::max(static_cast<std::size_t>(last), i + 1);
-        const double apart = is_finite(points[from]) && is_finite(points[to]) ? norm(points[to] - points[from]) : 0;
+        const double apart = !broken(points[from]) && !broken(points[to]) ? norm(points[to] - points[from]) : 0;
         const bool narrow = length[to] - length[from] > kLonger * std::max(period, apart);
         std::vector<Vec2>& piece = narrow ? out.solid : out.dashed;
         if (open != &piece) {

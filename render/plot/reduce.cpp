@@ -7,19 +7,6 @@
 namespace beamcam::render {
 namespace {
 
-bool broken(Vec2 p) { return !(std::isfinite(p.x) && std::isfinite(p.y)); }
-
-// Ignoring breaks.
-bool increasing(std::span<const Vec2> points) {
-    double before = -std::numeric_limits<double>::infinity();
-    for (const Vec2 p : points) {
-        if (broken(p)) continue;
-        if (p.x < before) return false;
-        before = p.x;
-    }
-    return true;
-}
-
 // [from, to) is unbroken and increases in x.
 void columns(std::span<const Vec2> p, double grain, std::vector<Vec2>& out) {
     for (std::size_t i = 0; i < p.size();) {
@@ -108,6 +95,16 @@ PixelColumn column_at(std::span<const Vec2> p, std::size_t first, double width) 
 }
 
 }  // namespace
+
+bool increasing(std::span<const Vec2> points) {
+    double before = -std::numeric_limits<double>::infinity();
+    for (const Vec2 p : points) {
+        if (broken(p)) continue;
+        if (p.x < before) return false;
+        before = p.x;
+    }
+    return true;
+}
 
 std::vector<Envelope> envelopes(std::span<const Vec2> points, double column) {
     constexpr double kLeastWay = 2.5;          // vertical way of the curve in a column, in its height

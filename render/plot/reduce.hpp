@@ -1,6 +1,7 @@
 // Curves reduced to the resolution of a device, so that a million points cost as little as a few thousand.
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <span>
 #include <vector>
@@ -8,6 +9,10 @@
 #include "render/draw/geometry.hpp"
 
 namespace beamcam::render {
+
+// Whether x never decreases, breaks apart.
+bool increasing(std::span<const Vec2> points);
+inline bool broken(Vec2 p) { return !(std::isfinite(p.x) && std::isfinite(p.y)); }
 
 // Points on the page; NaN breaks the line and is kept. `grain`: the smallest visible distance. Pieces with increasing x
 // keep the first, least, greatest and last point of each column of width `grain`; other pieces omit points nearer than

@@ -22,21 +22,23 @@ std::vector<Lost> unreliable(const sim::Result& result, double end) {
     return out;
 }
 
-std::array<Series, 2> sure_and_unsure(const Series& whole, const std::vector<double>& times,
-                                      const std::vector<Lost>& intervals) {
-    std::array<Series, 2> parts{whole, whole};
+std::vector<Series> by_reliability(const Series& whole, const std::vector<double>& times,
+                                   const std::vector<Lost>& intervals) {
+    std::vector<Series> parts{whole, whole};
     for (Series& part : parts) part.x.clear(), part.y.clear();
+    parts[0].faded = true;
     std::optional<bool> before;
     for (std::size_t i = 0; i < whole.x.size(); ++i) {
         const bool unsure = std::ranges::any_of(intervals, [&](const Lost& v) { return v.holds(times[i]); });
-        Series& part = parts[unsure ? 1 : 0];
+        Series& part = parts[unsure ? 0 : 1];
         if (before && *before != unsure) {
-            if (!part.x.empty()) part.x.push_back(whole.x[i - 1]), part.y.push_back(std::nan(""));
-            part.x.push_back(whole.x[i - 1]), part.y.push_back(whole.y[i - 1]);
+            if (!part.x.empty()) part.add(whole.x[i - 1], std::nan(""));
+            part.add(whole.x[i - 1], whole.y[i - 1]);
         }
-        part.x.push_back(whole.x[i]), part.y.push_back(whole.y[i]);
+        part.add(whole.x[i], whole.y[i]);
         before = unsure;
     }
+    std::erase_if(parts, [](const Series& part) { return part.x.empty(); });
     return parts;
 }
 

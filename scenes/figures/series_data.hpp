@@ -1,7 +1,6 @@
 // The curves of a series: where they are reproducible, the measured data among them, and spectra of both.
 #pragma once
 
-#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -23,11 +22,11 @@ struct Lost {
 // Of a study with a horizon, until `end`.
 std::vector<Lost> unreliable(const sim::Result& result, double end);
 
-// The curve outside of the intervals, and the curve within them; neighbouring pieces share a point. `times`: of its
-// points.
-std::array<render::figure::Series, 2> sure_and_unsure(const render::figure::Series& whole,
-                                                      const std::vector<double>& times,
-                                                      const std::vector<Lost>& intervals);
+// The part of a curve within the intervals, which is faded, and the part outside of them, if they have points;
+// neighbouring pieces share a point. `times`: of its points.
+std::vector<render::figure::Series> by_reliability(const render::figure::Series& whole,
+                                                   const std::vector<double>& times,
+                                                   const std::vector<Lost>& intervals);
 
 // A sentence that names these intervals, by the names of the motions if there are several; empty: there are none.
 std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <utility>
 
 #include "render/base/error.hpp"
@@ -167,12 +168,11 @@ class SeriesPanelMaker {
                            .look = curves_++,
                            .right = side.right,
                            .weight = weight_};
-        auto [sure, unsure] = sure_and_unsure(whole, rows.values[0], plan_.lost(*results_[motion.study]));
-        unsure.faded = true;
-        if (!sure.x.empty()) unsure.label.clear();
-        for (Series* part : {&unsure, &sure}) {
-            plan_.abscissa.fold(*part);
-            if (!part->x.empty()) panel_.series.push_back(std::move(*part));
+        std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.lost(*results_[motion.study]));
+        if (parts.size() > 1) parts.front().label.clear();
+        for (Series& part : parts) {
+            plan_.abscissa.fold(part);
+            panel_.series.push_back(std::move(part));
         }
     }
 
@@ -216,10 +216,8 @@ class SeriesPanelMaker {
         std::vector<double> difference = *measured.data.find(channel);
         for (std::size_t i = 0; i < difference.size(); ++i) difference[i] -= computed[i];
         const Series whole = measured_series(measured.data, points.x, std::move(difference), points.look);
-        auto [sure, unsure] = sure_and_unsure(whole, measured.data.times, plan_.lost(result));
-        unsure.faded = true;
-        for (Series* part : {&unsure, &sure})
-            if (!part->x.empty()) differences_.series.push_back(std::move(*part));
+        std::ranges::move(by_reliability(whole, measured.data.times, plan_.lost(result)),
+                          std::back_inserter(differences_.series));
     }
 
     // Their unit has its own prefix.
