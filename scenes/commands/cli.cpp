@@ -7,9 +7,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <deque>
 #include <filesystem>
 #include <functional>
 #include <iostream>
+#include <span>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -36,12 +38,13 @@ namespace beamcam::scenes {
 namespace {
 
 // Before the parser takes an unknown command for something else.
-void reject_unknown_command(int argc, const char* const* argv, const Grammar& grammar) {
-    if (argc < 2 || argv[1][0] == '-') return;
-    const std::string word = argv[1];
+void reject_unknown_command(std::span<const char* const> words, const std::deque<Command>& commands) {
+    if (commands.empty() || words.empty() || words.front()[0] == '-') return;
+    const std::string word = words.front();
     std::vector<std::string> known;
-    for (const Command& command : grammar.commands) known.push_back(command.name);
-    if (std::ranges::find(known, word) != known.end()) return;
+    for (const Command& command : commands) known.push_back(command.name);
+    const auto found = std::ranges::find(commands, word, &Command::name);
+    if (found != commands.end()) return reject_unknown_command(words.subspan(1), found->subcommands);
     if (word.ends_with(".json"))
         throw UsageError(fmt::format("there is no command before the scene; write beamcam run {}", word));
     throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));
@@ -143,15 +146,15 @@ void add_command(CLI::App& parent, const Command& command, Parsers& parsers) {
     if (!command.footer.empty()) footer += fmt::format("{}{}\n", footer.empty() ? "" : "\n", command.footer);
     if (!footer.empty()) app->footer(fmt::format("{}\n{}", footer, exit_code_text()));  // else that of the program
     if (!command.subcommands.empty()) app->require_subcommand(1);
+    parsers.commands.emplace_back(app, &command);
     for (const Parameter& parameter : command.parameters) add_parameter(*app, parameter, parsers);
     for (const Command& subcommand : command.subcommands) add_command(*app, subcommand, parsers);
-    if (command.action) parsers.commands.emplace_back(app, &command);
 }
 
 int parse_and_run(int argc, const char* const* argv) {
     Grammar grammar;
     for (const auto add : kCommands) add(grammar);
-    reject_unknown_command(argc, argv, grammar);
+    reject_unknown_command({argv + std::min(argc, 1), argv + argc}, grammar.commands);
 
     CLI::App app(Grammar::kSummary, "beamcam");
     app.formatter(std::make_shared<HelpFormatter>());
@@ -172,11 +175,11 @@ int parse_and_run(int argc, const char* const* argv) {
     } catch (const CLI::ParseError& error) {
         std::string name;
         for (const auto& [parser, command] : parsers.commands)
-            if (parser->parsed()) name = " " + command->name;
+            if (parser->parsed()) name += " " + command->name;
         throw UsageError(fmt::format("{} (see beamcam{} --help)", error.what(), name));
     }
     for (const auto& [parser, command] : parsers.commands)
-        if (parser->parsed()) return command->action();
+        if (parser->parsed() && command->action) return command->action();
     return kDone;
 }
 

@@ -11,6 +11,7 @@
 #include "output/data/records.hpp"
 #include "scenes/commands/commands.hpp"
 #include "sim/beam/model.hpp"
+#include "sim/problem/constants.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -25,6 +26,8 @@ void act(const ModesArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     std::optional<double> speed;
     if (args.speed) speed = signed_argument("--speed", *args.speed, dimension::kAngularSpeed);
+    if (speed && !(std::fabs(*speed) <= sim::kLargestNumber))
+        throw UsageError(fmt::format("--speed {}: must lie within ±{:g} rad/s", *args.speed, sim::kLargestNumber));
     const std::vector<sim::Mode> modes = sim::natural_modes(scene.problem, speed);
     std::vector<std::size_t> inaccurate = sim::unconverged_modes(modes, scene.problem, speed);
     for (std::size_t& number : inaccurate) ++number;

@@ -55,7 +55,7 @@ void set_range(SweptKey& over, const std::string& option, const std::vector<std:
         throw UsageError(fmt::format("{}: {:.4g} values are too many; a key has at most {:g}", option, count, kMost));
     const double fewest = counted || over.from == over.to ? 1 : 2;  // a step within the range leads to a second value
     if (!(count >= fewest && count <= kMost))
-        throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, third,
+        throw UsageError(fmt::format("{}: {} is not a {} from {} to {}", option, parts[2],
                                      counted ? "number of values" : "step", parts[0], parts[1]));
     if (!counted) over.to = *over.from + (count - 1) * step;  // a whole number of steps away
     over.count = static_cast<int>(count);

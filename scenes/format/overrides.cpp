@@ -65,14 +65,20 @@ void set_value(Node& root, std::string_view path, Node value, std::vector<Messag
 
     Node* node = &root;
     std::string walked;
+    bool added = false;
     for (const std::string& key : keys) {
         const std::string here = walked.empty() ? "the scene" : walked;
+        // An object that an earlier key added: the entries of an array that the scene lacks are unknown.
+        if (added && key.find_first_not_of("0123456789") == std::string::npos)
+            return error(fmt::format("the scene does not contain {}, which entry {} would belong to; set {} itself",
+                                     here, in_quotes(key), here));
         walked += (walked.empty() ? "" : ".") + key;
         Node* inner = child(*node, key);
         if (!inner && node->kind == Node::Kind::object) {
             Node empty = object_node();
             empty.place = place;
             inner = &node->members.add({key, place, std::move(empty)}).value;
+            added = true;
         }
         if (!inner)
             return error(node->kind == Node::Kind::array

@@ -31,7 +31,10 @@ void OutputFiles::claim(const Plan& plan) {
         const fs::path folder = file.parent_path();
         if (directory.empty() && !folder.empty() && !fs::is_directory(folder, ignored))
             throw output::IoError(
-                fmt::format("{}: the directory {} does not exist; create it first", file.string(), folder.string()));
+                fmt::format("{}: {}", file.string(),
+                            fs::exists(fs::symlink_status(folder, ignored))
+                                ? fmt::format("{} is not a directory", folder.string())
+                                : fmt::format("the directory {} does not exist; create it first", folder.string())));
         if (!directory.empty()) output::require_within(file, directory);
         context_.manifest.require_replaceable(file);
     }

@@ -56,7 +56,7 @@ class Reader {
     fs::path folder() const { return path_ == "-" ? fs::path(".") : fs::path(path_).parent_path(); }
 
     void read_root(const Node& root) {
-        ObjectReader f(diagnostics_, &root, "", "the baselines");
+        ObjectReader f(diagnostics_, &root, "", "the file of baselines");
         std::string schema, references = path_ == "-" ? "references" : fs::path(path_).stem().string();
         f.text("$schema", schema, "Where an editor finds the schema.");
         f.text("references", references, "Folder of the references.");

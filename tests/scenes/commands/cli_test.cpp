@@ -79,6 +79,8 @@ TEST(CommandLine, WrongUsageIsTwo) {
     for (const char* arguments : {"",
                                   "run",
                                   "fly s.json",
+                                  "cache",
+                                  "cache list",
                                   "s.json",
                                   "run s.json --what",
                                   "render s.json",
@@ -101,6 +103,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "simulate s.json --summary a.json --impacts a.json",
                                   "run s.json --progress loud",
                                   "modes s.json --speed 5mm",
+                                  "modes s.json --speed 1e300",
                                   "figure s.json -o a.pdf",
                                   "figure s.json schematic",
                                   "figure s.json shematic -o a.pdf",
@@ -130,6 +133,8 @@ TEST(CommandLine, WrongUsageIsTwo) {
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "beamcam: the film from 1 s to 0.5 s has no frame"},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to must be later than --from"},
           std::pair{"render s.json --from 30 -o a.mp4", "--from must be earlier than the end of the scene"},
+          std::pair{"render s.json --at 1 -o s.json/x.png", "s.json/x.png: s.json is not a directory"},
+          std::pair{"render s.json --at 1 -o none/x.png", "none/x.png: the directory none does not exist"},
           std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf, .svg or .eps file"},
           std::pair{"render s.json --duration 1e9 -o a.mp4", "reduce --duration or --fps"},
           std::pair{"render s.json --frames 80:91 -o a.mp4", "the frames of the film are 0 … 89; END, not included"},
@@ -137,6 +142,10 @@ TEST(CommandLine, WrongUsageIsTwo) {
           std::pair{"test s.json --tolerance motion=1e9", "--tolerance.motion = 1e9 is outside 0 … 1"}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM cache list").err,
+                HasSubstr("unknown command \"list\"; the choices are ls, clear"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM cache").err, HasSubstr("(see beamcam cache --help)"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls --what").err, HasSubstr("(see beamcam cache ls --help)"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }
 

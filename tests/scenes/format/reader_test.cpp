@@ -374,6 +374,8 @@ TEST(Override, ErrorsNameTheOverride) {
     EXPECT_THAT(messages(read("{}", {"beam.modes=x"})),
                 ElementsAre("--set beam.modes=x beam.modes must be a whole number, not \"x\""));
     EXPECT_THAT(read("{}", {"beam.modes=x"}).report(), StartsWith("--set beam.modes=x: beam.modes must be"));
+    EXPECT_THAT(read("{}", {"cam.centre.0=0.3"}).report(),
+                HasSubstr("does not contain cam.centre, which entry \"0\" would belong to; set cam.centre itself"));
     EXPECT_THAT(messages(read("{}", {"beam.lenght=1"})), ElementsAre(HasSubstr("did you mean \"length\"?")));
     EXPECT_THAT(messages(read("{}", {"beam"})), ElementsAre(HasSubstr("\"=\" is missing")));
     EXPECT_THAT(messages(read("{}", {"=3"})), ElementsAre(HasSubstr("\"=\" is missing after the key")));
