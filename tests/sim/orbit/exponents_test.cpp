@@ -98,6 +98,25 @@ TEST(Exponents_, ChaosHasAPositiveExponentThatALongerRunConfirms) {
     EXPECT_NEAR(longer.lambda[0], 1.985, 3 * longer.error[0]);
 }
 
+// Sixty turns from each of many starts on one attractor: blocks of three turns, between which growth is correlated,
+// state no error that is too small.
+TEST(Exponents_, ErrorsOfShortRunsCoverTheirScatter) {
+    SKIP_UNDER_SANITIZERS();
+    constexpr double kLongRun = 1.985;  // as above
+    constexpr int kStarts = 30;
+    double squares = 0;
+    for (int k = 0; k < kStarts; ++k) {
+        Problem p = PressedBeam().on_orbit(54);
+        p.initial.angle += 1e-5 * k;
+        const Exponents e = lyapunov_exponents(p, {1, 20, 60 * cam_period(p), 20});
+        const double deviation = (e.lambda[0] - kLongRun) / e.error[0];
+        EXPECT_LT(std::fabs(deviation), 4) << k << ": " << e.lambda[0] << " ± " << e.error[0];
+        squares += deviation * deviation;
+    }
+    EXPECT_LT(std::sqrt(squares / kStarts), 1.3);
+    EXPECT_GT(std::sqrt(squares / kStarts), 0.2);
+}
+
 TEST(Exponents_, TheContributionOfNearGrazingImpactsIsNoProofOfChaos) {
     Exponents e;
     e.lambda = {1}, e.error = {0.1}, e.duration = 100, e.impacts = 50;
