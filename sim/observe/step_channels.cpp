@@ -340,6 +340,7 @@ Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel 
 }
 
 ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {
+    if (depends_on_bristle(channel.kind)) return range(s, channel, sample(s, channel));
     const double first = value(s, channel, s.from), last = value(s, channel, s.to);
     return modal_channels_.range(channel, first, last);
 }

@@ -61,7 +61,7 @@ class StepChannels {
     Variation variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // The mode that the channel is, or almost is, in closed form if it has one.
     std::optional<UndampedMode> undamped_mode(Channel channel) const { return modal_channels_.undamped_mode(channel); }
-    // Bounds of the channel from its values at the ends.
+    // Bounds of the channel from its values at the ends; if it depends on a bristle, which no mode is, from samples.
     ModalChannels::Range range(const SegmentInterval& s, Channel channel);
     // The same from its samples.
     ModalChannels::Range range(const SegmentInterval& s, Channel channel, const Samples& values) const;

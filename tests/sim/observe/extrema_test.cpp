@@ -205,6 +205,23 @@ TEST(Extrema, OfStickSlipExceedEverySample) {
     expect_true_extrema(p, 0.35, 8'000);
 }
 
+// The energy of the bristle is not that of the gap; parts of a step in which vibration fades are bounded again.
+TEST(Extrema, OfStickSlipOfAnOverdampedBeamExceedEverySample) {
+    Problem p = turning_cam(ModelKind::first_order, 3, 4.7);
+    p.beam.basis = Basis::cantilever;
+    p.beam.damping_ratio = {15};
+    p.hub.inertia = 0.5;
+    p.cam->phase = 4.2;
+    p.hub.drive = ConstantTorque{0.03};
+    p.contact.damping = DampingLaw::none;
+    p.contact.stiffness = 1.36e5;
+    p.contact.offset.reset();
+    p.contact.friction = StickSlipFriction{0.8, {}, {}, {}};
+    p.initial.angle = 0.526;
+    p.initial.q = {0.005, -1e-5, 3e-4};
+    expect_true_extrema(p, 0.45, 18'000);
+}
+
 // A run that fails still has the extrema up to there.
 TEST(Extrema, OfARunThatFailsEndBeforeIt) {
     Problem p = turning_cam(ModelKind::first_order, 8);
