@@ -23,7 +23,7 @@ render::Image figure_image(const render::figure::Figure& figure, const FigureOut
 std::string scene_of_figure(Scene scene, FigureOutput how);
 
 // For each axis whose limits hide all curves "no curve: θ / rad is between 0.1 and 0.8, beyond the ends of its axis",
-// and for each panel whose motions have no points "no points: …".
+// and for each panel whose motions have none "no points".
 std::vector<std::string> missing_data(const render::figure::Figure& figure);
 
 // The caption with its accuracy statement as plain text, then as LaTeX; for `.tex` the plain text is a comment.

@@ -178,7 +178,7 @@ TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     EXPECT_FALSE(figure.panels[0].y.numbered);
     EXPECT_THAT(figure.caption, HasSubstr("No motion has a section to draw."));
     EXPECT_EQ(figure.panels[0].title, "No samples to draw; motions: following, over-the-top");
-    EXPECT_THAT(missing_data(figure), ElementsAre("no points: No samples to draw; motions: following, over-the-top"));
+    EXPECT_THAT(missing_data(figure), ElementsAre("no points"));
     EXPECT_THAT(missing_data(diagram("bifurcation", speeds, data(speeds, {periodic}), "v_n_before")), SizeIs(0));
     const output::SweepData none = data(speeds, {over_the_top});
     const GrowingDiagram growing({&speeds.scene(), &none}, {}, {0, 1});
