@@ -20,12 +20,14 @@ struct MechanismPanel::ThreadState final : FilmPanel::State {
     ThreadState(const FilmContext& context, int member, double scale, const Box& box)
         : path(kept_path(context.setup->view.tip_path, box)),
           path_casing(kept_path(context.setup->view.tip_path && context.setup->view.transparent, box)),
-          trace(context.samples[static_cast<std::size_t>(member)], 1, 1, 1, 1) {
+          trace(trace_of(context, member, scale)) {}
+    static Trace trace_of(const FilmContext& context, int member, double scale) {
         const sim::Problem& problem = context.motion(member).problem;
-        const double r = problem.cam ? problem.cam->radius : 1, l = problem.beam.length;
-        const auto places = [](double px) { return static_cast<std::size_t>(std::clamp(px, 1.0, 65536.0)); };
-        trace = Trace(context.samples[static_cast<std::size_t>(member)], 2 * pi * r, places(2 * pi * r * scale), l,
-                      places(l * scale));
+        const double rim = 2 * pi * (problem.cam ? problem.cam->radius : 1), length = problem.beam.length;
+        const auto places = [&](double metres) {
+            return static_cast<std::size_t>(std::clamp(metres * scale, 1.0, 65536.0));
+        };
+        return {context.samples[static_cast<std::size_t>(member)], rim, places(rim), length, places(length)};
     }
     static AccumulatedLayer kept_path(bool needed, const Box& box) {
         return needed ? AccumulatedLayer(static_cast<int>(box.w), static_cast<int>(box.h)) : AccumulatedLayer(1, 1);

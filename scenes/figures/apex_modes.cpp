@@ -17,7 +17,7 @@ constexpr std::array kModes{1, 2, 3, 4, 5, 6, 8};
 constexpr std::array kShapes{Basis::hub_beam, Basis::cantilever};
 
 struct ApexRun {
-    Basis basis;
+    std::size_t shapes;  // of kShapes
     int modes;
     sim::Problem problem;
     std::size_t study = 0;
@@ -25,12 +25,12 @@ struct ApexRun {
 
 std::vector<ApexRun> apex_runs(const sim::Problem& problem) {
     std::vector<ApexRun> runs;
-    for (const Basis basis : {Basis::hub_beam, Basis::cantilever})
+    for (std::size_t k = 0; k < kShapes.size(); ++k)
         for (const int modes : kModes) {
             // Cantilever shapes with many modes lose the inertia of a light hub; see the model's limits.
-            if (basis == Basis::cantilever && modes > 6) continue;
-            runs.push_back({basis, modes, problem});
-            set_shapes(runs.back().problem, sim::ModelKind::first_order, basis, modes);
+            if (kShapes[k] == Basis::cantilever && modes > 6) continue;
+            runs.push_back({k, modes, problem});
+            set_shapes(runs.back().problem, sim::ModelKind::first_order, kShapes[k], modes);
         }
     return runs;
 }
@@ -58,21 +58,19 @@ FigureDrawing prepare_apex(const Scene& scene, const FigureOutput&, Studies& stu
     return [runs](const Subject& subject, const Results& results) -> Figure {
         const Lang lang = subject.lang;
         const Measure angle = measure_in(subject.units, "rad");
-        std::vector<Series> series;  // hub–beam, cantilever
-        for (int k = 0; k < 2; ++k)
-            series.push_back(
-                {.label = phrase(lang, "{} shapes", "{}模态", shapes_name(kShapes[static_cast<std::size_t>(k)], lang)),
-                 .look = k,
-                 .every_point = true});
+        std::vector<Series> series;
+        for (const Basis basis : kShapes)
+            series.push_back({.label = phrase(lang, "{} shapes", "{}模态", shapes_name(basis, lang)),
+                              .look = static_cast<int>(series.size()),
+                              .every_point = true});
         std::array<std::vector<int>, 2> missing;  // numbers of shapes without an apex
         Runs used;
         for (const ApexRun& run : runs) {
-            const std::size_t shapes = run.basis == Basis::hub_beam ? 0 : 1;
             if (const std::optional<double> apex = rebound_apex(run.problem, *results[run.study], subject.end_time)) {
-                series[shapes].add(run.modes, angle.factor * *apex);
+                series[run.shapes].add(run.modes, angle.factor * *apex);
                 used.emplace_back(&run.problem, results[run.study]);
             } else {
-                missing[shapes].push_back(run.modes);
+                missing[run.shapes].push_back(run.modes);
             }
         }
         if (used.empty())
