@@ -32,9 +32,9 @@ std::atomic<int> signals_seen{0};
 static_assert(std::atomic<int>::is_always_lock_free);
 
 constexpr std::string_view kNoMemory =
-    "beamcam: not enough memory: a library ended, probably because an allocation failed; choose a smaller size, fewer "
-    "threads "
-    "(-j 1), or raise the limit (ulimit -v)\n";
+    "beamcam: a library ended; perhaps there was not enough memory: choose a smaller size, fewer threads (-j 1), or "
+    "raise "
+    "the limit (ulimit -v)\n";
 constexpr std::string_view kNoThread = "beamcam: a library ended because no thread can be started; ";
 int exit_code_of_crash = 0;
 std::atomic<pid_t> crashed_thread{0};

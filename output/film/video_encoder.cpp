@@ -74,13 +74,14 @@ OpenedEncoder open_encoder(const VideoOptions& options, const AtomicFile& file) 
     }
     try {
         return {library.open_encoder(recipe), recipe.layout};
-    } catch (const CodecFailure& error) {                        // for reasons unknown to format_problem
-        if (render::memory_was_short()) throw std::bad_alloc();  // encoders do not report it
+    } catch (const CodecFailure& error) {  // for reasons unknown to format_problem
+        const std::string text = std::string("the encoder of ") + title(options.codec) + " rejects films of " +
+                                 std::to_string(options.width) + "x" + std::to_string(options.height) +
+                                 " pixels here (" + error.what() +
+                                 "); choose a smaller size, or write frames (NAME-####.png)";
+        if (render::memory_was_short()) throw render::PerhapsOutOfMemory(text);  // encoders do not report it
         if (!render::can_start_threads(kThreadsOfEncoder)) throw no_encoder_thread(file.target());
-        throw UnsupportedOption(std::string("the encoder of ") + title(options.codec) + " rejects films of " +
-                                std::to_string(options.width) + "x" + std::to_string(options.height) +
-                                " pixels here (" + error.what() +
-                                "); choose a smaller size, or write frames (NAME-####.png)");
+        throw UnsupportedOption(text);
     }
 }
 

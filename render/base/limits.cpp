@@ -90,6 +90,9 @@ std::string out_of_memory_message() {
            "; choose a smaller size, fewer threads (-j 1), or give it more memory";
 }
 
+PerhapsOutOfMemory::PerhapsOutOfMemory(const std::string& what)
+    : std::runtime_error(what + "; perhaps there was " + out_of_memory_message()) {}
+
 void watch_threads_of_glib() {
     [[maybe_unused]] static const bool once = (g_log_set_writer_func(write_log, nullptr, nullptr), true);
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <stdexcept>
 #include <string>
 
 namespace beamcam::render {
@@ -15,6 +16,12 @@ bool memory_is_short() noexcept;
 // Whether it is so, or more than half of ulimit -v was in use at any time: other threads may have released memory since
 // a library failed.
 bool memory_was_short() noexcept;
+
+// An error of a library that does not name its cause, while memory was short: "WHAT; perhaps there was not enough
+// memory …".
+struct PerhapsOutOfMemory : std::runtime_error {
+    explicit PerhapsOutOfMemory(const std::string& what);
+};
 
 // "not enough memory; this process may use 512 MiB (ulimit -v) …"
 std::string out_of_memory_message();

@@ -87,7 +87,7 @@ std::unique_ptr<LitRenderer> make_lit_renderer(int width, int height) {
             const auto* library = static_cast<const LitLibrary*>(load_module(fmt::format("beamcam_{}.so", name)));
             return library->make_renderer(width, height);
         } catch (const GlError& error) {
-            if (memory_was_short()) throw std::bad_alloc();  // Mesa does not report it
+            if (memory_was_short()) throw PerhapsOutOfMemory(error.what());  // Mesa does not report it
             reasons += fmt::format("\n{}", error.what());
         } catch (const ModuleError& error) {
             reasons += fmt::format("\n{}", error.what());

@@ -80,7 +80,7 @@ sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scen
     return request;
 }
 
-void act(const AccuracyArguments& args) {
+int act(const AccuracyArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     const sim::AccuracyRequest request = request_of(args, scene);
     output::Manifest manifest(args.common.force);
@@ -90,9 +90,9 @@ void act(const AccuracyArguments& args) {
     const sim::Accuracy found =
         sim::assess(scene.problem, request, [&](double share) { return progress.reach(100 * share); });
     progress.end();
-    write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
-                  [&] { return accuracy_figure(found, scene.problem, args.files.lang); }},
-                 args.files, scene, args.common, manifest);
+    return write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
+                         [&] { return accuracy_figure(found, scene.problem, args.files.lang); }},
+                        args.files, scene, args.common, manifest);
 }
 
 }  // namespace

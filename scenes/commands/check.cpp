@@ -1,9 +1,7 @@
 // `beamcam check`: validation of scenes.
 #include <fmt/format.h>
 
-#include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
@@ -14,27 +12,18 @@ struct CheckArguments {
     std::vector<std::string> scenes;
 };
 
-void warn_of_characters(const std::string& path, const Scene& scene) {
-    const Scene shown = with_default_output(scene);
-    for (const Output& each : shown.outputs)
+void warn_of_characters(const Common& common, const std::string& path, const Scene& scene) {
+    for (const Output& each : scene.outputs)
         if (const auto* picture = std::get_if<PictureOutput>(&each))
-            if (const std::string lost = characters_without_font(*picture, shown); !lost.empty())
-                output::print_message("{}: warning: {}\n", path, lost);
+            if (const std::string lost = characters_without_font(*picture, scene); !lost.empty())
+                inform(common, fmt::format("{}: warning: {}", path, lost));
 }
 
 int act(const CheckArguments& args) {
-    bool fine = true;
-    for (const std::string& path : args.scenes) {
-        const Reading reading = read_scene(load_source(path), args.common.overrides);
-        output::print_message("{}", reading.report());
-        if (!reading.scene) {
-            fine = false;
-            continue;
-        }
-        warn_of_characters(path, *reading.scene);
+    return for_each_file(args.scenes, [&](const std::string& path) {
+        warn_of_characters(args.common, path, with_default_output(load_scene(path, args.common)));
         inform(args.common, fmt::format("{}: fine", path));
-    }
-    return fine ? kDone : kBadScene;
+    });
 }
 
 }  // namespace

@@ -124,6 +124,7 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
     if (!parameter.key.empty()) parsers.key_options.emplace_back(option, &parameter);
     if (!parameter.choices.empty()) option->check(CLI::IsMember(parameter.choices).description(""));
     if (!parameter.choices.empty()) option->description(help_of(parameter));
+    if (parameter.problem) option->check(parameter.problem, "");
     if (parameter.limits) {
         const auto [low, high] = *parameter.limits;
         const bool whole = std::holds_alternative<int*>(parameter.target);
@@ -183,45 +184,6 @@ int parse_and_run(int argc, const char* const* argv) {
     return kDone;
 }
 
-template <class... Errors>
-bool is_one_of(const std::exception& e) {
-    return (dynamic_cast<const Errors*>(&e) || ...);
-}
-
-int fail(int code, const std::string& text) {
-    output::print_message("beamcam: {}\n", text);
-    return code;
-}
-
-// If memory is short, most other errors are consequences.
-int fail_or_blame_memory(int code, const std::string& text) {
-    if (!render::memory_is_short()) return fail(code, text);
-    return fail(kInputOutput, fmt::format("{}\nbeamcam: {}", text, render::out_of_memory_message()));
-}
-
-// Prints the message of an error; returns the exit code.
-int report(const std::exception& e) {
-    const std::string text = e.what();
-    if (is_one_of<SceneError>(e)) {  // its messages begin with their places
-        if (!text.empty()) output::print_message("{}{}", text, text.ends_with('\n') ? "" : "\n");
-        return kBadScene;
-    }
-    if (is_one_of<UsageError, NameClash>(e)) return fail(kUsage, text);
-    if (is_one_of<UnreadableFile>(e)) return fail(kInputOutput, text);
-    if (is_one_of<std::bad_alloc>(e)) return fail(kInputOutput, render::out_of_memory_message());
-    if (is_one_of<sim::Interrupted>(e)) return fail(kInterrupted, "interrupted; no output is half-written");
-    if (is_one_of<output::UnsupportedOption, Incomplete, render::PictureError>(e))
-        return fail_or_blame_memory(kBadScene, text);
-    if (const auto* solver = dynamic_cast<const sim::SolverError*>(&e))
-        return fail_or_blame_memory(kSolverFailed, fmt::format("{} (reached {:.9g} s)", text, solver->last_time));
-    if (is_one_of<output::MissingCodec, render::MissingPart>(e)) return fail_or_blame_memory(kMissingPart, text);
-    if (is_one_of<output::IoError, render::ThreadError>(e)) return fail_or_blame_memory(kInputOutput, text);
-    if (const auto* file = dynamic_cast<const std::filesystem::filesystem_error*>(&e))
-        return fail_or_blame_memory(kInputOutput, output::io_error(*file).what());
-    return fail_or_blame_memory(
-        kBug, fmt::format("internal error: {}; please report it with the scene and the command", text));
-}
-
 }  // namespace
 
 int command_line(int argc, const char* const* argv) {
@@ -234,7 +196,9 @@ int command_line(int argc, const char* const* argv) {
     } catch (const std::exception& e) {
         return report(e);
     } catch (...) {
-        return fail(kBug, "internal error of unknown kind; please report it with the scene and the command");
+        output::print_message(
+            "beamcam: internal error of unknown kind; please report it with the scene and the command\n");
+        return kBug;
     }
 }
 

@@ -2,6 +2,7 @@
 // this folder: `add_NAME` adds its grammar to the program and binds its action.
 #pragma once
 
+#include <exception>
 #include <functional>
 #include <initializer_list>
 #include <optional>
@@ -58,13 +59,24 @@ std::string lowered(std::string text);  // in lower case (ASCII)
 
 // A message on standard error, unless -q.
 void inform(const Common& common, const std::string& text);
-// The work for each file; an unreadable one is reported, and the others follow. Returns the exit code.
+// Prints the message of an error, and returns its exit code.
+int report(const std::exception& error);
+// The work for each file; an error of one is reported, and the others follow. Returns the exit code of the first error.
 int for_each_file(const std::vector<std::string>& files, const std::function<void(const std::string& file)>& work);
 using output::print_data;
 using output::print_json;
 using output::print_text;
+// Prints the result as JSON or as text.
+void print_result(const Common& common, const std::string& json, const std::string& text);
 // Throws SceneError with every issue of the scene; warnings go to standard error.
 Scene load_scene(const std::string& path, const Common& common);
+// Those of the scenes that can be read, each with its film if it lists no outputs; the errors of the others are
+// reported.
+struct LoadedScenes {
+    std::vector<Scene> scenes;
+    int code;  // of the first error
+};
+LoadedScenes load_scenes(const std::vector<std::string>& paths, const Common& common);
 // The scene with the film that a scene without outputs yields.
 Scene with_default_output(Scene scene);
 // The look of new films of a scene: its first film, sequence or still picture, else the default film.

@@ -12,6 +12,7 @@
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/keys.hpp"
+#include "scenes/format/overrides.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/plan/plan.hpp"
 #include "scenes/scene/files.hpp"
@@ -20,11 +21,15 @@
 namespace beamcam::scenes {
 
 void add_set(Command& app, Common& common) {
-    app.option(
-        "--set", &common.overrides, "KEY=VALUE",
-        "Change a key of the scene, for example --set cam.speed=300rpm: a JSON value or a plain word (repeatable)");
+    app.option("--set", &common.overrides, "KEY=VALUE",
+               "Change a key of the scene, for example --set cam.speed=300rpm: a JSON value or a plain word "
+               "(repeatable)")
+        .checked_by(problem_with_override);
 }
-void add_quiet(Command& app, Common& common) { app.flag("-q,--quiet", common.quiet, "Print errors only"); }
+void add_quiet(Command& app, Common& common) {
+    app.flag("-q,--quiet", common.quiet,
+             "Print no messages but errors on standard error; standard output stays the same");
+}
 
 void add_scene(Command& app, std::string& scene, Common& common) {
     app.positional("SCENE", &scene, "The scene, a JSON file; - is standard input").required();
@@ -79,6 +84,17 @@ Scene load_scene(const std::string& path, const Common& common) {
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) output::print_message("{}", reading.report());
     return std::move(*reading.scene);
+}
+
+void print_result(const Common& common, const std::string& json, const std::string& text) {
+    common.json ? print_json(json) : print_text(text);
+}
+
+LoadedScenes load_scenes(const std::vector<std::string>& paths, const Common& common) {
+    LoadedScenes all;
+    all.code = for_each_file(
+        paths, [&](const auto& path) { all.scenes.push_back(with_default_output(load_scene(path, common))); });
+    return all;
 }
 
 void add_shard(Command& app, std::optional<std::string>& shard) {
@@ -141,17 +157,6 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
         print_plans(scenes, options, common.json);
     else
         run(scenes, options);
-}
-
-int for_each_file(const std::vector<std::string>& files, const std::function<void(const std::string& file)>& work) {
-    int code = kDone;
-    for (const std::string& file : files) try {
-            work(file);
-        } catch (const output::IoError& error) {
-            output::print_message("beamcam: {}\n", error.what());
-            code = kInputOutput;
-        }
-    return code;
 }
 
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension) {

@@ -134,10 +134,7 @@ int act(const DiffArguments& args) {
         throw UsageError(fmt::format(
             "{} and {} are of different kinds; compare pictures with pictures, tables with tables", args.a, args.b));
     const Comparison found = is_table(args.a) ? compare_tables(args) : compare_pictures(args);
-    if (args.common.json)
-        print_json(to_json(found));
-    else if (!args.common.quiet)
-        print_text(to_text(found));
+    print_result(args.common, to_json(found), to_text(found));
     return found.verdict == Verdict::different ? kDiffers : kDone;
 }
 

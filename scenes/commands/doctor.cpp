@@ -112,20 +112,20 @@ std::vector<Check> examine_machine() {
     checks.push_back({"program", "threads", true, std::to_string(thread_count(0)), ""});
     for (const auto& [name, version] : render::library_versions())
         checks.push_back({"pictures", name, true, version, ""});
-    for (const render::FontFile& font : render::font_files())
-        checks.push_back({"pictures", "font " + font.name, !font.path.empty(),
-                          font.path.empty() ? "not found" : font.path.string(),
-                          fmt::format("install the Debian package {}", font.package)});
+    const auto examine_fonts = [&checks](const char* group, const std::vector<render::FontFile>& fonts) {
+        for (const render::FontFile& font : fonts)
+            checks.push_back({group, "font " + font.name, !font.path.empty(),
+                              font.path.empty() ? "not found" : font.path.string(),
+                              fmt::format("install the Debian package {}", font.package)});
+    };
+    examine_fonts("pictures", render::font_files());
     if (const std::vector<std::string>& ignored = render::ignored_gl_settings(); !ignored.empty())
         checks.push_back({"pictures", "ignored settings", true, fmt::format("{}", fmt::join(ignored, ", ")), ""});
     examine(
         checks, "pictures", "OpenGL",
         "install the Debian package libosmesa6, or libegl1 where libosmesa6 does not exist; flat views need neither",
         [] { return in_child([] { return render::make_lit_renderer(16, 16)->name(); }); });
-    for (const render::FontFile& font : render::font_files(render::Typefaces::print))
-        checks.push_back({"figures", "font " + font.name, !font.path.empty(),
-                          font.path.empty() ? "not found" : font.path.string(),
-                          fmt::format("install the Debian package {}", font.package)});
+    examine_fonts("figures", render::font_files(render::Typefaces::print));
     examine_films(checks);
     examine(checks, "fingerprint", "flat", "see the fonts above", [] { return flat_fingerprint().id(); });
     examine(checks, "fingerprint", "figures", "see the fonts of figures above",
@@ -161,10 +161,7 @@ Node checks_node(const std::vector<Check>& checks) {
 
 int act(const Common& common) {
     const std::vector<Check> checks = examine_machine();
-    if (common.json)
-        print_json(to_text(checks_node(checks)));
-    else
-        print_text(checks_text(checks));
+    print_result(common, to_text(checks_node(checks)), checks_text(checks));
     return std::ranges::all_of(checks, &Check::ok) ? kDone : kMissingPart;
 }
 

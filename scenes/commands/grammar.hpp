@@ -30,7 +30,8 @@ struct Parameter {
     std::string output_type, key;      // the option sets this key of outputs of this type: "video", "view.style"
     std::vector<std::string> choices;  // the allowed values; empty: any
     std::optional<std::pair<double, double>> limits;
-    char separator = 0;  // between several values in one word
+    std::string (*problem)(const std::string& value) = nullptr;  // of a value; empty: it has none
+    char separator = 0;                                          // between several values in one word
     bool is_required = false, takes_several = false;
 
     Parameter& required() { return is_required = true, *this; }
@@ -40,6 +41,7 @@ struct Parameter {
     Parameter& one_of(std::vector<std::string> values) { return choices = std::move(values), *this; }
     // The help text of an option that sets a key, in place of the key's meaning.
     Parameter& says(std::string text) { return key.clear(), meaning = std::move(text), *this; }
+    Parameter& checked_by(std::string (*check)(const std::string& value)) { return problem = check, *this; }
     Parameter& range(double low, double high) { return limits.emplace(low, high), *this; }
     bool is_option() const { return names.starts_with('-'); }
 };

@@ -193,13 +193,7 @@ struct InfoArguments {
 
 void print_info(const InfoArguments& args, const std::string& file) {
     const Provenance found = provenance_of(file);
-    if (!args.scene) {
-        if (args.common.json)
-            print_json(to_text(provenance_node(found)));
-        else
-            print_text(provenance_text(found));
-        return;
-    }
+    if (!args.scene) return print_result(args.common, to_text(provenance_node(found)), provenance_text(found));
     const std::string scene = runnable_scene(found.scene);
     if (scene.empty())
         throw output::IoError(fmt::format(

@@ -125,7 +125,7 @@ Output read_output(Node output, std::initializer_list<const KeyOptions*> options
                     !KeyOptions::is_in_values(key, given))
                     replace_all(message.text, in_quotes(key), option.name);
         if (message.fatal) throw UsageError(message.text);
-        if (!common.quiet) output::print_message("{}: warning: {}\n", scene_file, message.text);
+        inform(common, fmt::format("{}: warning: {}", scene_file, message.text));
     }
     return std::move(scene.outputs.front());
 }

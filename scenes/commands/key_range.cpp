@@ -2,12 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
-#include <vector>
-
 #include "scenes/commands/commands.hpp"
 #include "scenes/format/checks.hpp"
-#include "scenes/format/suggest.hpp"
+#include "scenes/format/sweep_keys.hpp"
 
 namespace beamcam::scenes {
 
@@ -16,14 +13,9 @@ KeyRange range_argument(const std::string& over, const sim::Problem& problem, re
     if (equals == std::string::npos || colon == std::string::npos || over.find(':', colon + 1) != std::string::npos)
         throw UsageError(fmt::format("--over {}: write KEY=FROM:TO, for example cam.speed=40:60", over));
     const std::string path = over.substr(0, equals), option = "--over " + over;
-    const std::vector<sim::NumberKey> keys = sim::number_keys(problem);
-    const auto key = std::ranges::find(keys, path, &sim::NumberKey::path);
-    if (key == keys.end()) {
-        std::vector<std::string> known;
-        for (const sim::NumberKey& each : keys) known.push_back(each.path);
-        throw SceneError(fmt::format("{}: {} is no number of this scene{}", option, in_quotes(path),
-                                     suggestion_or_list(path, known)));
-    }
+    if (const std::string wrong = problem_with_number_key(problem, path); !wrong.empty())
+        throw SceneError(fmt::format("{}: {}", option, wrong));
+    const auto key = sim::number_key(problem, path);
     if (key->whole)
         throw UsageError(
             fmt::format("{}: {} takes whole numbers alone, and an orbit is followed over a key that varies "

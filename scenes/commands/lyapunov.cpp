@@ -48,7 +48,7 @@ std::string exponents_text(const sim::Exponents& e) {
     return text + verdict(e);
 }
 
-void act(const LyapunovArguments& args) {
+int act(const LyapunovArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     if (const auto refusal = sim::tangent_refusal(scene.problem)) throw UsageError(*refusal);
     sim::ExponentsRequest request = args.request;
@@ -66,13 +66,14 @@ void act(const LyapunovArguments& args) {
         sim::confirm_chaos(scene.problem, request, found, reached);
         progress.end();
     }
-    write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
-                  [&] { return exponents_figure(found, subject_of(scene, args.files.lang)); }},
-                 args.files, scene, args.common, manifest);
+    const int code = write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
+                                   [&] { return exponents_figure(found, subject_of(scene, args.files.lang)); }},
+                                  args.files, scene, args.common, manifest);
     if (std::cmp_greater(request.count, found.lambda.size()))
         inform(args.common,
                fmt::format("note: the motion has {}, not {}", counted(found.lambda.size(), "exponent"), request.count));
     for (const std::string& warning : found.warnings) inform(args.common, "warning: " + warning);
+    return code;
 }
 
 }  // namespace

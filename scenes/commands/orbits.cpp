@@ -269,7 +269,7 @@ int act(const OrbitsArguments& args) {
     // 2. The orbits and their branches.
     const output::BranchTable table = compute(args, scene.problem, range, scene.units);
 
-    // 3. What is missing, the result and its files; an error of a file ends the command.
+    // 3. What is missing, the result and its files; the code of an error of a file comes first.
     const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
     if (table.orbits.empty()) inform(args.common, nothing_found(request_of(args, scene.problem)));
     const bool followed = !range || !table.branches.empty();
@@ -277,10 +277,12 @@ int act(const OrbitsArguments& args) {
         inform(args.common, fmt::format("the orbits that were found could not be followed: Newton's method did not "
                                         "converge at {} = {}; try another start (--at)",
                                         table.key, value_text(table, table.start, scene.units)));
-    write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table, scene.units); },
-                  [&] { return branches_figure(table, swept, scene, args.files.lang); },
-                  [&] { return output::orbit_columns(table, attributes_of(scene)); }},
-                 args.files, scene, args.common, manifest);
+    const int code =
+        write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table, scene.units); },
+                      [&] { return branches_figure(table, swept, scene, args.files.lang); },
+                      [&] { return output::orbit_columns(table, attributes_of(scene)); }},
+                     args.files, scene, args.common, manifest);
+    if (code != kDone) return code;
     return written && followed && !table.orbits.empty() ? kDone : kSolverFailed;
 }
 
@@ -293,7 +295,7 @@ void add_orbits(Grammar& grammar) {
                     "orbits pressed.json --over cam.speed=40:60 -o branches.pdf -o branches.json"};
     app.footer =
         "`beamcam init --from pressed` writes the scene of the examples. The exit code is 4 if no orbit is found, or "
-        "if none can be followed.";
+        "if none can be followed, and 3 if only the picture is missing: of orbits without impacts there is none.";
     add_scene(app, args.scene, args.common);
     add_result_options(
         app, args.files, args.common,

@@ -12,14 +12,15 @@ struct PlanArguments {
     std::string directory = ".";
 };
 
-void act(const PlanArguments& args) {
-    std::vector<Scene> scenes;
-    for (const std::string& path : args.scenes) scenes.push_back(with_default_output(load_scene(path, args.common)));
+int act(const PlanArguments& args) {
+    const auto [scenes, code] = load_scenes(args.scenes, args.common);
+    if (scenes.empty()) return code;
     const RunOptions options = run_options(args.common, args.directory);
     print_plans(scenes, options, args.common.json);
     for (const Scene& scene : scenes)
         if (scene.sweep && !args.common.json)
             print_text("\n" + sweep_plan(SweepGrid(scene), {}, thread_count(options.threads), false));
+    return code;
 }
 
 }  // namespace

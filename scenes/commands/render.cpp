@@ -125,9 +125,9 @@ void compare_scenes(const RenderArguments& args, Scene& scene, Picture& picture)
     const bool ghosts = comparison ? *comparison == "ghosts" : picture.comparison == render::Comparison::ghosts;
     if (picture.layout && !ghosts && !shows_motions(*picture.layout, motions)) {
         picture.layout.reset();
-        if (!args.common.quiet)
-            output::print_message("note: the layout in {} does not show {} motions; the standard layout replaces it\n",
-                                  args.scene, motions);
+        inform(args.common,
+               fmt::format("note: the layout in {} does not show {} motions; the standard layout replaces it",
+                           args.scene, motions));
     }
     // Each motion has its scene's title as its label; the title of the first is not the title of all.
     picture.compare = {compared(scene, !args.title)};

@@ -1,14 +1,15 @@
 #include "scenes/commands/result_files.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
-#include <exception>
 #include <numbers>
-#include <stdexcept>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
+#include "render/base/error.hpp"
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/scene/files.hpp"
 
@@ -61,22 +62,23 @@ void require_writable(const char* option, const std::vector<std::string>& files,
     }
 }
 
-void write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
-                  output::Manifest& manifest) {
+int write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
+                 output::Manifest& manifest) {
     const bool prints_data = std::ranges::find(files.names, "-") != files.names.end();
     if (common.json && !prints_data)
         print_json(result.json());
     else if (!prints_data)
         print_text(result.text());
-    std::exception_ptr first_error;
-    for (const std::string& file : files.names) try {
+    const int code = for_each_file(files.names, [&](const std::string& file) {
+        try {
             write_to(file, result, files, scene, manifest);
-            if (!is_stdout(file)) inform(common, "wrote " + file);
-        } catch (const std::runtime_error&) {
-            if (!first_error) first_error = std::current_exception();
+        } catch (const render::PictureError& error) {  // such as a diagram of branches without impacts
+            throw render::PictureError(fmt::format("{} is not written: {}", file, error.what()));
         }
+        if (!is_stdout(file)) inform(common, "wrote " + file);
+    });
     manifest.save();
-    if (first_error) std::rethrow_exception(first_error);
+    return code;
 }
 
 double transient_argument(const std::string& text, const sim::Problem& problem) {

@@ -34,10 +34,10 @@ void add_result_options(Command& app, ResultFiles& files, Common& common, const 
 void require_writable(const char* option, const std::vector<std::string>& files,
                       std::initializer_list<const char*> endings, output::Manifest& manifest);
 
-// Prints the result as JSON or as text, and writes the files. If "-" is one of them, prints JSON alone. A file that
-// cannot be made does not prevent the others: its error is thrown after them.
-void write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
-                  output::Manifest& manifest);
+// Prints the result as JSON or as text, and writes the files. If "-" is one of them, prints JSON alone. Returns the
+// exit code of for_each_file.
+int write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
+                 output::Manifest& manifest);
 
 // --transient of `lyapunov` and `orbits` [s], a span_argument.
 double transient_argument(const std::string& text, const sim::Problem& problem);

@@ -1,13 +1,9 @@
 // `beamcam run`: all outputs of scenes.
 #include "scenes/outputs/run.hpp"
 
-#include <fmt/format.h>
-
 #include <optional>
 
-#include "output/files/standard_output.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/reader.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -20,20 +16,7 @@ struct RunArguments {
 };
 
 int act(const RunArguments& args) {
-    // A scene that cannot be read does not stop the others.
-    std::vector<Scene> scenes;
-    int code = kDone;
-    const auto report = [&code](int why, const std::string& text) {
-        output::print_message("{}", text);
-        if (code == kDone) code = why;
-    };
-    for (const std::string& path : args.scenes) try {
-            scenes.push_back(with_default_output(load_scene(path, args.common)));
-        } catch (const SceneError& error) {
-            report(kBadScene, error.what());
-        } catch (const UnreadableFile& error) {
-            report(kInputOutput, fmt::format("beamcam: {}\n", error.what()));
-        }
+    const auto [scenes, code] = load_scenes(args.scenes, args.common);
     if (scenes.empty()) return code;
     RunOptions options = run_options(args.common, args.directory);
     if (args.shard) options.selection = shard_argument(*args.shard);

@@ -165,7 +165,7 @@ void write(const output::Target& file, const sim::Campaign& campaign, const std:
         output::write_file(file, ending == ".csv" ? stress_csv(campaign, results) : stress_json(campaign, results));
 }
 
-void act(const StressArguments& args) {
+int act(const StressArguments& args) {
     if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
     output::Manifest manifest(args.common.force);
     for (const std::string& file : args.files) {
@@ -175,12 +175,14 @@ void act(const StressArguments& args) {
     const sim::Campaign campaign = sim::stress_campaign(args.full);
     const std::vector<sim::StressResult> results = run_cases(campaign, args.common);
     print_text(stress_text(campaign, results));
-    for (const std::string& file : args.files) write(manifest.target(file), campaign, results);
+    const int code =
+        for_each_file(args.files, [&](const std::string& file) { write(manifest.target(file), campaign, results); });
     manifest.save();
     const bool failed =
         std::ranges::any_of(results, [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
     if (failed)
         throw std::logic_error("the stress campaign found cases that neither finish nor are rejected with a message");
+    return code;
 }
 
 }  // namespace

@@ -96,12 +96,13 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
 }
 
 // A digit that may have been meant as the other of count and step is explained.
-void explain_range(const std::string& text, const SweptKey& over) {
+void explain_range(const Common& common, const std::string& text, const SweptKey& over) {
     const std::string third = text.substr(text.rfind(':') + 1);
     if (third.size() != 1 || third < "1" || third > "9" || !over.count) return;
-    output::print_message("note: --over {}: {} values; {}\n", text, *over.count,
-                          third == "1" ? "1 is a step, because a range has more than one value"
-                                       : "whole numbers from 2 are a number of values, and a step has a decimal point");
+    inform(common, fmt::format("note: --over {}: {} values; {}", text, *over.count,
+                               third == "1" ? "1 is a step, because a range has more than one value"
+                                            : "whole numbers from 2 are a number of values, and a step has a decimal "
+                                              "point"));
 }
 
 // The scene with the options in its sweep.
@@ -110,7 +111,7 @@ Scene with_sweep_options(Scene scene, const SweepArguments& args) {
     if (!args.over.empty()) sweep.over.clear();
     for (const std::string& text : args.over) {
         sweep.over.push_back(over_argument(text, scene.problem, scene.units));
-        if (!args.common.quiet) explain_range(text, sweep.over.back());
+        explain_range(args.common, text, sweep.over.back());
     }
     const auto require = [](const char* option, const std::string& text, const std::string& problem) {
         if (!problem.empty()) throw UsageError(fmt::format("{} {}: {}", option, text, problem));

@@ -91,11 +91,8 @@ std::vector<std::string> entries_to_update(const TestArguments& args, Regression
     return failed;
 }
 
-void print_result(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
-    if (args.common.json)
-        print_json(to_json(result));
-    else
-        print_text(to_text(result, rule, args.common.quiet));
+void print_verdicts(const TestArguments& args, const RegressionResult& result) {
+    print_result(args.common, to_json(result), to_text(result));
     std::map<Verdict, std::size_t> counts;
     for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
     const std::size_t new_renderer = counts[Verdict::new_renderer], not_run = counts[Verdict::not_run];
@@ -124,7 +121,7 @@ int act(const TestArguments& args) {
     }
     const RegressionResult result = test_regression(args.baselines, options);
     write_reports(args, result, options.rule, manifest);
-    print_result(args, result, options.rule);
+    print_verdicts(args, result);
     report_to_github(args, result, options.rule);
     bool fine = !result.changed || (options.update.empty() && !args.test.add_digest);  // a change must be checked
     for (const EntryResult& entry : result.entries)

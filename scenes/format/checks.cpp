@@ -67,12 +67,7 @@ const Node* written_value(const Node& scene, const std::string& key) {
         if (values && !values->value.items.empty()) return &values->value.items.front();
     }
     const Node* at = &scene;
-    for (std::size_t begin = 0; at && begin <= key.size();) {
-        const std::size_t end = std::min(key.find('.', begin), key.size());
-        const Member* member = at->find(key.substr(begin, end - begin));
-        at = member ? &member->value : nullptr;
-        begin = end + 1;
-    }
+    for (const std::string& name : split(key)) at = at ? child(*at, name) : nullptr;
     return at;
 }
 

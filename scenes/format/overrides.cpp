@@ -43,13 +43,18 @@ void move_to(Node& node, Place place) {
 
 Source override_source(const std::string& text) { return {fmt::format("--set {}", text), text, false}; }
 
+std::string problem_with_override(const std::string& text) {
+    const std::size_t equals = text.find('=');
+    if (equals != std::string::npos && equals > 0) return {};
+    return "\"=\" is missing after the key; write --set key.path=value, for example --set beam.modes=4";
+}
+
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages) {
     const Place place{source, 0};
     const auto error = [&](std::string reason) { messages.push_back({place, std::move(reason), true}); };
 
+    if (std::string problem = problem_with_override(text); !problem.empty()) return error(std::move(problem));
     const std::size_t equals = text.find('=');
-    if (equals == std::string::npos || equals == 0)
-        return error("\"=\" is missing after the key; write --set key.path=value, for example --set beam.modes=4");
     Node value;
     std::string problem;
     if (!parse_value(std::string_view(text).substr(equals + 1), value, problem)) return error(problem);

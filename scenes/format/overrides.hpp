@@ -9,6 +9,9 @@
 
 namespace beamcam::scenes {
 
+// Why the text is not `key.path=value`; empty: it is.
+std::string problem_with_override(const std::string& text);
+
 // Applies one override `key.path=value`. The value is JSON or a plain word; a number in the path is the index of an
 // array's entry, from 0. `source`: index that the positions carry. An error goes to `messages` and changes nothing.
 void apply_override(Node& root, const std::string& text, std::size_t source, std::vector<Message>& messages);

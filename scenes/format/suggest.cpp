@@ -36,23 +36,24 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 
 std::string suggestion(std::string_view word, const std::vector<std::string>& known) {
     constexpr std::size_t kLongest = 64;  // a longer word is not a typing error
+    constexpr std::size_t kMost = 3;      // equally near words
     if (word.empty() || word.size() > kLongest) return {};
     const std::string target = folded(word);
-    const std::string* best = nullptr;
-    std::size_t best_distance = 1 + std::max<std::size_t>(1, target.size() / 3);
+    std::vector<std::string> best;
+    std::pair<std::size_t, std::size_t> least{1 + std::max<std::size_t>(1, target.size() / 3), 0};
     for (const std::string& candidate : known) {
         const std::string form = folded(candidate);
         std::size_t distance = edit_distance(target, form);
         // "young" for "youngs_modulus": a prefix of at least three letters counts as one typing error.
         if (target.size() >= 3 && form.starts_with(target)) distance = std::min<std::size_t>(distance, 1);
         // "Mpa" is one letter from "MPa" and none from "mPa"; the case decides between equals.
-        if (distance < best_distance ||
-            (best && distance == best_distance && edit_distance(word, candidate) < edit_distance(word, *best))) {
-            best_distance = distance;
-            best = &candidate;
-        }
+        const std::pair near{distance, edit_distance(word, candidate)};
+        if (near < least) least = near, best.clear();
+        if (near == least && std::ranges::find(best, candidate) == best.end()) best.push_back(candidate);
     }
-    return best ? fmt::format("; did you mean \"{}\"?", *best) : std::string();
+    if (best.empty()) return {};
+    best.resize(std::min(best.size(), kMost));
+    return fmt::format("; did you mean \"{}\"?", fmt::join(best, "\" or \""));
 }
 
 std::string suggestion_or_list(std::string_view word, const std::vector<std::string>& known) {

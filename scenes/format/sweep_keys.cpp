@@ -216,14 +216,18 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
     return "";
 }
 
+std::string problem_with_number_key(const sim::Problem& problem, const std::string& key) {
+    std::vector<std::string> known;
+    for (const sim::NumberKey& each : sim::number_keys(problem)) known.push_back(each.path);
+    if (std::ranges::find(known, key) != known.end()) return "";
+    return fmt::format("{} is not a number of this scene{}", in_quotes(key), suggestion_or_list(key, known));
+}
+
 std::vector<SweepProblem> problems_of(const Sweep& sweep, const sim::Problem& problem) {
     std::vector<SweepProblem> all;
-    std::vector<std::string> known;
-    for (const sim::NumberKey& key : sim::number_keys(problem)) known.push_back(key.path);
     const auto need_key = [&](const std::string& at, const std::string& key) {
-        if (std::ranges::find(known, key) == known.end())
-            all.push_back({at, fmt::format("{} is not a number of this scene{}", in_quotes(key),
-                                           suggestion_or_list(key, known))});
+        if (std::string wrong = problem_with_number_key(problem, key); !wrong.empty())
+            all.push_back({at, std::move(wrong)});
     };
     if (sweep.over.empty()) all.push_back({"over", "no key varies; write for example cam.speed=40:52:0.02"});
     if (sweep.over.size() > 2) all.push_back({"over", "a sweep varies one or two keys"});

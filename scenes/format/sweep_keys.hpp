@@ -14,6 +14,9 @@ std::string parse_sample(std::string_view text, const sim::Problem& problem, sim
 // "same", "carry-up,carry-down", "random:8".
 std::string parse_seeds(std::string_view text, SweepSeeds& seeds);
 
+// Why the key is not one that can vary; empty: it is.
+std::string problem_with_number_key(const sim::Problem& problem, const std::string& key);
+
 // The errors of a sweep of this problem, each with its key ("over.0.key").
 struct SweepProblem {
     std::string key, text;

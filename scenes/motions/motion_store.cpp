@@ -93,14 +93,10 @@ void MotionStore::compute() {
         total += until;
     }
     ProgressSum sum(all.size(), progress_);
-    progress_.begin("simulate", total, "s");
-    try {
+    {
+        const ProgressStage stage(progress_, "simulate", total, "s");
         fan_out(all.size(), options_.threads, [&](std::size_t k) { compute(all[k], sum.of(k)); });
-    } catch (...) {
-        progress_.end();
-        throw;
     }
-    progress_.end();
     for (const Group& group : all) report(group);
 }
 
@@ -164,16 +160,10 @@ sim::Result MotionStore::find_events(const sim::Problem& problem, const sim::Req
     further.end_time = far;
     const sim::Request both[] = {request, further};
     const double until = latest(both);
-    progress_.begin("impacts", until, "s");
-    ProgressSum sum(1, progress_);
-    try {
-        auto results = run({motion_key(problem), problem, both, until, true, true}, sum.of(0));
-        progress_.end();
-        return std::move(results.front());
-    } catch (...) {
-        progress_.end();
-        throw;
-    }
+    const ProgressStage stage(progress_, "impacts", until, "s");
+    return std::move(run({motion_key(problem), problem, both, until, true, true}, [this](double t) {
+                         return progress_.reach(t);
+                     }).front());
 }
 
 // ---- one motion ------------------------------------------------------------------------------------

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "output/files/interrupt.hpp"
 #include "sim/base/clock.hpp"
@@ -65,6 +66,21 @@ class Progress {
     double done_ = 0;
     bool open_ = false, line_is_open_ = false;
     Clock::time_point started_, shown_;
+};
+
+// A stage that ends with this, also by an exception.
+class ProgressStage {
+  public:
+    ProgressStage(Progress& progress, std::string stage, std::optional<double> total, std::string unit)
+        : progress_(progress) {
+        progress_.begin(std::move(stage), total, std::move(unit));
+    }
+    ~ProgressStage() { progress_.end(); }
+    ProgressStage(const ProgressStage&) = delete;
+    ProgressStage& operator=(const ProgressStage&) = delete;
+
+  private:
+    Progress& progress_;
 };
 
 }  // namespace beamcam::scenes

@@ -114,8 +114,13 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     if (options.verbose) report_times_and_work(context);
     std::size_t outputs = 0;
     for (const Scene& scene : scenes) outputs += scene.outputs.size();
-    if (context.rejected > 0)
-        throw Incomplete(fmt::format("{} of {} could not be written", context.rejected, counted(outputs, "output")));
+    if (context.rejected == 0) return;
+    try {
+        std::rethrow_exception(context.first_error);
+    } catch (...) {
+        std::throw_with_nested(
+            Incomplete(fmt::format("{} of {} could not be written", context.rejected, counted(outputs, "output"))));
+    }
 }
 
 void run(const Scene& scene, const RunOptions& options) { run({&scene, 1}, options); }
@@ -150,13 +155,10 @@ void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const 
 }
 
 Plan plan_for(const Scene& scene, const RunOptions& options) {
-    const std::optional<Cache> cache = open_cache(options.no_cache);
-    output::Manifest manifest(options.force);
-    const UpToDate found = check_up_to_date(scene, options.selection, options.directory, manifest,
-                                            cache ? &*cache : nullptr, options.force);
-    Plan made = plan(scene, options.selection, found.existing);
+    RunContext context(options);
+    Plan made = SceneRun(scene, context).plan();
     add_omitted_text(made, scene);
-    if (cache) estimate(made, History(cache->directory()), thread_count(options.threads));
+    if (context.cache) estimate(made, context.history, thread_count(options.threads));
     return made;
 }
 

@@ -28,7 +28,7 @@ struct RunOptions {
     ProgressStyle progress = ProgressStyle::automatic;
 };
 
-// Some outputs could not be written, as reported; all others were written.
+// Some outputs could not be written, as reported; all others were written. Nested in it: the first error.
 struct Incomplete : std::runtime_error {
     using std::runtime_error::runtime_error;
 };

@@ -1,6 +1,7 @@
 // What the scenes of one `run` share: options, manifest of files, motions, counts and times.
 #pragma once
 
+#include <exception>
 #include <optional>
 #include <utility>
 
@@ -38,7 +39,8 @@ struct RunContext {
     MotionStore motions;
     output::Work work;
     Times times;
-    std::size_t rejected = 0;  // outputs that could not be written
+    std::size_t rejected = 0;        // outputs that could not be written
+    std::exception_ptr first_error;  // of them
     Clock::time_point started = Clock::now();
 };
 

@@ -11,6 +11,7 @@
 #include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "render/base/error.hpp"
+#include "render/base/limits.hpp"
 #include "render/film/model.hpp"
 #include "render/film/page.hpp"
 #include "scenes/figures/figure_files.hpp"
@@ -129,13 +130,15 @@ void SceneRun::compute_sweep() {
 // ---- files -------------------------------------------------------------------------------------
 
 void SceneRun::write_outputs() {
-    for (const DataFile& d : plan_.data)
-        if (!d.reports_work) write_data(d);
+    const auto write_each_data = [&](bool reporting) {
+        for (const DataFile& d : plan_.data)
+            if (d.reports_work == reporting) attempt(d.output, [&] { write_data(d); });
+    };
+    write_each_data(false);
     for (std::size_t i = 0; i < plan_.figures.size(); ++i) attempt(plan_.figures[i].output, [&] { write_figure(i); });
     for (std::size_t i = 0; i < plan_.pictures.size(); ++i)
         attempt(plan_.pictures[i].output, [&] { write_pictures(i); });
-    for (const DataFile& d : plan_.data)
-        if (d.reports_work) write_data(d);
+    write_each_data(true);
     if (sweep_ && !rejected_) sweep_->remove();
 }
 
@@ -268,20 +271,28 @@ void SceneRun::write_partial_data() {
 
 // ---- outputs that cannot be written ------------------------------------------------------------
 
-// An error of a picture rejects only its own output.
+// An error rejects only its own output.
 void SceneRun::attempt(std::size_t output, const std::function<void()>& work) {
     try {
         work();
-    } catch (const render::PictureError& error) {
+    } catch (const sim::Interrupted&) {
+        throw;
+    } catch (const std::logic_error&) {  // a bug
+        throw;
+    } catch (const std::bad_alloc&) {
+        reject(output, render::out_of_memory_message());
+    } catch (const std::exception& error) {
         reject(output, error.what());
     }
 }
 
+// Called while its error is handled.
 void SceneRun::reject(std::size_t output, const std::string& why) {
     context_.progress.end();
     const bool listed = output < scene_.output_places.size();
     output::print_message("beamcam: {}: {}: {}\n", listed ? scene_.output_places[output] : scene_.name,
                           file_of(scene_.outputs[output]), why);
+    if (!context_.first_error) context_.first_error = std::current_exception();
     ++context_.rejected;
     rejected_ = true;
 }

@@ -18,8 +18,7 @@ std::string describe(const char* part, const std::optional<Verdict>& verdict, co
 // Picture and motion of the entry.
 std::string describe(const EntryResult& entry, const char* separator);
 
-// `failures_only`: entries that pass are left out.
-std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only);
+std::string to_text(const RegressionResult& result);
 std::string to_json(const RegressionResult& result);
 // A test case for each picture and each motion.
 std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule);

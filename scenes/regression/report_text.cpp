@@ -88,12 +88,11 @@ std::string describe(const EntryResult& entry, const char* separator) {
     return picture + (picture.empty() || motion.empty() ? "" : separator) + motion;
 }
 
-std::string to_text(const RegressionResult& result, const PassRule& rule, bool failures_only) {
+std::string to_text(const RegressionResult& result) {
     std::size_t width = 0;
     for (const EntryResult& entry : result.entries) width = std::max(width, entry.name.size());
     std::string text;
     for (const EntryResult& entry : result.entries) {
-        if (failures_only && !entry.updated && rule.passes(entry)) continue;
         text += fmt::format("{:<10}  {:<{}}  {}\n", name(entry.verdict()), entry.name, width, describe(entry, " | "));
         if (const ChangedFrames changed = entry.changed_frames();
             !changed.empty() && entry.picture != Verdict::equivalent)

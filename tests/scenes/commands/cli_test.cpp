@@ -11,7 +11,8 @@
 namespace beamcam::scenes {
 namespace {
 
-using ::testing::AllOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not, ::testing::StartsWith;
+using ::testing::AllOf, ::testing::AnyOf, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not,
+    ::testing::StartsWith;
 using testing::Finished, testing::Folder, testing::shell;
 
 TEST(CommandLine, VersionHelpAndSchemaAreData) {
@@ -70,7 +71,7 @@ TEST(CommandLine, EveryKeyIsExplained) {
     const std::string shapes = shell(folder, "$BEAMCAM keys shapes").out;
     EXPECT_THAT(shapes, AllOf(HasSubstr("outputs[].stations  (type=shapes)"), HasSubstr("(.csv .npz); by default")));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys trajectory").out, Not(HasSubstr("stations")));
-    EXPECT_THAT(shell(folder, "$BEAMCAM keys sped").err, HasSubstr("did you mean \"speed\"?"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys sped").err, HasSubstr("did you mean \"speed\" or \"seed\"?"));
 }
 
 TEST(CommandLine, WrongUsageIsTwo) {
@@ -100,6 +101,8 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "simulate s.json --channels theta --summary -",
                                   "simulate s.json --trajectory a.txt",
                                   "run s.json -j 0",
+                                  "run s.json --set cam.speed",
+                                  "check s.json --set =3",
                                   "simulate s.json --summary a.json --impacts a.json",
                                   "run s.json --progress loud",
                                   "modes s.json --speed 5mm",
@@ -160,6 +163,31 @@ TEST(CommandLine, AnUnreadableFileDoesNotHideTheOthers) {
         EXPECT_THAT(finished.out, HasSubstr("a.png")) << command;
         EXPECT_THAT(finished.err, HasSubstr("none.png")) << command;
     }
+    folder.write("bad.json", R"({"beam": 3})");
+    for (const char* command : {"check", "plan", "run -n"}) {
+        const Finished finished = shell(folder, fmt::format("$BEAMCAM {} bad.json none.json s.json", command));
+        EXPECT_EQ(finished.code, 3) << command;  // of the first error
+        EXPECT_THAT(finished.err, AllOf(HasSubstr("bad.json:1:10"), HasSubstr("none.json does not exist"))) << command;
+        EXPECT_THAT(finished.out + finished.err, AnyOf(HasSubstr("s.json: fine"), HasSubstr("s.mp4"))) << command;
+    }
+}
+
+TEST(CommandLine, QuietKeepsStandardOutput) {
+    const Folder folder;
+    folder.write("a.csv", "t,theta\n0,1\n");
+    folder.write("b.csv", "t,theta\n0,2\n");
+    folder.write("s.json", R"({"time": {"end": 0.1}})");
+    for (const char* command : {"diff a.csv b.csv", "modes s.json", "check s.json", "plan s.json", "cache ls",
+                                "test b.json", "simulate s.json --channels theta --rate 10"}) {
+        folder.write("b.json", R"({"entries": {"a": {"scene": {"time": {"end": 0.1}},
+  "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
+        const Finished loud = shell(folder, fmt::format("$BEAMCAM {}", command)),
+                       quiet = shell(folder, fmt::format("$BEAMCAM {} -q", command));
+        EXPECT_EQ(quiet.out, loud.out) << command;
+        EXPECT_EQ(quiet.err, "") << command;
+        EXPECT_EQ(quiet.code, loud.code) << command;
+    }
+    EXPECT_THAT(shell(folder, "$BEAMCAM check --help").out, HasSubstr("standard output stays"));
 }
 
 TEST(CommandLine, SaysWhyALongMotionIsNotKept) {

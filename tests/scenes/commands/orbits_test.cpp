@@ -345,10 +345,12 @@ TEST(OrbitsCommand, APictureThatCannotBeDrawnDoesNotPreventTheOtherFiles) {
     const Folder folder;
     folder.write("s.json", kPressed);
     const auto made = [&](const std::string& command, const std::string& data) {
-        const Finished done = shell(
-            folder, fmt::format("$BEAMCAM {} -o none.png -o {} --set cam.speed=5 --transient '5 s'", command, data));
+        const Finished done =
+            shell(folder, fmt::format("$BEAMCAM {} -o none.png -o {} -o none.pdf --set cam.speed=5 --transient '5 s'",
+                                      command, data));
         EXPECT_EQ(done.code, 3) << done.err;
-        EXPECT_THAT(done.err, HasSubstr("nothing to draw"));
+        for (const char* file : {"none.png", "none.pdf"})
+            EXPECT_THAT(done.err, ::testing::ContainsRegex(fmt::format("{} is not written: .*nothing to draw", file)));
         EXPECT_TRUE(std::filesystem::exists(folder / data)) << done.err;
         EXPECT_FALSE(std::filesystem::exists(folder / "none.png"));
         return done.out;

@@ -188,6 +188,11 @@ TEST(Reader, PicturesHaveTheUnitsOfTheScene) {
     EXPECT_EQ(units(written), (render::Units{true, SpeedUnit::automatic}));
 }
 
+TEST(Reader, SuggestsAllKeysThatAreEquallyNear) {
+    EXPECT_THAT(messages(read(R"({"beam": {"mode": 3}})")),
+                ElementsAre("1:11 unknown key \"mode\" in beam; did you mean \"model\" or \"modes\"?"));
+}
+
 TEST(Reader, AllIssuesComeAtOnceInTheOrderOfTheText) {
     const Reading reading = read(
         "{\"beam\": {\"lenght\": 1,\n\"modes\": 2.5},\n\"cam\": {\"eccentricity\": \"2 s\"},\n\"time\": {\"end\": -1}, "

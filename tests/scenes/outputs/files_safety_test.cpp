@@ -92,6 +92,24 @@ TEST(FileSafety, AnInstantThatIsNeverReachedCostsItsOwnOutputAlone) {
 }
 
 // A folder in the place of a file, no permission, a manifest that is none: never a bug of the program.
+// The exit code is that of the first error.
+TEST(FileSafety, EachOutputThatCannotBeWrittenIsReportedAndTheOthersAreWritten) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [
+  {"type": "trajectory", "file": "a.csv"},
+  {"type": "impacts", "file": "i.csv"},
+  {"type": "still", "at": 0.05, "file": "c.png", "size": [1920, 1080], "view": {"style": "flat"}},
+  {"type": "still", "at": "impact:9", "file": "never.png", "size": [64, 64], "view": {"style": "flat"}}]})");
+    const Finished finished = shell(folder, "ulimit -f 20; $BEAMCAM run s.json -o out -q --no-cache");
+    EXPECT_EQ(finished.code, 3);  // of never.png
+    for (const char* file : {"s.json:2:3: a.csv: cannot write", "s.json:4:3: c.png: cannot write", "5:3: never.png: "})
+        EXPECT_THAT(finished.err, HasSubstr(file));
+    EXPECT_THAT(finished.err, HasSubstr("3 of 4 outputs could not be written"));
+    EXPECT_TRUE(fs::exists(folder / "out/i.csv"));
+    EXPECT_EQ(shell(folder, "ulimit -f 20; $BEAMCAM simulate s.json --trajectory t.csv --impacts j.csv -q").code, 6);
+    EXPECT_TRUE(fs::exists(folder / "j.csv"));
+}
+
 TEST(FileSafety, AMissingSceneCostsNoOther) {
     const Folder folder;
     folder.write("a.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "summary", "file": "a-summary.json"}]})");
