@@ -105,7 +105,9 @@ void remove(Node& object, std::string_view key) {
 
 std::string to_text(const Node& root) { return json_text(root, 0, 0) + "\n"; }
 std::string one_line(const Node& root) { return json_text(root, 0, kOneLine); }
-std::string folded_text(const Node& root, std::size_t width) { return json_text(root, 0, width) + "\n"; }
+std::string folded_text(const Node& root, std::size_t width, std::size_t indent) {
+    return json_text(root, indent, width);
+}
 
 const char* name(Node::Kind kind) {
     static constexpr const char* kNames[] = {"null", "true or false", "a number", "a text", "an array", "an object"};

@@ -96,10 +96,10 @@ Node object_node(std::vector<std::pair<std::string, Node>> members = {});
 void add(Node& object, std::string key, Node value);
 void remove(Node& object, std::string_view key);
 // JSON: with a line for each value; on one line, without the end of the line; with line breaks only where a line would
-// be longer than `width`.
+// be longer than `width`, without the end of the last one, for a place that is indented.
 std::string to_text(const Node& root);
 std::string one_line(const Node& root);
-std::string folded_text(const Node& root, std::size_t width);
+std::string folded_text(const Node& root, std::size_t width, std::size_t indent = 0);
 
 const char* name(Node::Kind kind);  // "a number", "an object", …
 

@@ -11,6 +11,7 @@
 #include "scenes/format/description.hpp"
 #include "scenes/format/embedded.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/regression/baselines.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -67,7 +68,7 @@ struct SchemaArguments {
 };
 
 void print_schema(const SchemaArguments& args) {
-    print_data(args.baselines ? std::string(baselines_schema_text()) : schema_text());
+    print_data(args.baselines ? baselines_schema_text() : schema_text(scene_format(), "beamcam scene"));
 }
 
 }  // namespace

@@ -82,14 +82,10 @@ void set_values(ObjectReader& r, const Node& set, const std::string& key, Node& 
 
 // Reads the problem of these mechanics; errors are reported at the entry of the comparison.
 void read_problem(ObjectReader& r, const Node& root, sim::Problem& problem) {
-    Diagnostics found;
-    ObjectReader sections(found, &root, "");
-    sections.problem(problem);
-    sections.finish();
-    if (found.any()) {
-        for (const Message& message : found.take()) r.diagnostics().error(message.place, r.path("set"), message.text);
-        return;
-    }
+    std::vector<Message> found;
+    read_object(
+        root, "the scene", [&problem](ObjectReader& sections) { sections.problem(problem); }, found);
+    for (const Message& message : found) r.diagnostics().error(message.place, r.path("set"), message.text);
     if (r.diagnostics().failed(r.path("set"))) return;
     std::vector<sim::Issue> findings = sim::validate(problem);
     std::erase_if(findings, [](const sim::Issue& finding) { return !finding.fatal; });

@@ -81,7 +81,7 @@ class Describer final : public SceneVisitor {
     void text(const Key& key, std::string& value, const char* meaning) override {
         DescribedKey& d = add_key(key, "text", meaning);
         d.schema = node_of(R"({"type": "string"})");
-        d.value = value;
+        if (!key.derived) d.value = value;
     }
     void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
                  const char* meaning) override {
@@ -133,6 +133,14 @@ class Describer final : public SceneVisitor {
             add(d.schema, "maxItems", list.max_size);
         }
     }
+    void named(const Key& key, const NamedItems& items, const char* meaning) override {
+        Describer item(meaning);
+        items.visit(item, "");
+        DescribedKey& d = add_key(key, "object of objects", meaning);
+        d.shapes = item.take();
+        d.names = items.pattern;
+        d.min_size = items.min_size;
+    }
     void constrain_schema(const char* schema) override { common_.constraints.push_back(node_of(schema)); }
     void exclusive(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
 
@@ -167,16 +175,21 @@ Node one_of(const char* choice, std::vector<Node> all) {
     return all.size() == 1 ? std::move(all.front()) : object_node({{choice, array_node(std::move(all))}});
 }
 
+DescribedObject described(std::string meaning, const std::function<void(SceneVisitor& v)>& visit) {
+    Describer describer(std::move(meaning));
+    visit(describer);
+    return std::move(describer.take().front());
+}
+
 const DescribedObject& scene_format() {
-    static const DescribedObject kFormat = [] {
-        Scene scene;
-        Describer describer(
-            "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to write. Plain numbers "
-            "are in SI units; a text may have a unit. Every key has a default: {} is a complete scene. Keys that begin "
-            "with x- are ignored.");
-        visit(describer, scene);
-        return std::move(describer.take().front());
-    }();
+    static const DescribedObject kFormat = described(
+        "A flexible beam on a hub that falls on a rotating eccentric cam, and the files to write. Plain numbers are in "
+        "SI units; a text may have a unit. Every key has a default: {} is a complete scene. Keys that begin with x- "
+        "are ignored.",
+        [](SceneVisitor& v) {
+            Scene scene;
+            visit(v, scene);
+        });
     return kFormat;
 }
 

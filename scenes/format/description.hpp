@@ -2,6 +2,7 @@
 // Schema, the reference and `beamcam keys` are written from it.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 
 namespace beamcam::scenes {
 
+class SceneVisitor;
 struct DescribedKey;
 
 // An object with these keys. Tags are keys with a fixed value.
@@ -31,8 +33,10 @@ struct DescribedKey {
     Node schema;                          // of the value
     std::vector<DescribedObject> shapes;  // of an object, or of the objects in a list
     bool list = false, nullable = false;
-    Node item_schema;    // of items that are not objects
-    std::string nested;  // the items of the list have the shapes of what contains it, by that name
+    Node item_schema;          // of items that are not objects
+    std::string names;         // regular expression of the names of the object's members, which have these shapes
+    std::size_t min_size = 0;  // least number of such members
+    std::string nested;        // the items of the list have the shapes of what contains it, by that name
 
     bool required() const { return !example.empty(); }
 };
@@ -40,11 +44,12 @@ struct DescribedKey {
 // The schema of a value that has one of these; `choice`: "anyOf" or "oneOf".
 Node one_of(const char* choice, std::vector<Node> all);
 
+DescribedObject described(std::string meaning, const std::function<void(SceneVisitor& v)>& visit);
 // The scene itself: one shape without tags.
 const DescribedObject& scene_format();
 
-std::string schema_text();     // the JSON Schema
-std::string reference_text();  // Markdown, scenes/FORMAT.md
+std::string schema_text(const DescribedObject& format, const char* title);  // the JSON Schema
+std::string reference_text();                                               // Markdown, scenes/FORMAT.md
 
 // A key by its path: "hub.drive.amplitude", "outputs[].size".
 struct KeyRow {

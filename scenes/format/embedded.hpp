@@ -6,8 +6,6 @@
 
 namespace beamcam::scenes {
 
-std::string_view baselines_schema_text();  // beamcam-baselines.schema.json
-
 // The scenes in the program, by name: those of this folder, then those of the paper's figures.
 struct EmbeddedScene {
     std::string_view name;  // "default", "paper/free-fall"

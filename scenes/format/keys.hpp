@@ -38,6 +38,14 @@ struct List {
     const char* nested = nullptr;            // name in the schema if items have the shape of the list's own object
 };
 
+// An object whose keys are names.
+struct NamedItems {
+    const char* pattern;                                                  // regular expression of the names
+    const char* wrong_name;                                               // of another name: "NAME <wrong_name>"
+    std::function<void(SceneVisitor& v, const std::string& name)> visit;  // the object of this name; adds one
+    std::size_t min_size = 0;
+};
+
 class SceneVisitor : public sim::Visitor {
   public:
     using Fields = std::function<void(Visitor&)>;
@@ -45,6 +53,7 @@ class SceneVisitor : public sim::Visitor {
     // A value with its own notation; with `fields` an object with these keys, too.
     virtual void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields = {}) = 0;
     virtual void list(const Key& key, const List& list, const char* meaning) = 0;
+    virtual void named(const Key& key, const NamedItems& items, const char* meaning) = 0;
     virtual void exclusive(const char* one, const char* other) = 0;
     // JSON Schema of a rule between the keys visited so far; `check` applies the same rule.
     virtual void constrain_schema(const char*) {}
@@ -99,6 +108,7 @@ void visit(SceneVisitor& v, Compared& motion);
 void visit(SceneVisitor& v, Measurement& data);
 void visit(SceneVisitor& v, Sweep& sweep);
 
+Node tree_of(const std::function<void(SceneVisitor& v)>& visit);
 Node to_tree(const Scene& scene);  // all keys, with resolved defaults
 Node to_tree(const sim::Problem& problem);
 Node to_tree(const Output& output);

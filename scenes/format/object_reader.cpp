@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <iterator>
+#include <regex>
 
 #include "scenes/format/suggest.hpp"
 
@@ -207,6 +209,25 @@ void ObjectReader::list(const Key& key, const List& list, const char*) {
     }
 }
 
+void ObjectReader::named(const Key& key, const NamedItems& items, const char*) {
+    const Node* node = take(key);
+    if (!node) return;
+    const ObjectReader all = inside(*node, key.name);
+    if (!all.node()) return;
+    if (node->members.size() < items.min_size) reject(key.name, " is empty; add at least one entry");
+    const std::regex pattern(items.pattern);
+    for (const Member& member : node->members) {
+        if (!std::regex_match(member.key, pattern)) {
+            diagnostics_.error(member.key_place, all.path(member.key),
+                               fmt::format("{} {}", in_quotes(member.key), items.wrong_name));
+            continue;
+        }
+        ObjectReader item = all.inside(member.value, member.key);
+        items.visit(item, member.key);
+        item.finish();
+    }
+}
+
 void ObjectReader::exclusive(const char* one, const char* other) {
     for (const char* key : {one, other})
         if (std::ranges::find(visited_, key) == visited_.end()) visited_.emplace_back(key);
@@ -238,6 +259,17 @@ void ObjectReader::finish(const SuggestPlace& suggest) {
                 : fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(),
                               diagnostics_.exceed_report() ? "" : suggestion_or_list(member.key, visited_)));
     }
+}
+
+bool read_object(const Node& root, const std::string& name, const std::function<void(ObjectReader& r)>& visit,
+                 std::vector<Message>& messages, const SceneContext* context,
+                 const ObjectReader::SuggestPlace& suggest) {
+    Diagnostics diagnostics;
+    ObjectReader reader(diagnostics, &root, "", name, context);
+    visit(reader);
+    reader.finish(suggest);
+    std::ranges::move(diagnostics.take(), std::back_inserter(messages));
+    return !diagnostics.any();
 }
 
 }  // namespace beamcam::scenes

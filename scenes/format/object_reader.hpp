@@ -133,6 +133,7 @@ class ObjectReader final : public SceneVisitor {
     void alternatives(const std::vector<sim::Alternative>& all) override;
     void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields) override;
     void list(const Key& key, const List& list, const char* meaning) override;
+    void named(const Key& key, const NamedItems& items, const char* meaning) override;
     void exclusive(const char* one, const char* other) override;
     void problem(sim::Problem& problem) override;  // sim::validate checks the ranges of its numbers
     void check(const std::function<void(ObjectReader&)>& rule) override;
@@ -156,5 +157,11 @@ class ObjectReader final : public SceneVisitor {
     std::vector<std::function<void()>> deferred_;  // numbers whose unit depends on another key
     bool unknown_shape_ = false;                   // a tag is unreadable, so any key may belong here
 };
+
+// Reads the keys that `visit` visits in `root`, the object of this name, and appends the messages. False: there are
+// errors.
+bool read_object(const Node& root, const std::string& name, const std::function<void(ObjectReader& r)>& visit,
+                 std::vector<Message>& messages, const SceneContext* context = nullptr,
+                 const ObjectReader::SuggestPlace& suggest = {});
 
 }  // namespace beamcam::scenes

@@ -30,13 +30,10 @@ std::string place_in_outputs(const std::string& key) {
 Scene read_tree(const Node& root, const Source& source, const std::string& scene_name, std::vector<Message>& messages) {
     Scene scene;
     scene.name = scene_name;
-    Diagnostics diagnostics;
     std::map<std::string, OtherScene> others;
     const SceneContext context{scene, root, source, others};
-    ObjectReader reader(diagnostics, &root, "", "the scene", &context);
-    visit(reader, scene);
-    reader.finish(place_in_outputs);
-    for (Message& message : diagnostics.take()) messages.push_back(std::move(message));
+    read_object(
+        root, "the scene", [&scene](ObjectReader& r) { visit(r, scene); }, messages, &context, place_in_outputs);
     return scene;
 }
 
@@ -62,13 +59,10 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     // Comparisons change sections of the scene: of the resolved scene here, with its overrides.
     const Source resolved{scene_name, to_json(scene), true};
     const Parsed parsed = parse(resolved.text);
-    Diagnostics found;
     std::map<std::string, OtherScene> others;
     const SceneContext context{scene, parsed.root, resolved, others};
-    ObjectReader reader(found, &alone, "", "the scene", &context);
-    visit_outputs(reader, scene);
-    const bool fine = !found.any();
-    messages = found.take();
+    const bool fine = read_object(
+        alone, "the scene", [&scene](ObjectReader& r) { visit_outputs(r, scene); }, messages, &context);
     const std::string_view itself(prefix.data(), prefix.size() - (prefix.ends_with('.') ? 1 : 0));
     for (Message& message : messages) {
         replace_all(message.text, "outputs.0.", prefix);
@@ -114,16 +108,15 @@ Source load_named_source(const std::string& path) {
     return load_source(path == "-" ? "./-" : path);
 }
 
-Source load_source(const std::string& path) {
+Source load_source(const std::string& path, const char* remedy) {
     std::error_code ignored;
     if (path != "-" && std::filesystem::is_directory(path, ignored))
         throw UnreadableFile(fmt::format("{} is a directory; name a scene file inside it", path));
     errno = 0;
     std::unique_ptr<std::FILE, CloseFile> file(path == "-" ? stdin : std::fopen(path.c_str(), "rb"));
     if (!file)
-        throw UnreadableFile(errno == ENOENT
-                                 ? fmt::format("{} does not exist; `beamcam init` writes a first scene", path)
-                                 : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
+        throw UnreadableFile(errno == ENOENT ? fmt::format("{} does not exist; {}", path, remedy)
+                                             : fmt::format("{} cannot be opened: {}", path, std::strerror(errno)));
     Source source{path == "-" ? "stdin" : path, {}, true};
     std::array<char, 65536> block;
     while (const std::size_t n = std::fread(block.data(), 1, block.size(), file.get())) {

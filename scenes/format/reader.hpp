@@ -31,8 +31,8 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
 struct UnreadableFile : std::runtime_error {
     using std::runtime_error::runtime_error;
 };
-// "-" is standard input. Throws UnreadableFile.
-Source load_source(const std::string& path);
+// "-" is standard input. `remedy`: end of the message if the file does not exist. Throws UnreadableFile.
+Source load_source(const std::string& path, const char* remedy = "`beamcam init` writes a first scene");
 // The same for a name inside a scene file. Rejects standard input, and pipes and devices, which might never end.
 Source load_named_source(const std::string& path);
 

@@ -1,7 +1,8 @@
-// Writes the JSON Schema of scenes from the description of their keys.
+// Writes a JSON Schema from the description of keys.
 #include <fmt/format.h>
 
 #include <map>
+#include <set>
 
 #include "render/film/layout.hpp"
 #include "scenes/format/description.hpp"
@@ -60,16 +61,20 @@ Node channel_schema() {
 
 class SchemaWriter {
   public:
-    Node write(const DescribedObject& scene) {
+    Node write(const DescribedObject& format, const char* title) {
         definitions_ = node_of(kDefinitions);
         add(definitions_, "panelName", panel_schema());
         add(definitions_, "channel", channel_schema());
-        object(scene);  // first pass: counts repeated properties
+        object(format);  // first pass: counts repeated properties
         counted_ = true;
-        Node out =
-            object_node({{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", "beamcam scene"}});
-        append(out, object(scene));
-        add(out, "$defs", std::move(definitions_));
+        Node out = object_node({{"$schema", "https://json-schema.org/draft/2020-12/schema"}, {"title", title}});
+        append(out, object(format));
+        std::set<std::string> used;
+        find_used(out, used);
+        Node definitions = object_node();
+        for (Member& each : definitions_.members)
+            if (used.contains(each.key)) definitions.members.add(std::move(each));
+        add(out, "$defs", std::move(definitions));
         return out;
     }
 
@@ -78,6 +83,14 @@ class SchemaWriter {
         for (Member& member : more.members) out.members.add(std::move(member));
     }
     static Node reference(const std::string& name) { return object_node({{"$ref", "#/$defs/" + name}}); }
+
+    // Adds the names of the definitions to which the schema refers, and to which these refer.
+    void find_used(const Node& schema, std::set<std::string>& used) const {
+        const std::string text = one_line(schema);
+        for (const Member& each : definitions_.members)
+            if (text.find(fmt::format("\"#/$defs/{}\"", each.key)) != std::string::npos && used.insert(each.key).second)
+                find_used(each.value, used);
+    }
 
     Node object(const DescribedObject& shape) {
         ++depth_;
@@ -125,6 +138,13 @@ class SchemaWriter {
     Node value(const DescribedKey& key) {
         if (key.shapes.empty() && !key.list) return key.schema;
         Node inside = key.nested.empty() ? objects(key.shapes) : reference(key.nested);
+        if (!key.names.empty()) {
+            Node out = object_node({{"type", "object"}});
+            if (key.min_size > 0) add(out, "minProperties", key.min_size);
+            add(out, "propertyNames", object_node({{"pattern", key.names}}));
+            add(out, "additionalProperties", std::move(inside));
+            return out;
+        }
         if (key.list) {
             Node out = key.schema;
             std::vector<Node> items;
@@ -168,6 +188,8 @@ class SchemaWriter {
 
 }  // namespace
 
-std::string schema_text() { return folded_text(SchemaWriter().write(scene_format()), 120); }
+std::string schema_text(const DescribedObject& format, const char* title) {
+    return folded_text(SchemaWriter().write(format, title), 120) + "\n";
+}
 
 }  // namespace beamcam::scenes

@@ -61,6 +61,7 @@ class Writer final : public SceneVisitor {
         }
         put(key, std::move(all));
     }
+    void named(const Key&, const NamedItems&, const char*) override {}  // such objects are written by users only
     void exclusive(const char*, const char*) override {}
 
   private:
@@ -74,12 +75,16 @@ class Writer final : public SceneVisitor {
 // Visitors take mutable structs, so this visits a copy.
 template <class Struct>
 Node written_tree(Struct visited) {
-    Writer writer;
-    visit(writer, visited);
-    return writer.take();
+    return tree_of([&visited](SceneVisitor& v) { visit(v, visited); });
 }
 
 }  // namespace
+
+Node tree_of(const std::function<void(SceneVisitor& v)>& visit) {
+    Writer writer;
+    visit(writer);
+    return writer.take();
+}
 
 Node to_tree(const Scene& scene) { return written_tree(scene); }
 Node to_tree(const sim::Problem& problem) { return written_tree(problem); }

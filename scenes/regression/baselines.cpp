@@ -17,35 +17,28 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// ---- reading -------------------------------------------------------------------------------------
-
 constexpr int kMostPictures = 10'000;  // of one entry: each has a digest in the file and a reference picture
-
-bool is_plain_name(std::string_view name) {
-    const bool plain = std::ranges::all_of(name, [](char c) {
-        return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '-' || c == '_' ||
-               c == '.';
-    });
-    return plain && !name.empty() && name.size() <= 100 && name.front() != '.';
-}
-
-bool is_digest(const Node& node) {
-    return node.kind == Node::Kind::string && node.text.size() == 64 &&
-           node.text.find_first_not_of("0123456789abcdef") == std::string::npos;
-}
 
 class Reader {
   public:
-    explicit Reader(const std::string& path) : path_(path) { all_.source = load_source(path); }
+    explicit Reader(const std::string& path) : path_(path) {
+        all_.source = load_source(path,
+                                  "a file of baselines lists what to test: {\"entries\": {\"fall\": {\"scene\": "
+                                  "\"fall.json\", \"output\": {\"type\": \"still\", \"at\": \"0.3 s\"}}}}");
+    }
 
     Baselines read() {
         Parsed parsed = parse(all_.source.text);
         if (!parsed.is_json) throw SceneError(describe({all_.source}, std::move(parsed.messages)));
-        messages_ = std::move(parsed.messages);
-        read_root(parsed.root);
-        for (Message& message : diagnostics_.take()) messages_.push_back(std::move(message));
-        if (!messages_.empty()) {
-            std::string report = describe({all_.source}, std::move(messages_));
+        std::vector<Message> messages = std::move(parsed.messages);
+        all_.folder = path_ == "-" ? "references" : fs::path(path_).stem().string();
+        read_object(
+            parsed.root, "the file of baselines", [this](ObjectReader& r) { visit(r, all_); }, messages);
+        all_.references = folder() / (all_.folder.empty() ? "." : all_.folder);
+        for (Baseline& entry : all_.entries)
+            complete(entry, parsed.root.find("entries")->value.find(entry.name)->key_place);
+        if (!messages.empty()) {
+            std::string report = describe({all_.source}, std::move(messages));
             for (const Baseline& entry : all_.entries) report += entry.problem;
             throw SceneError(report);
         }
@@ -55,154 +48,67 @@ class Reader {
   private:
     fs::path folder() const { return path_ == "-" ? fs::path(".") : fs::path(path_).parent_path(); }
 
-    void read_root(const Node& root) {
-        ObjectReader f(diagnostics_, &root, "", "the file of baselines");
-        std::string schema, references = path_ == "-" ? "references" : fs::path(path_).stem().string();
-        f.text("$schema", schema, "Where an editor finds the schema.");
-        f.text("references", references, "Folder of the references.");
-        all_.references = folder() / (references.empty() ? "." : references);
-        if (const Node* node = f.take("tolerance")) read_tolerances(diagnostics_, *node, "tolerance", defaults_);
-        if (const Node* node = f.take("renderers")) read_renderers(*node);
-        if (const Node* node =
-                f.take(sim::required("entries", "{\"fall\": {\"scene\": \"fall.json\", \"output\": {…}}}")))
-            read_entries(*node);
-        f.finish();
-    }
-
-    void read_renderers(const Node& node) {
-        ObjectReader f(diagnostics_, &node, "renderers");
-        if (!f.node()) return;
-        for (const Member& member : node.members) {
-            RendererParts parts;
-            for (const Member& part : member.value.members) parts[part.key] = part.value.text;
-            all_.renderers[member.key] = std::move(parts);
-        }
-    }
-
-    void read_entries(const Node& node) {
-        ObjectReader f(diagnostics_, &node, "entries");
-        if (!f.node()) return;
-        if (node.members.empty()) f.fail(node, "", "entries is empty; add at least one entry");
-        for (const Member& member : node.members) {
-            if (!is_plain_name(member.key))
-                diagnostics_.error(
-                    member.key_place, "entries." + member.key,
-                    fmt::format("{} is the name of files, too: use letters, digits, '-', '_' and '.' only",
-                                in_quotes(member.key)));
-            else
-                read_entry(member);
-        }
-    }
-
-    void read_entry(const Member& member) {
-        const std::string path = "entries." + member.key;
-        ObjectReader f(diagnostics_, &member.value, path);
-        if (!f.node()) return;
-        Baseline entry;
-        entry.name = member.key;
-        std::vector<std::string> overrides;
-        if (const Node* set = f.take("set")) read_overrides(*set, path + ".set", overrides);
-        f.text("file", entry.file, "Pictures of another program, in place of a scene.");
-        f.text("expected", entry.expected, "Expected pictures, in place of accepted digests.");
-        const bool drawn_here = entry.file.empty();
-        const Node *scene = drawn_here ? f.take("scene") : nullptr, *output = drawn_here ? f.take("output") : nullptr;
-        f.boolean("physics", entry.physics, "Whether the motion is compared, too.");
-        Tolerances own;
-        if (const Node* tolerance = f.take("tolerance"))
-            read_tolerances(diagnostics_, *tolerance, path + ".tolerance", own);
-        if (const Node* accepted = f.take("accepted")) read_accepted(*accepted, path + ".accepted", entry.accepted);
-        f.number("reproducible_until", entry.reproducible_until, dimension::kTime, sim::kNotNegative,
-                 "Time up to which the motion is reproducible.");
-        f.finish();
+    // Reads the scene and the output of the entry. A missing scene, or an error in it, concerns its entry only.
+    void complete(Baseline& entry, const Place& place) {
         for (std::string* file : {&entry.file, &entry.expected})
             if (!file->empty()) *file = beside(*file);
-        if (!drawn_here) {
-            entry.tolerances = Tolerances{{0, 0.0, {}, {}, {}}, {}}.overridden_by(defaults_).overridden_by(own);
-            all_.entries.push_back(std::move(entry));
+        const Tolerances given = all_.tolerances.overridden_by(entry.tolerances);
+        if (!entry.file.empty()) {
+            entry.tolerances = Tolerances{{0, 0.0, {}, {}, {}}, {}}.overridden_by(given);
             return;
         }
-        // A missing scene, or an error in it, concerns its entry only.
-        const auto present = [&](const Node* node, const char* key, const char* example) {
-            return node || reject(entry, member.key_place,
-                                  fmt::format("{} needs {}, for example {}", path, in_quotes(key), example));
+        const auto present = [&](const Node& node, const char* key, const char* example) {
+            return !node.is_null() ||
+                   reject(entry, place, "", fmt::format(" needs {}, for example {}", in_quotes(key), example));
         };
-        if (present(scene, "scene", "\"fall.json\"") &&
-            present(output, "output", "{\"type\": \"still\", \"at\": \"0.3 s\"}") &&
-            read_scene_of(*scene, overrides, path, entry) &&
-            read_output_of(*output, path + ".output", scene_file(*scene), entry) &&
+        if (present(entry.scene_key, "scene", "\"fall.json\"") &&
+            present(entry.output_key, "output", "{\"type\": \"still\", \"at\": \"0.3 s\"}") && read_scene_of(entry) &&
+            read_output_of(entry) &&
             (entry.expected.empty() || entry.has_pictures() ||
-             reject(entry, *output, fmt::format("{}.output has no pictures to compare with \"expected\"", path))))
-            entry.tolerances = defaults_for(entry).overridden_by(defaults_).overridden_by(own);
-        all_.entries.push_back(std::move(entry));
+             reject_output(entry, " has no pictures to compare with \"expected\"")))
+            entry.tolerances = defaults_for(entry).overridden_by(given);
     }
 
-    bool reject(Baseline& entry, const Node& node, const std::string& text) { return reject(entry, node.place, text); }
-    bool reject(Baseline& entry, const Place& place, const std::string& text) {
+    // Of the entry, at `key` in it: "entries.NAME.KEY<why>".
+    bool reject(Baseline& entry, const Place& place, const char* key, const std::string& why) {
+        const std::string text = fmt::format("entries.{}{}{}", entry.name, key, why);
         entry.problem += describe({all_.source}, Message{place, text});
         return false;
     }
-
-    void read_overrides(const Node& node, const std::string& path, std::vector<std::string>& overrides) {
-        const bool fine = node.kind == Node::Kind::array &&
-                          std::ranges::all_of(node.items, [](const Node& n) { return n.kind == Node::Kind::string; });
-        if (!fine)
-            return diagnostics_.error(
-                node.place, path,
-                fmt::format("{} must be an array of strings such as \"cam.speed=5\", not {}", path, as_written(node)));
-        for (const Node& item : node.items) overrides.push_back(item.text);
+    bool reject_scene(Baseline& entry, const std::string& why) {
+        return reject(entry, entry.scene_key.place, ".scene", why);
+    }
+    bool reject_output(Baseline& entry, const std::string& why) {
+        return reject(entry, entry.output_key.place, ".output", why);
     }
 
-    void read_accepted(const Node& node, const std::string& path, std::vector<Accepted>& accepted) {
-        if (node.kind != Node::Kind::array)
-            return diagnostics_.error(node.place, path,
-                                      fmt::format("{} must be an array [ … ], not {}", path, as_written(node)));
-        for (std::size_t i = 0; i < node.items.size(); ++i) {
-            ObjectReader f(diagnostics_, &node.items[i], fmt::format("{}.{}", path, i));
-            Accepted one;
-            f.text("renderer", one.renderer, "The renderer of the accepted pictures.");
-            const Node* digests = f.take(sim::required("sha256", "[\"0123…\"]"));
-            f.finish();
-            if (!digests) continue;
-            if (digests->kind != Node::Kind::array || !std::ranges::all_of(digests->items, is_digest)) {
-                f.fail(*digests, "sha256",
-                       fmt::format("{} must be an array of digests, 64 digits 0…9 a…f each; --update writes them",
-                                   f.path("sha256")));
-                continue;
-            }
-            for (const Node& digest : digests->items) one.sha256.push_back(digest.text);
-            accepted.push_back(std::move(one));
-        }
-    }
-
-    // The file of an entry's scene.
-    std::string scene_file(const Node& node) const {
-        if (node.kind != Node::Kind::string) return all_.source.name;
-        return beside(node.text);
-    }
     std::string beside(const std::string& file) const {
         return fs::path(file).is_absolute() ? file : (folder() / file).string();
     }
+    // The file of an entry's scene.
+    std::string scene_file(const Baseline& entry) const {
+        return entry.scene_key.kind == Node::Kind::string ? beside(entry.scene_key.text) : all_.source.name;
+    }
 
     // A file name, relative to this file, or the scene itself.
-    bool read_scene_of(const Node& node, const std::vector<std::string>& overrides, const std::string& path,
-                       Baseline& entry) {
+    bool read_scene_of(Baseline& entry) {
+        const Node& node = entry.scene_key;
         Reading reading;
         if (node.kind == Node::Kind::string) {
             try {
-                reading = read_scene(load_named_source(scene_file(node)), overrides);
+                reading = read_scene(load_named_source(scene_file(entry)), entry.set);
             } catch (const UnreadableFile& error) {
-                return reject(entry, node, fmt::format("{}.scene: {}", path, error.what()));
+                return reject_scene(entry, fmt::format(": {}", error.what()));
             }
         } else if (node.kind == Node::Kind::object) {
-            reading = read_scene({all_.source.name, {}, true}, node, overrides);
+            reading = read_scene({all_.source.name, {}, true}, node, entry.set);
             reading.sources.front() = all_.source;  // the places are those of the whole file
         } else {
-            return reject(
-                entry, node,
-                fmt::format("{}.scene must be a file name or a scene {{ … }}, not {}", path, as_written(node)));
+            return reject_scene(entry,
+                                fmt::format(" must be a file name or a scene {{ … }}, not {}", as_written(node)));
         }
         if (!reading.scene) {
-            reject(entry, node, fmt::format("{}.scene: the scene cannot be read", path));
+            reject_scene(entry, ": the scene cannot be read");
             entry.problem += reading.report();
             return false;
         }
@@ -211,39 +117,33 @@ class Reader {
     }
 
     // The output replaces those of the scene.
-    bool read_output_of(const Node& node, const std::string& path, const std::string& scene_name, Baseline& entry) {
+    bool read_output_of(Baseline& entry) {
+        const Node& node = entry.output_key;
         entry.scene.name = entry.name;
         if (const Member* type = node.find("type"); type && type->value.text == "sweep") {
             entry.is_sweep = true;
             entry.scene.set_outputs({});
             if (node.members.size() > 1)
-                return reject(
-                    entry, node,
-                    fmt::format("{}: the \"sweep\" of the scene describes the sweep; remove the other keys", path));
-            if (!entry.scene.sweep) return reject(entry, node, fmt::format("{}: the scene has no \"sweep\"", path));
-            return true;
+                return reject_output(entry, ": the \"sweep\" of the scene describes the sweep; remove the other keys");
+            return entry.scene.sweep || reject_output(entry, ": the scene has no \"sweep\"");
         }
         using enum PictureOutput::Kind;
         std::vector<Message> messages;
-        const bool fine = read_only_output(node, scene_name, path + ".", entry.scene, messages);
+        const bool fine = read_only_output(node, scene_file(entry), fmt::format("entries.{}.output.", entry.name),
+                                           entry.scene, messages);
         for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
         if (!fine) return false;
-        if (picture_of(entry.output(), video)) {
-            return reject(
-                entry, node,
-                fmt::format("{}: films are compared before they are encoded; write \"type\": \"frames\"", path));
-        }
+        if (picture_of(entry.output(), video))
+            return reject_output(entry, ": films are compared before they are encoded; write \"type\": \"frames\"");
         if (const auto* pictures = std::get_if<PictureOutput>(&entry.output()); pictures && pictures->is_document())
-            return reject(entry, node, fmt::format("{}: this type has no pictures; write \"type\": \"frames\"", path));
+            return reject_output(entry, ": this type has no pictures; write \"type\": \"frames\"");
         if (const PictureOutput* sequence = picture_of(entry.output(), frames)) {
             const double last = sequence->span.to.value_or(entry.scene.end_time);
-            if ((last - sequence->span.from) * sequence->span.fps.value() > kMostPictures) {
-                return reject(
-                    entry, node,
-                    fmt::format("{}: more than {} pictures; use \"from\" and \"to\", or fewer frames a second", path,
-                                kMostPictures));
-            }
+            if ((last - sequence->span.from) * sequence->span.fps.value() > kMostPictures)
+                return reject_output(
+                    entry, fmt::format(": more than {} pictures; use \"from\" and \"to\", or fewer frames a second",
+                                       kMostPictures));
         }
         return true;
     }
@@ -260,9 +160,6 @@ class Reader {
 
     std::string path_;
     Baselines all_;
-    Tolerances defaults_;
-    Diagnostics diagnostics_;
-    std::vector<Message> messages_;
 };
 
 }  // namespace

@@ -6,8 +6,8 @@
 //                              "accepted": [{"renderer": "0123456789ab", "sha256": ["…"]}] } },
 //       "renderers": { "0123456789ab": {"cairo": "1.16.0", …} } }
 //
-// The syntax is that of scenes: comments and trailing commas are allowed. beamcam-baselines.schema.json describes the
-// keys. The program writes `accepted`, `reproducible_until` and `renderers` and leaves the rest of the text unchanged.
+// The syntax is that of scenes: comments and trailing commas are allowed. baseline_keys.cpp describes the keys. The
+// program writes `accepted`, `reproducible_until` and `renderers` and leaves the rest of the text unchanged.
 #pragma once
 
 #include <filesystem>
@@ -28,9 +28,13 @@ struct Accepted {
     std::vector<std::string> sha256;  // of each picture
 };
 
+using RendererParts = std::map<std::string, std::string>;
+
 struct Baseline {
-    std::string name;  // and name of its folder of references
-    Scene scene;       // with the output of the entry; a sweep has none; unused if `file` is given
+    std::string name;              // and name of its folder of references
+    Node scene_key, output_key;    // as the file has them; null: it has none
+    std::vector<std::string> set;  // changes of the scene
+    Scene scene;                   // with the output of the entry; a sweep has none; unused if `file` is given
     bool is_sweep = false;
     // Pictures of another program in place of a scene: a PNG file, a folder, a sequence or a film.
     std::string file;
@@ -50,14 +54,19 @@ struct Baseline {
     const Output& output() const { return scene.outputs.front(); }
 };
 
-using RendererParts = std::map<std::string, std::string>;
+void visit(SceneVisitor& v, Baseline& entry);
 
 struct Baselines {
     Source source;
+    std::string folder;                // of the references, as the file has it
     std::filesystem::path references;  // folder of reference pictures and motions
+    Tolerances tolerances;             // of all entries; each has them, too
     std::vector<Baseline> entries;     // in the order of the file
     std::map<std::string, RendererParts> renderers;
 };
+
+void visit(SceneVisitor& v, Baselines& baselines);
+std::string baselines_schema_text();
 
 // Throws SceneError with every issue at once, UnreadableFile.
 Baselines read_baselines(const std::string& path);

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "output/files/atomic_file.hpp"
 #include "output/files/digest.hpp"
 
@@ -17,17 +19,8 @@ fs::path report_picture(const std::string& entry, long frame, const char* kind) 
     return fs::path(entry) / picture_name(frame, kind);
 }
 
-EntryReferences::EntryReferences(const fs::path& all, std::string entry, ReferenceUpdate& update, Change change)
-    : folder(all / entry), entry_(std::move(entry)), update_(update), change_(change), marked_(marked_files(folder)) {
-    if (change_ == Change::replace) replacement_ = update_.replace(entry_);
-}
-
-fs::path EntryReferences::new_folder() const { return is_replaced() ? replacement_ : update_.extend(entry_); }
-
-void EntryReferences::drop() {
-    if (change_ != Change::none) update_.drop(entry_);
-    change_ = Change::none;
-}
+EntryReferences::EntryReferences(fs::path entry_folder, bool replaced)
+    : folder(std::move(entry_folder)), are_replaced(replaced), marked_(marked_files(folder)) {}
 
 const ReferenceFile* EntryReferences::marked(const std::string& name) const {
     const auto file = marked_.find(name);
@@ -43,15 +36,15 @@ void EntryReferences::read(const std::function<void()>& work) const {
     try {
         work();
     } catch (const output::IoError&) {
-        if (!is_replaced()) throw;
+        if (!are_replaced) throw;
     }
 }
 
-output::Target EntryReport::file(const std::string& name) const {
+output::Target TestedFiles::file(const std::string& name) const {
     const fs::path path = *folder / entry / name;
     output::require_within(path, *folder);
     output::ensure_directory(path.parent_path());
-    output::Target target = files.target(path);
+    output::Target target = report ? report->target(path) : output::Target(path);
     target.within = *folder;
     return target;
 }

@@ -1,4 +1,4 @@
-// The files of one entry during a test: its accepted references, their update, and its part of the report; and what
+// The files of one entry during a test: its accepted references, and the pictures and motions of the test; and what
 // else belongs to the entry.
 #pragma once
 
@@ -20,20 +20,8 @@ std::filesystem::path report_picture(const std::string& entry, long frame, const
 
 class EntryReferences {
   public:
-    // The effect of the test on the references: nothing, replace all files, or add pictures of a new renderer.
-    enum class Change { none, replace, add };
-
-    // Throws IoError for a damaged marker, WouldOverwrite where the files may not be replaced.
-    EntryReferences(const std::filesystem::path& all, std::string entry, ReferenceUpdate& update, Change change);
-
-    bool is_replaced() const { return change_ == Change::replace; }
-    bool is_extended() const { return change_ == Change::add; }
-    // The directory for new files. From any thread.
-    std::filesystem::path new_folder() const;
-    // Files that the update does not replace are kept.
-    void keep_others() { update_.extend(entry_); }
-    // The references stay unchanged.
-    void drop();
+    // `replaced`: the test replaces them. Throws IoError for a damaged marker.
+    EntryReferences(std::filesystem::path entry_folder, bool replaced);
 
     // The entry of a file in the marker; null: it is not listed.
     const ReferenceFile* marked(const std::string& name) const;
@@ -43,21 +31,20 @@ class EntryReferences {
     void read(const std::function<void()>& work) const;
 
     const std::filesystem::path folder;
+    const bool are_replaced;
 
   private:
-    const std::string entry_;
-    ReferenceUpdate& update_;
-    Change change_;
     const ReferenceFiles marked_;
-    std::filesystem::path replacement_;
 };
 
-struct EntryReport {
-    std::optional<std::filesystem::path> folder;  // of all entries; absent: there is no report
-    output::Manifest& files;
+// Pictures and motions of the test: those that differ, for a report or to be accepted.
+struct TestedFiles {
+    std::optional<std::filesystem::path> folder;  // of all entries; absent: none are written
+    output::Manifest* report;                     // null: the folder is no report
     std::string entry;
+    bool all;  // also those that do not differ
 
-    // A file of the entry; there must be a report.
+    // A file of the entry; there must be a folder.
     output::Target file(const std::string& name) const;
 };
 
@@ -68,7 +55,7 @@ struct EntryContext {
     const std::string renderer;  // id of what draws it
     const Tolerance tolerance;
     EntryReferences references;
-    const EntryReport report;
+    const TestedFiles tested;
 };
 
 }  // namespace beamcam::scenes

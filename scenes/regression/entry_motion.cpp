@@ -76,10 +76,10 @@ bool records_all_channels(const Baseline& entry) {
 
 void EntryMotion::judge(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
                         std::optional<double> reproducible_until) {
-    if (test_.references.is_replaced() || reproducible_until)
+    if (test_.references.are_replaced || reproducible_until)
         test_.result.reproducible_until = std::min(until, reproducible_until.value_or(until));
     judge_record(RecordNames(0), "", table, impacts, until, test_.entry.reproducible_until.value_or(until));
-    if (test_.references.is_replaced() && test_.result.reproducible_until < until)
+    if (test_.references.are_replaced && test_.result.reproducible_until < until)
         test_.result.motion_lines.push_back(
             fmt::format("compared until {:.6g} s of {:.6g} s: after that it is not reproducible on other processors; a "
                         "sweep guards its statistics",
@@ -88,7 +88,7 @@ void EntryMotion::judge(const sim::Table& table, const std::vector<sim::Impact>&
 
 sim::TableRequest EntryMotion::compared_table(std::size_t index, const sim::Problem& problem, double until) const {
     sim::TableRequest request = motion_behind_picture(problem, until);
-    if (test_.references.is_replaced()) return request;
+    if (test_.references.are_replaced) return request;
     if (const auto expected = read_record(test_.references.folder, RecordNames(index + 1)))
         if (const std::vector<double>* t = expected->table.find("t")) request.times = *t;
     return request;
@@ -96,7 +96,7 @@ sim::TableRequest EntryMotion::compared_table(std::size_t index, const sim::Prob
 
 void EntryMotion::judge_compared(std::size_t index, const std::string& label, sim::Table table,
                                  const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until) {
-    if (test_.references.is_replaced() && reproducible_until) cut(table, *reproducible_until);
+    if (test_.references.are_replaced && reproducible_until) cut(table, *reproducible_until);
     const double until = table.values.front().back();
     judge_record(RecordNames(index + 1), label + ": ", table, impacts, until, until);
 }
@@ -111,7 +111,7 @@ void EntryMotion::judge_sweep(int threads, Progress& progress) {
                            test_.entry.scene.problem),
             "", {kSweepRecord});
     });
-    if (!test_.references.is_replaced() && !is_reported()) return;
+    if (!is_stored()) return;
     const std::vector<bool> uncertain = uncertain_points(sweep, test_.tolerance, threads, progress);
     const auto count = std::ranges::count(uncertain, true);
     if (count > 0)
@@ -125,14 +125,11 @@ void EntryMotion::judge_sweep(int threads, Progress& progress) {
           [&](const Files& file) { output::write_sweep(file(kSweepRecord), without_points(sweep.data(), uncertain)); });
 }
 
-// Writes files among the new references, and into the report if the motion differs, for `beamcam accept`.
 void EntryMotion::store(const std::vector<std::string>& names, const std::function<void(const Files&)>& write) {
-    if (test_.references.is_replaced())
-        write([&](const std::string& name) { return test_.references.new_folder() / name; });
-    if (!is_reported()) return;
-    write([&](const std::string& name) { return test_.report.file(name); });
+    if (!is_stored()) return;
+    write([&](const std::string& name) { return test_.tested.file(name); });
     for (const std::string& name : names)
-        test_.result.motion_files[name] = output::sha256_of_file(*test_.report.folder / test_.entry.name / name);
+        test_.result.motion_files[name] = output::sha256_of_file(*test_.tested.folder / test_.entry.name / name);
 }
 
 void EntryMotion::judge_record(const RecordNames& names, const std::string& label, const sim::Table& table,

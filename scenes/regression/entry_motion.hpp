@@ -36,7 +36,9 @@ class EntryMotion {
   private:
     using Files = std::function<output::Target(const std::string& name)>;
 
-    bool is_reported() const { return test_.report.folder && *test_.result.motion > Verdict::equivalent; }
+    bool is_stored() const {
+        return test_.tested.folder && (test_.tested.all || *test_.result.motion > Verdict::equivalent);
+    }
     void store(const std::vector<std::string>& names, const std::function<void(const Files&)>& write);
     void judge_record(const RecordNames& names, const std::string& label, const sim::Table& table,
                       const std::vector<sim::Impact>& impacts, double until, double horizon);

@@ -62,6 +62,7 @@ void EntryPictures::judge(long frame, const output::Raster& picture) {
         compare_with_expected(frame, picture, result);
     else
         compare_with_accepted(frame, picture, result);
+    write_actual(frame, picture, result);
     const std::lock_guard lock(mutex_);
     test_.result.frames[frame] = std::move(result);
 }
@@ -75,7 +76,7 @@ void EntryPictures::compare_with_expected(long frame, const output::Raster& actu
     result.expected = test_.entry.expected;
     if (!expected) {
         result.verdict = Verdict::different;
-        return report_actual(frame, actual, result);
+        return;
     }
     result.compared = true;
     if (output::digest(*expected) == result.sha256) return;
@@ -93,21 +94,8 @@ void EntryPictures::compare_with_accepted(long frame, const output::Raster& actu
             result.expected = test_.references.folder / name;
             result.reference_accepted = false;
             result.verdict = Verdict::different;
-            report_actual(frame, actual, result);
         }
     });
-    write_reference(frame, actual, result);
-}
-
-// An update stores all pictures; a new renderer adds those that differ from the pictures of the first renderer.
-void EntryPictures::write_reference(long frame, const output::Raster& actual, const FrameResult& result) {
-    if (test_.references.is_replaced()) {
-        output::write_png(test_.references.new_folder() / picture_name(frame), output::to_image(actual));
-    } else if (test_.references.is_extended()) {
-        if (test_.entry.is_of_first_renderer(frame, result.sha256)) return;
-        output::write_png(test_.references.new_folder() / picture_name(frame, test_.renderer),
-                          output::to_image(actual));
-    }
 }
 
 bool EntryPictures::is_within_tolerance(const PictureComparison& comparison) const {
@@ -144,7 +132,7 @@ fs::path EntryPictures::reference_of(long frame) const {
 
 void EntryPictures::compare_with_reference(long frame, const output::Raster& actual, FrameResult& result) {
     const fs::path reference = reference_of(frame);
-    if (!output::path_exists(reference)) return report_actual(frame, actual, result);
+    if (!output::path_exists(reference)) return;
     const output::Raster expected = output::read_png(reference);
     result.expected = reference;
     result.compared = true;
@@ -155,31 +143,25 @@ void EntryPictures::compare_with_reference(long frame, const output::Raster& act
     report_difference(frame, expected, actual, result);
 }
 
-void EntryPictures::report_actual(long frame, const output::Raster& actual, FrameResult& result) {
-    if (test_.report.folder) result.actual = report(frame, "actual", actual);
+void EntryPictures::write_actual(long frame, const output::Raster& actual, FrameResult& result) {
+    if (!test_.tested.folder || (result.verdict == Verdict::identical && !test_.tested.all)) return;
+    const fs::path file = write(frame, "actual", actual);
+    if (test_.tested.report) result.actual = file;
 }
 
 void EntryPictures::report_difference(long frame, const output::Raster& expected, const output::Raster& actual,
                                       FrameResult& result) {
-    if (!test_.report.folder) return;
-    report_actual(frame, actual, result);
-    report(frame, "expected", expected);
+    if (!test_.tested.report) return;
+    write(frame, "expected", expected);
     if (!result.comparison.same_size()) return;
     const int threshold = result.comparison.difference.changed > 0 ? test_.tolerance.channel.value_or(0) : 0;
-    result.difference = report(frame, "difference", output::difference_picture(expected, actual, threshold));
+    result.difference = write(frame, "difference", output::difference_picture(expected, actual, threshold));
 }
 
-fs::path EntryPictures::report(long frame, const char* kind, const output::Raster& picture) {
-    const output::Target target = test_.report.file(report_picture(test_.entry.name, frame, kind).filename().string());
+fs::path EntryPictures::write(long frame, const char* kind, const output::Raster& picture) {
+    const output::Target target = test_.tested.file(report_picture(test_.entry.name, frame, kind).filename().string());
     output::write_file(target, output::encode_png(output::to_image(picture)), output::Durability::buffered);
     return target.path;
-}
-
-std::map<std::string, std::string> EntryPictures::new_pictures(bool all) const {
-    std::map<std::string, std::string> digests;
-    for (const auto& [number, frame] : test_.result.frames)
-        digests[picture_name(number, all ? "" : test_.renderer)] = frame.sha256;
-    return digests;
 }
 
 void EntryPictures::conclude() {

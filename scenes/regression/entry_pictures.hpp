@@ -23,8 +23,6 @@ class EntryPictures {
     void judge(long frame, const render::Image& image);
     void judge(long frame, const output::Raster& picture);
     void conclude();  // after all are judged
-    // Digests of the new reference pictures by file name: of all pictures, or of those of this renderer alone.
-    std::map<std::string, std::string> new_pictures(bool all) const;
 
   private:
     void compare_with_expected(long frame, const output::Raster& actual, FrameResult& result);
@@ -33,12 +31,11 @@ class EntryPictures {
     bool is_accepted(long frame, const std::string& digest) const;
     std::string unaccepted_reference(long frame) const;
     std::filesystem::path reference_of(long frame) const;
-    void write_reference(long frame, const output::Raster& actual, const FrameResult& result);
     void compare_with_reference(long frame, const output::Raster& actual, FrameResult& result);
-    void report_actual(long frame, const output::Raster& actual, FrameResult& result);
+    void write_actual(long frame, const output::Raster& actual, FrameResult& result);
     void report_difference(long frame, const output::Raster& expected, const output::Raster& actual,
                            FrameResult& result);
-    std::filesystem::path report(long frame, const char* kind, const output::Raster& picture);
+    std::filesystem::path write(long frame, const char* kind, const output::Raster& picture);
     std::string message(const ChangedFrames& changed) const;
 
     const EntryContext& test_;

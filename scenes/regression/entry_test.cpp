@@ -36,12 +36,20 @@ bool is_new_renderer(const Baseline& entry, const std::string& id) {
            std::ranges::find(entry.accepted, id, &Accepted::renderer) == entry.accepted.end();
 }
 
-// Pictures that are compared with a file of the user are never replaced.
-EntryReferences::Change change_of(const Baseline& entry, const RegressionOptions& options,
-                                  const std::string& renderer) {
-    using enum EntryReferences::Change;
-    if (!options.update.empty()) return entry.expected.empty() || entry.has_motion() ? replace : none;
-    return options.adds() && entry.expected.empty() && is_new_renderer(entry, renderer) ? add : none;
+// An update of the entry replaces its references.
+bool is_replaced(const Baseline& entry, const RegressionOptions& options) {
+    return !options.update.empty() && (entry.expected.empty() || entry.has_motion());
+}
+
+// Where pictures and motions of the test are written, if anything needs them.
+TestedFiles tested_files(const Baseline& entry, const RegressionOptions& options, const std::string& renderer,
+                         ReferenceUpdate& update, output::Manifest& report) {
+    const bool replaced = is_replaced(entry, options);
+    if (options.report) return {options.report, &report, entry.name, replaced};
+    if (!replaced && !(options.adds() && entry.expected.empty() && is_new_renderer(entry, renderer)))
+        return {{}, nullptr, entry.name, false};
+    update.begin();
+    return {update.tested(), nullptr, entry.name, replaced};
 }
 
 }  // namespace
@@ -56,10 +64,11 @@ EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const Re
             result,
             renderer.id(),
             entry.tolerances.overridden_by({options.tolerance, {}}).of(renderer.id()),
-            {baselines.references, entry.name, update, change_of(entry, options, renderer.id())},
-            {options.report, report_files, entry.name}},
+            {baselines.references / entry.name, is_replaced(entry, options)},
+            tested_files(entry, options, renderer.id(), update, report_files)},
       pictures_(test_),
       motion_(test_) {
+    if (is_updated()) update.require_replaceable(entry.name);
     if (entry.has_pictures()) test_.result.picture = Verdict::identical;
     if (entry.has_motion()) test_.result.motion = Verdict::identical;
 }
@@ -163,7 +172,6 @@ void EntryTest::fail(const std::string& reason, Verdict verdict, int exit_code) 
     test_.result.exit_code = exit_code;
     test_.result.frames.clear();  // a report of them must not be accepted
     test_.result.motion_files.clear();
-    test_.references.drop();
 }
 
 bool EntryTest::attempt(const std::function<void()>& work) {
@@ -214,25 +222,15 @@ std::string EntryTest::renderer_message() const {
     return text + "; check the picture, then use --add-digest";
 }
 
-std::optional<BaselineEdit> EntryTest::edit() {
-    if (is_updated()) {
-        if (has_new_motion_only(test_.entry, test_.result)) {
-            for (const auto& [number, frame] : test_.result.frames)
-                fs::remove(test_.references.new_folder() / picture_name(number));
-            test_.references.keep_others();
-        }
-        test_.result.updated = true;
-        return acceptance_of(test_.entry, test_.result, true);
-    }
-    const bool added = options_.add_digest ? has_new_renderer_ || test_.result.picture == Verdict::equivalent
-                                           : test_.result.picture == Verdict::new_renderer &&
-                                                 options_.rule.new_renderer == NewRenderer::accept;
-    if (!added || !test_.entry.expected.empty()) {
-        test_.references.drop();
-        return std::nullopt;
-    }
-    test_.result.digest_added = true;
-    return acceptance_of(test_.entry, test_.result, false);
+bool EntryTest::accept() {
+    EntryResult& result = test_.result;
+    if (result.exit_code != 0) return false;
+    result.updated = is_updated();
+    if (result.updated || !test_.entry.expected.empty()) return result.updated;
+    result.digest_added = options_.add_digest ? has_new_renderer_ || result.picture == Verdict::equivalent
+                                              : result.picture == Verdict::new_renderer &&
+                                                    options_.rule.new_renderer == NewRenderer::accept;
+    return result.digest_added;
 }
 
 }  // namespace beamcam::scenes

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <functional>
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "output/data/manifest.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/plan/plan.hpp"
-#include "scenes/regression/baseline_edit.hpp"
 #include "scenes/regression/entry_motion.hpp"
 #include "scenes/regression/entry_pictures.hpp"
 #include "scenes/regression/regression.hpp"
@@ -27,7 +25,7 @@ class EntryTest {
               EntryResult& result);
 
     const Baseline& entry() const { return test_.entry; }
-    bool is_updated() const { return test_.references.is_replaced(); }
+    bool is_updated() const { return test_.references.are_replaced; }
     EntryResult& result() { return test_.result; }
 
     // An entry with a motion: plans it. The plan is its own, so that the pictures do not depend on other entries; it
@@ -45,15 +43,13 @@ class EntryTest {
     // If no picture of this renderer is accepted and nothing else is wrong with the entry, similar pictures get the
     // verdict new_renderer.
     void judge_renderer();
-    // The change of the baselines file, if this entry changes it.
-    std::optional<BaselineEdit> edit();
-    // Digests of the new reference pictures by file name, after `edit`.
-    std::map<std::string, std::string> new_pictures() const { return pictures_.new_pictures(is_updated()); }
+    // Whether the result is accepted, which it records.
+    bool accept();
 
   private:
     bool needs_motion() const { return test_.result.motion.has_value(); }
     // Acceptance depends on the horizon to which the motion is reproducible.
-    bool needs_horizon() const { return is_updated() || test_.report.folder; }
+    bool needs_horizon() const { return is_updated() || test_.tested.report; }
     void request_record();
     void request_compared_records();
     // The picture shows the motion until `until`. If the motion is not reproducible so long, another processor draws

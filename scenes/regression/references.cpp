@@ -15,7 +15,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kMarker = ".beamcam-reference", *kMarkerFormat = "beamcam reference 1";
-constexpr const char* kStaging = ".beamcam-update";
+constexpr const char *kStaging = ".beamcam-update", *kTested = "tested";
 
 [[noreturn]] void fail(const fs::path& file, const char* why) {
     throw output::WouldOverwrite(fmt::format("{} {}; move it, or replace it with --force", file.string(), why));
@@ -103,7 +103,7 @@ ReferenceUpdate::~ReferenceUpdate() {
     if (!fs::exists(staging_ / kUpdateTasks, ignored)) remove_staging(staging_, ignored);
 }
 
-void ReferenceUpdate::start() {
+void ReferenceUpdate::begin() {
     if (journal_) return;
     output::ensure_directory(references_);
     const output::Descriptor lock = output::locked_directory(references_);
@@ -118,33 +118,32 @@ fs::path ReferenceUpdate::staged(const std::string& entry) const { return stagin
 fs::path ReferenceUpdate::replace(const std::string& entry) { return open(entry, false); }
 fs::path ReferenceUpdate::extend(const std::string& entry) { return open(entry, true); }
 
-fs::path ReferenceUpdate::open(const std::string& entry, bool keeps_others) {
-    const std::lock_guard lock(mutex_);
-    start();
+fs::path ReferenceUpdate::tested() const { return staging_ / kTested; }
+
+void ReferenceUpdate::require_replaceable(const std::string& entry) const {
     const fs::path folder = folder_of(entry);
     std::error_code error;
     if (fs::is_symlink(folder, error)) fail(folder, "is a symbolic link");
-    if (output::path_exists(folder)) {
-        if (!fs::is_directory(folder)) fail(folder, "is not a directory");
-        if (!output::path_exists(folder / kMarker) && !force_ && !fs::is_empty(folder))
-            fail(folder, "is not a folder of references that beamcam made");
-        for (const auto& [name, file] : marked_files(folder))
-            if (const std::string now = digest_of(folder / name); !force_ && !now.empty() && now != file.sha256)
-                fail(folder / name, "was changed after beamcam made it");
-    }
+    if (!output::path_exists(folder)) return;
+    if (!fs::is_directory(folder)) fail(folder, "is not a directory");
+    if (force_) return;
+    if (!output::path_exists(folder / kMarker) && !fs::is_empty(folder))
+        fail(folder, "is not a folder of references that beamcam made");
+    for (const auto& [name, file] : marked_files(folder))
+        if (const std::string now = digest_of(folder / name); !now.empty() && now != file.sha256)
+            fail(folder / name, "was changed after beamcam made it");
+}
+
+fs::path ReferenceUpdate::open(const std::string& entry, bool keeps_others) {
+    begin();
+    require_replaceable(entry);
     output::ensure_directory(staged(entry));
     entries_[entry] = keeps_others;
     return staged(entry);
 }
 
-void ReferenceUpdate::drop(const std::string& entry) {
-    const std::lock_guard lock(mutex_);
-    entries_.erase(entry);
-}
-
 bool ReferenceUpdate::commit(const std::string& expected, const std::string& text,
                              const std::map<std::string, std::map<std::string, std::string>>& pixels) {
-    const std::lock_guard lock(mutex_);
     UpdateTasks tasks{fs::relative(baselines_, references_), output::sha256(expected), output::sha256(text), {}};
     for (const auto& [entry, keeps_others] : entries_) add_tasks(entry, keeps_others, pixels.at(entry), tasks.files);
     if (output::read_file(baselines_) != expected) fail(baselines_, "was changed during the update");

@@ -11,6 +11,8 @@
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
+#include "scenes/regression/acceptance.hpp"
+#include "scenes/regression/baseline_edit.hpp"
 #include "scenes/regression/entry_test.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/base/clock.hpp"
@@ -153,25 +155,20 @@ class Regression {
     }
 
     void change_baselines() {
-        std::vector<BaselineEdit> edits;
-        std::map<std::string, std::map<std::string, std::string>> pictures;
+        const bool updates = !options_.update.empty();
+        Acceptance acceptance(baselines_, update_, options_.report ? *options_.report : update_.tested(), updates);
         for (const auto& test : tests_) {
             EntryResult& result = test->result();
-            if (result.picture &&
-                (test->is_updated() || (result.picture > Verdict::identical && result.exit_code == 0))) {
+            if (result.picture && (test->is_updated() || result.picture > Verdict::identical) &&
+                result.exit_code == 0) {
                 const Fingerprint& renderer = fingerprints_.at(renderer_of(test->entry()));
                 result.renderer = renderer.id();
                 result_.renderers[result.renderer] = renderer.parts;
             }
             test->judge_renderer();
-            auto change = test->edit();
-            if (!change) continue;
-            edits.push_back(std::move(*change));
-            pictures[result.name] = test->new_pictures();
+            if (test->accept()) acceptance.accept(test->entry(), result, updates);
         }
-        if (edits.empty()) return;
-        result_.changed =
-            update_.commit(baselines_.source.text, edited(baselines_, edits, result_.renderers), pictures);
+        result_.changed = acceptance.commit(result_.renderers);
         if (result_.changed) return;
         for (EntryResult& entry : result_.entries) entry.updated = false;
     }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "scenes/format/object_reader.hpp"
+#include "scenes/format/keys.hpp"
 
 namespace beamcam::scenes {
 
@@ -31,8 +31,8 @@ struct Tolerances {
     const Tolerance& of(const std::string& renderer) const;
 };
 
-// Reads the object `node`, which is at `path`.
-void read_tolerances(Diagnostics& diagnostics, const Node& node, const std::string& path, Tolerances& tolerances);
+void visit(SceneVisitor& v, Tolerance& tolerance);  // of pictures
+void visit(SceneVisitor& v, Tolerances& tolerances);
 
 // The tolerance that `key=value` texts of --tolerance give. Throws UsageError.
 Tolerance tolerance_argument(const std::vector<std::string>& texts);

@@ -17,8 +17,9 @@ using ::testing::HasSubstr;
 TEST(Baselines, TheSchemaAndTheReaderAgree) {
     SKIP_UNDER_SANITIZERS();
     const Guarded folder;
-    folder.update();
-    const std::string whole = slurp(folder / "b.json");
+    EXPECT_EQ(shell(folder, "$BEAMCAM schema --baselines").out,
+              slurp(BEAMCAM_TEST_DIR "/../scenes/beamcam-baselines.schema.json"))
+        << "after a change of keys: beamcam schema --baselines > scenes/beamcam-baselines.schema.json";
     const std::pair<const char*, bool> cases[] = {
         {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}})", true},
         {R"({"entries": {"a": {"scene": {}, "set": ["gravity=9"], "physics": false, "tolerance": {"channel": 3, "share": 0.1, "motion": 0, "impacts": 1}, "output": {"type": "still", "at": 0}}}, "x-note": 1})",
@@ -45,7 +46,10 @@ TEST(Baselines, TheSchemaAndTheReaderAgree) {
          false},
         {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}, "reproducible_until": -1}}})",
          false},
-        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}, "referenzes": "x"})", false}};
+        {R"({"entries": {"a": {"scene": "s.json", "output": {"type": "still", "at": 0}}}, "referenzes": "x"})", false},
+        {R"({"entries": {"a": {"scene": {}, "output": {"type": "still", "at": 0}, "tolerance": {"share": "5 %"}}}})",
+         true},
+        {R"({"entries": {"a": {"scene": {}, "output": {"type": "still", "at": 0}, "file": "a.png"}}})", false}};
     for (const auto& [text, valid] : cases) {
         folder.write("c.json", text);
         const Finished read = shell(folder, "$BEAMCAM test c.json -q --report r");
@@ -68,7 +72,13 @@ TEST(Baselines, EditsKeepEveryOtherByte) {
     folder.write("b.json", text);
     const Baselines baselines = read_baselines((folder / "b.json").string());
     const std::string digest(64, 'a');
-    const std::string changed = edited(baselines, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}});
+    const auto with_digest = [&digest](Baselines all) {
+        all.entries.front().accepted = {{"r1", {digest}}};
+        all.entries.front().reproducible_until = 0.25;
+        all.renderers = {{"r1", {{"cairo", "1.16"}}}, {"unused", {{"cairo", "1.17"}}}};
+        return all;
+    };
+    const std::string changed = edited(baselines, with_digest(baselines));
     folder.write("b.json", changed);
     const Baselines again = read_baselines((folder / "b.json").string());
     EXPECT_EQ(again.entries.front().accepted.front().sha256, std::vector<std::string>{digest});
@@ -76,7 +86,8 @@ TEST(Baselines, EditsKeepEveryOtherByte) {
     EXPECT_EQ(again.renderers.at("r1").at("cairo"), "1.16");
     for (const char* kept : {"{ // head\n", "// why\n", "\"x-note\": \"a } in text\""})
         EXPECT_THAT(changed, HasSubstr(kept));
-    EXPECT_EQ(edited(again, {{"a", {{"r1", {digest}}}, 0.25}}, {{"r1", {{"cairo", "1.16"}}}}), changed);
+    EXPECT_EQ(edited(again, with_digest(again)), changed);
+    EXPECT_EQ(edited(baselines, baselines), text);
 }
 
 // The tolerance of an entry overrides that of all entries; that of a renderer overrides the common one.
@@ -99,6 +110,13 @@ TEST(Baselines, TolerancesOfRenderersAreOverThoseOfTheSamePlace) {
     EXPECT_EQ(b.of("ba9876543210").motion, 2e-5);
     const Tolerances command_line = b.overridden_by({{1, {}, {}, {}, {}}, {}});
     EXPECT_EQ(command_line.of("ba9876543210").channel, 1);
+}
+
+TEST(Baselines, AMissingFileIsExplained) {
+    const Folder folder;
+    const Finished finished = shell(folder, "$BEAMCAM test none.json");
+    EXPECT_EQ(finished.code, 6);
+    EXPECT_THAT(finished.err, HasSubstr("none.json does not exist; a file of baselines lists what to test"));
 }
 
 TEST(Baselines, PicturesAreExpectedOfPicturesOnly) {
