@@ -49,7 +49,7 @@ bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel
     best.value = most - best.left_out;
     const auto estimate = [&](double t) { return step_.estimate(s, t); };
     const Samples samples = step_.estimates(s, channel);
-    return climb_step(estimate, step_.variation_of_estimate(s, channel, samples), s, channel, samples, best) &&
+    return climb_step(estimate, step_.variation_of_modes(s, channel, samples), s, channel, samples, best) &&
            best.value <= most;
 }
 

@@ -322,21 +322,19 @@ Variation StepChannels::variation_by_nodes(const SegmentInterval& s, Channel cha
     return out;
 }
 
-// A polynomial through nodes also follows, much too steeply, vibrations that they do not resolve.
-Variation StepChannels::closer_by_modes(Channel channel, const Variation& by_nodes, double length) const {
-    Variation by_modes;
-    const bool closer = modal_channels_.vary_by_modes(channel, by_modes) &&
-                        by_modes.strays(kWidestNodeGap * length) < by_nodes.strays(kWidestNodeGap * length);
-    return closer ? by_modes : by_nodes;
-}
-
 Variation StepChannels::variation(const SegmentInterval& s, Channel channel, const Samples& values) const {
-    const Variation by_nodes = variation_by_nodes(s, channel, values);
-    return channel.kind == ChannelKind::q ? closer_by_modes(channel, by_nodes, s.to - s.from) : by_nodes;
+    if (channel.kind == ChannelKind::q) return variation_of_modes(s, channel, values);
+    return variation_by_nodes(s, channel, values);
 }
 
-Variation StepChannels::variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const {
-    return closer_by_modes(channel, variation_by_nodes(s, channel, values), s.to - s.from);
+// A polynomial through nodes also follows, much too steeply, vibrations that they do not resolve.
+Variation StepChannels::variation_of_modes(const SegmentInterval& s, Channel channel, const Samples& values) const {
+    const Variation by_nodes = variation_by_nodes(s, channel, values);
+    Variation by_modes;
+    const double length = kWidestNodeGap * (s.to - s.from);
+    const bool closer =
+        modal_channels_.vary_by_modes(channel, by_modes) && by_modes.strays(length) < by_nodes.strays(length);
+    return closer ? by_modes : by_nodes;
 }
 
 ModalChannels::Range StepChannels::range(const SegmentInterval& s, Channel channel) {

@@ -57,8 +57,8 @@ class StepChannels {
     Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
     Variation variation(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    // The same of `estimates`.
-    Variation variation_of_estimate(const SegmentInterval& s, Channel channel, const Samples& values) const;
+    // The same of q, or of `estimates`: of sums of modes.
+    Variation variation_of_modes(const SegmentInterval& s, Channel channel, const Samples& values) const;
     // The mode that the channel is, or almost is, in closed form if it has one.
     std::optional<UndampedMode> undamped_mode(Channel channel) const { return modal_channels_.undamped_mode(channel); }
     // Bounds of the channel from its values at the ends; if it depends on a bristle, which no mode is, from samples.
@@ -80,7 +80,6 @@ class StepChannels {
     Instant& at(const SegmentInterval& s, double t);
     const double* beam(const SegmentInterval& s, double t);
     Variation variation_by_nodes(const SegmentInterval& s, Channel channel, const Samples& values) const;
-    Variation closer_by_modes(Channel channel, const Variation& by_nodes, double length) const;
     double value_at(double t, Channel channel, Instant& shared);
     void share_contact(double t, Instant& shared);
     double share_hub_acceleration(Instant& shared);

@@ -76,7 +76,7 @@ TEST(StepChannels, EstimatesKeepTheirError) {
                 const StepChannels::Samples samples = step.estimates(s, c);
                 for (std::size_t k = 0; k < samples.size(); ++k)
                     EXPECT_NEAR(samples[k], step.estimate(s, sample_time(s, k)), 1e-8 * (most + std::fabs(samples[k])));
-                const Variation variation = step.variation_of_estimate(s, c, samples);
+                const Variation variation = step.variation_of_modes(s, c, samples);
                 for (std::size_t k = 0; k + 1 < samples.size(); ++k) {
                     const double from = sample_time(s, k), length = sample_time(s, k + 1) - from;
                     const double stray = kSlack * variation.strays(length) + 1e-8 * (most + std::fabs(samples[k]));
