@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstdlib>
 #include <deque>
-#include <filesystem>
 #include <functional>
 #include <iostream>
 #include <span>
@@ -18,21 +17,15 @@
 #include <variant>
 #include <vector>
 
-#include "output/files/errors.hpp"
 #include "output/files/interrupt.hpp"
 #include "output/files/standard_output.hpp"
 #include "output/film/video.hpp"
 #include "output/json/source.hpp"
 #include "output/json/tree.hpp"
-#include "render/base/error.hpp"
-#include "render/base/limits.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/commands/commands.hpp"
-#include "scenes/format/reader.hpp"
 #include "scenes/format/suggest.hpp"
-#include "scenes/outputs/run.hpp"
 #include "scenes/scene/version.hpp"
-#include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
 namespace {

@@ -28,26 +28,18 @@ bool is_one_of(const std::exception& e) {
     return (dynamic_cast<const Errors*>(&e) || ...);
 }
 
-Failure failure_of(const std::exception& e);
-
-// Some outputs could not be written: the exit code is that of the first of them.
-Failure incomplete(const std::exception& e) {
-    try {
-        std::rethrow_if_nested(e);
-    } catch (const std::exception& cause) {
-        return {failure_of(cause).code, e.what()};
-    }
-    return {kBug, e.what()};
-}
-
 Failure failure_of(const std::exception& e) {
     const std::string text = e.what();
+    try {
+        std::rethrow_if_nested(e);
+    } catch (const std::exception& first) {  // of the outputs that could not be written
+        return {failure_of(first).code, text};
+    }
     if (is_one_of<UsageError, NameClash>(e)) return {kUsage, text, false};
     if (is_one_of<SceneError>(e)) return {kBadScene, text, false};
     if (is_one_of<UnreadableFile, render::PerhapsOutOfMemory>(e)) return {kInputOutput, text, false};
     if (is_one_of<std::bad_alloc>(e)) return {kInputOutput, render::out_of_memory_message(), false};
     if (is_one_of<sim::Interrupted>(e)) return {kInterrupted, "interrupted; no output is half-written", false};
-    if (is_one_of<Incomplete>(e)) return incomplete(e);
     if (is_one_of<output::UnsupportedOption, render::PictureError>(e)) return {kBadScene, text};
     if (const auto* solver = dynamic_cast<const sim::SolverError*>(&e))
         return {kSolverFailed, fmt::format("{} (reached {:.9g} s)", text, solver->last_time)};

@@ -6,7 +6,6 @@
 #include <set>
 
 #include "output/files/numbers.hpp"
-#include "output/files/standard_output.hpp"
 #include "output/json/tree.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/format/keys.hpp"

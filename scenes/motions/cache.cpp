@@ -155,13 +155,15 @@ void Cache::drop(const std::string& key) const {
 // ---- writing ---------------------------------------------------------------------------------------
 
 Cache::Entry::Entry(const Cache& cache, std::string key) : cache_(cache), key_(std::move(key)) {
-    try {
+    attempt([&] {
         if (cache_.limit_ == 0) throw output::IoError("the cache is turned off");
         output::ensure_directory(cache_.directory_);
         file_ = std::make_unique<output::AtomicFile>(cache_.path_of(key_));
-    } catch (const std::exception& error) {
-        give_up(error.what());
-    }
+    });
+}
+
+void Cache::Entry::attempt(const std::function<void()>& work) try { work(); } catch (const std::exception& error) {
+    give_up(error.what());
 }
 
 void Cache::Entry::give_up(std::string reason) {
@@ -179,11 +181,7 @@ void Cache::Entry::add(std::span<const double> numbers) {
         return give_up(fmt::format("it is larger than half of the cache of {} MiB, which BEAMCAM_CACHE_SIZE enlarges",
                                    cache_.limit_ / kMiB));
     sum_ = output::crc32(sum_, numbers.data(), numbers.size_bytes());
-    try {
-        file_->write(output::bytes_of(numbers));
-    } catch (const std::exception& error) {
-        give_up(error.what());
-    }
+    attempt([&] { file_->write(output::bytes_of(numbers)); });
 }
 
 bool Cache::Entry::commit(double end, long steps, const std::string& about) {
@@ -201,14 +199,12 @@ bool Cache::Entry::commit(double end, long steps, const std::string& about) {
     t.count = count_;
     t.numbers = sum_;
     t.trailer = checksum(t);
-    try {
+    attempt([&] {
         file_->write(output::bytes_of(std::span(&t, 1)));
         // Without fsync: the checksum detects damage by a power failure.
         file_->commit(output::Durability::buffered);
-    } catch (const std::exception& error) {
-        give_up(error.what());
-        return false;
-    }
+    });
+    if (!file_) return false;
     file_.reset();
     cache_.make_room(key_);
     return true;

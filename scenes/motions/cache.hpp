@@ -7,6 +7,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <span>
@@ -48,6 +49,7 @@ class Cache {
 
       private:
         void give_up(std::string reason);
+        void attempt(const std::function<void()>& work);  // gives up if it throws
 
         const Cache& cache_;
         const std::string key_;

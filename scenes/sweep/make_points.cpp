@@ -123,10 +123,9 @@ void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progres
     std::uint64_t missing = 0;
     for (std::uint64_t p = 0; p < mine.size(); ++p) missing += mine[p] && !store.has(p) ? 1 : 0;
     if (missing == 0) return;
-    progress.begin("sweep", static_cast<double>(missing), "points");
+    const ProgressStage stage(progress, "sweep", static_cast<double>(missing), "points");
     PointMaker maker(grid, store, progress);
     fan_out(tasks.size(), threads, [&](std::size_t k) { maker.make(grid.task(tasks[k])); });
-    progress.end();
 }
 
 SweepCost cost_of(const SweepGrid& grid) {
