@@ -388,7 +388,8 @@ TEST(Diagram, OfBranchesLabelsEachKindOfChangeThatHasAMark) {
     add(period_doubling, 0.83, true);
     add(release, 0.819, true);
     std::vector<std::string> labels;
-    for (const auto& mark : branches_figure(table, {}, Scene(), Lang::en).panels[0].marks) labels.push_back(mark.label);
+    const render::figure::Figure figure = branches_figure(table, {}, Scene(), Lang::en);
+    for (const auto& mark : figure.panels[0].marks) labels.push_back(mark.label);
     EXPECT_THAT(labels, ElementsAre("PD", "", "", "", "R", ""));
 }
 

@@ -247,6 +247,9 @@ TEST(Regression, DamagedReferencesAreErrorsNotVerdicts) {
 }
 
 TEST(Regression, AnUpdateThatCannotBeWrittenLosesNothing) {
+#if defined(__SANITIZE_THREAD__)
+    GTEST_SKIP() << "the thread sanitizer itself writes a file at the start, which must not be cut off";
+#endif
     const Guarded folder;
     folder.update();
     folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
