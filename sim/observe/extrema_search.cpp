@@ -28,7 +28,7 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
 
 void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sign, Extremum& e) {
     if (channel.kind == ChannelKind::contact_s) return search_arc(s, sign, e);
-    if (traits(channel.kind).separation && estimate_is_beaten(s, channel, sign, e)) return;
+    if (traits(channel.kind).estimated() && estimate_is_beaten(s, channel, sign, e)) return;
     const Samples samples = step_.sample(s, channel);
     if (channel.kind == ChannelKind::energy_residual && !step_.polynomial()) {  // an error: its nodes are enough
         for (std::size_t k = 0; k < samples.size(); ++k) offer(e, sample_time(s, k), samples[k]);
@@ -41,13 +41,13 @@ void ExtremaFinder::search(const SegmentInterval& s, Channel channel, double sig
     if (best.value > before) offer(e, best.t, sign * best.value);
 }
 
-// θ̈ times the longest arm, plus the error of that, excludes most steps.
+// The estimate of a costly channel, plus its error, excludes most steps.
 bool ExtremaFinder::estimate_is_beaten(const SegmentInterval& s, Channel channel, double sign, const Extremum& e) {
     BestValue best = best_so_far(channel.kind, sign, e);
     const double error = step_.modes().estimate_error(channel), most = best.value - error;
     if (!(most > 0)) return false;
     best.value = most - best.left_out;
-    const auto estimate = [&](double t) { return step_.estimate(s, t); };
+    const auto estimate = [&](double t) { return step_.estimate(s, channel, t); };
     const Samples samples = step_.estimates(s, channel);
     return climb_step(estimate, step_.variation_of_modes(s, channel, samples), s, channel, samples, best) &&
            best.value <= most;

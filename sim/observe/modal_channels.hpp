@@ -70,7 +70,7 @@ class ModalChannels {
     std::optional<Range> crest_range(Channel channel, double first, double last) const;
     // The mode that q is, or almost is, if it is undamped and has crests.
     std::optional<UndampedMode> undamped_mode(Channel channel) const;
-    // The variation of q, or of the estimate of the separation, by all its modes and the frame; false where its nodes
+    // The variation of q, or of an estimate, by all its modes and, of the separation, the frame; false where its nodes
     // bound it better.
     bool vary_by_modes(Channel channel, Variation& out) const;
     // Vibrations that a polynomial of degree 7 over that part does not resolve.

@@ -117,6 +117,15 @@ bool ModalChannels::vary_by_modes(Channel channel, Variation& out) const {
         }
         return true;
     }
+    if (traits(channel.kind).of_tip) {
+        const bool deflection = channel.kind == ChannelKind::tip_deflection;
+        for (std::size_t i = 0; i < modes_.size(); ++i) {
+            const ModalBounds::Mode& mode = bounds_.part.modes->modes[i];
+            out.add(std::fabs(modes_[i].tip) * (deflection ? mode.amplitude : mode.rate),
+                    deflection ? mode.q_frequency : mode.rate_frequency);
+        }
+        return true;
+    }
     if (!accelerated_by_modes()) return false;
     out.add_polynomial(bounds_.arm * forced().frame, bounds_.part.modes->h);
     for (std::size_t i = 0; i < modes_.size(); ++i) {

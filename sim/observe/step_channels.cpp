@@ -206,7 +206,8 @@ double StepChannels::value(const SegmentInterval& s, Channel channel, double t) 
     return value_at(t, channel, at(s, t));
 }
 
-double StepChannels::estimate(const SegmentInterval& s, double t) {
+double StepChannels::estimate(const SegmentInterval& s, Channel channel, double t) {
+    if (traits(channel.kind).of_tip) return modal_channels_.tip(channel.kind, beam(s, t));
     if (modal_channels_.accelerated_by_modes())
         return modal_channels_.longest_arm() * modal_channels_.hub_acceleration(t, beam(s, t));
     Instant& shared = at(s, t);
@@ -221,7 +222,8 @@ StepChannels::Samples StepChannels::estimates(const SegmentInterval& s, Channel 
     Lanes nodes;
     const bool at_nodes = modal_channels_.at_nodes(channel, nodes);
     for (std::size_t k = 0; k < kSamples; ++k)
-        values[k] = at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, sample_time(s, k));
+        values[k] =
+            at_nodes && k > 0 && k <= kNodes ? nodes[static_cast<int>(k) - 1] : estimate(s, channel, sample_time(s, k));
     return values;
 }
 

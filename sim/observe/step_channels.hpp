@@ -50,9 +50,9 @@ class StepChannels {
     void place(double t, const double* y) { evaluator_.set(t, y); }
     // Of the state that was placed last.
     double exact_value(Channel channel) { return evaluator_.value(channel); }
-    // An estimate of the separation, which is costly: times +1 or −1 it is at most this, times the same, or zero if
-    // that is more, plus ModalChannels::estimate_error.
-    double estimate(const SegmentInterval& s, double t);
+    // An estimate of a costly channel: the channel times +1 or −1 is at most this, times the same, or zero if that is
+    // more, plus ModalChannels::estimate_error.
+    double estimate(const SegmentInterval& s, Channel channel, double t);
     Samples estimates(const SegmentInterval& s, Channel channel);
     Samples sample(const SegmentInterval& s, Channel channel);
     // How far the channel strays from the lines between neighbouring samples.
