@@ -17,7 +17,9 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::string_view kSignature("\x89PNG\r\n\x1a\n", 8);
+constexpr std::string_view kEnd("\0\0\0\0IEND\xAE\x42\x60\x82", 12);  // the chunk at the end
 constexpr std::size_t kLongestText = 256u << 20;  // [bytes]: a scene with a drive table of a million points
+constexpr int kMostChunks = 1 << 16;              // other than those of the pixels
 
 class PngDecoder {
   public:
@@ -27,6 +29,7 @@ class PngDecoder {
         if (!bytes_.starts_with(kSignature)) refuse("it is not a PNG file");
         require(spng_set_png_buffer(png_.get(), bytes_.data(), bytes_.size()));
         require(spng_set_chunk_limits(png_.get(), kLongestText, kLongestText));
+        require(spng_set_option(png_.get(), SPNG_CHUNK_COUNT_LIMIT, kMostChunks));
         require(spng_get_ihdr(png_.get(), &header_));
         if (header_.width > kLargestSide || header_.height > kLargestSide)
             refuse(std::to_string(header_.width) + "x" + std::to_string(header_.height) + " pixels are more than the " +
@@ -48,8 +51,10 @@ class PngDecoder {
     Raster pixels() {
         Raster raster;
         raster.resize(static_cast<int>(header_.width), static_cast<int>(header_.height));
-        require(spng_decode_image(png_.get(), raster.rgba.data(), raster.rgba.size(), SPNG_FMT_RGBA8, SPNG_DECODE_TRNS));
-        require(spng_decode_chunks(png_.get()));  // the end must exist, too
+        require(
+            spng_decode_image(png_.get(), raster.rgba.data(), raster.rgba.size(), SPNG_FMT_RGBA8, SPNG_DECODE_TRNS));
+        require(spng_decode_chunks(png_.get()));
+        if (bytes_.find(kEnd) == bytes_.npos) refuse("the picture is cut off; make or copy it again");
         return raster;
     }
 
@@ -60,6 +65,7 @@ class PngDecoder {
     void require(int code) const {
         if (code == SPNG_EMEM) throw std::bad_alloc();
         if (code == SPNG_OK) return;
+        if (code == SPNG_ECHUNK_LIMITS) refuse("it has more than 256 MiB of texts, or more than 65536 of them");
         refuse(std::string("the picture is damaged or cut off (libspng: ") + spng_strerror(code) +
                "); make or copy it again");
     }

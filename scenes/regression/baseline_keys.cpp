@@ -1,4 +1,5 @@
-// The keys of a file of baselines, described once: reader, writer and schema follow from `visit`.
+// The keys of a file of baselines, described once: reader, writer and schema follow from `visit`. What the program
+// writes there itself (`renderers`) is read leniently.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,17 +17,19 @@ ValueFormat node_format(Node& value, const char* type, const char* schema) {
             [&value] { return value; }};
 }
 
-// `what`: "KEY must be <what>".
-ValueFormat texts_format(std::vector<std::string>& texts, const char* what,
+// `what`, `item`: "KEY must be <what>", "KEY.1 must be <item>".
+ValueFormat texts_format(std::vector<std::string>& texts, const char* what, const char* item,
                          const char* item_schema = R"({"type": "string"})",
                          bool (*is_valid)(const std::string& text) = nullptr) {
-    const auto read = [&texts, what, is_valid](ObjectReader& r, const Node& node, const std::string& key) {
-        const auto valid = [&](const Node& item) {
-            return item.kind == Node::Kind::string && (!is_valid || is_valid(item.text));
-        };
-        if (node.kind != Node::Kind::array || !std::ranges::all_of(node.items, valid))
-            return r.expect(node, key, "{}", what);
-        for (const Node& item : node.items) texts.push_back(item.text);
+    const auto read = [&texts, what, item, is_valid](ObjectReader& r, const Node& node, const std::string& key) {
+        if (node.kind != Node::Kind::array) return r.expect(node, key, "{}", what);
+        for (std::size_t i = 0; i < node.items.size(); ++i) {
+            const Node& each = node.items[i];
+            if (each.kind == Node::Kind::string && (!is_valid || is_valid(each.text)))
+                texts.push_back(each.text);
+            else
+                r.expect(each, fmt::format("{}.{}", key, i), "{}", item);
+        }
     };
     return {"list of texts", fmt::format(R"({{"type": "array", "items": {}}})", item_schema), read,
             [&texts] { return Node(texts); }};
@@ -70,7 +73,7 @@ NamedItems named_entries(std::vector<Baseline>& entries) {
 static void visit(SceneVisitor& v, Accepted& accepted) {
     v.text("renderer", accepted.renderer, "The renderer that draws these pixels.");
     v.value(sim::required("sha256", "[\"0123…\"]"),
-            texts_format(accepted.sha256, "an array of digests, 64 digits 0…9 a…f each; --update writes them",
+            texts_format(accepted.sha256, "an array of digests", "a digest of 64 digits 0…9 a…f",
                          R"({"type": "string", "pattern": "^[0-9a-f]{64}$"})", is_digest),
             "SHA-256 of the decoded RGBA pixels, one for each picture.");
 }
@@ -107,7 +110,7 @@ void visit(SceneVisitor& v, Baseline& entry) {
            "sequence such as \"a-####.png\", or a film.");
     v.text("expected", entry.expected,
            "Pictures that are expected in place of accepted digests, relative to this file: the same kinds of files.");
-    v.value("set", texts_format(entry.set, "an array of strings such as \"cam.speed=5\""),
+    v.value("set", texts_format(entry.set, "an array of strings", "a string such as \"cam.speed=5\""),
             "Changes of the scene, as --set takes them.");
     v.value("output", node_format(entry.output_key, "object", R"({"type": "object", "required": ["type"]})"),
             "What is tested, as an output of a scene: still, frames, figure (a picture and the motion behind it); "

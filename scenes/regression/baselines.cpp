@@ -35,8 +35,10 @@ class Reader {
         read_object(
             parsed.root, "the file of baselines", [this](ObjectReader& r) { visit(r, all_); }, messages);
         all_.references = folder() / (all_.folder.empty() ? "." : all_.folder);
-        for (Baseline& entry : all_.entries)
-            complete(entry, parsed.root.find("entries")->value.find(entry.name)->key_place);
+        for (Baseline& entry : all_.entries) {
+            const Member& member = *parsed.root.find("entries")->value.find(entry.name);
+            if (member.value.kind == Node::Kind::object) complete(entry, member.key_place);
+        }
         if (!messages.empty()) {
             std::string report = describe({all_.source}, std::move(messages));
             for (const Baseline& entry : all_.entries) report += entry.problem;

@@ -87,6 +87,15 @@ TEST(PngReader, GivesTheMetadataWithoutDecodingPixels) {
     EXPECT_EQ(found.at("Title"), "");
 }
 
+TEST(PngReader, GivesThousandsOfTexts) {
+    Scratch scratch;
+    std::map<std::string, std::string> texts;
+    for (int k = 0; k < 3000; ++k) texts["key " + std::to_string(k)] = "value";
+    write_png(scratch / "a.png", pattern(8, 8, true), {std::nullopt, texts});
+    EXPECT_EQ(read_png_info(scratch / "a.png").metadata.size(), texts.size());
+    EXPECT_EQ(digest(read_png(scratch / "a.png")), digest(pattern(8, 8, true)));
+}
+
 TEST(PngReader, DigestsOfEveryKindOfPngAreFFmpegs) {
     Scratch scratch;
     for (const char* format : {"gray", "gray16be", "rgb24", "rgb48be", "rgba", "rgba64be", "pal8", "ya8", "monob"}) {
@@ -103,6 +112,10 @@ TEST(PngReader, EveryCutAndEveryFlippedByteOfThePixelsIsRefusedInWords) {
     for (std::size_t size = 0; size < whole.size(); size += 7) {
         write_file(scratch / "cut.png", whole.substr(0, size), Durability::buffered);
         EXPECT_NE(io_error_of([&] { read_png(scratch / "cut.png"); }).find("cut.png"), std::string::npos) << size;
+    }
+    for (std::size_t size = whole.size() - 16; size < whole.size(); ++size) {  // within the chunk that ends it
+        write_file(scratch / "cut.png", whole.substr(0, size), Durability::buffered);
+        EXPECT_NE(io_error_of([&] { read_png(scratch / "cut.png"); }).find("cut off"), std::string::npos) << size;
     }
     const std::size_t data = whole.find("IDAT") + 4;
     for (std::size_t at = data; at < whole.size() - 16; at += 11) {

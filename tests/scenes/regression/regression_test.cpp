@@ -219,6 +219,8 @@ TEST(Regression, MistakesInBaselinesAreReportedWithTheirPlaces) {
                              "b.json:6:30: unknown key \"lenght\"", "films are compared before they are encoded",
                              "this type has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
         EXPECT_THAT(finished.err, HasSubstr(part));
+    EXPECT_THAT(finished.err, HasSubstr("accepted.0.sha256.0 must be a digest of 64 digits"));
+    EXPECT_THAT(finished.err, Not(HasSubstr("entries.f needs")));
     for (const char* text : {"", "[]", "{}", "{\"entries\": {}}", "{\"entries\": 3}", "{\"entries\": {\"a\": {}",
                              "nonsense", "\xff\xfe"}) {
         folder.write("b.json", text);
