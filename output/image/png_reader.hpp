@@ -1,4 +1,5 @@
-// Reads any PNG file through libspng. A damaged file is an IoError, never an incomplete picture.
+// Reads PNG files with up to a thousand texts through libspng. A damaged file is an IoError, never an incomplete
+// picture.
 #pragma once
 
 #include <filesystem>

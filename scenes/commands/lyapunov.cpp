@@ -6,6 +6,7 @@
 
 #include "output/data/orbit_records.hpp"
 #include "scenes/commands/result_files.hpp"
+#include "scenes/figures/caption.hpp"
 #include "scenes/figures/command_figures.hpp"
 #include "scenes/motions/progress.hpp"
 #include "sim/base/counted.hpp"
@@ -40,9 +41,9 @@ std::string exponents_text(const sim::Exponents& e) {
     double sum = 0;
     for (std::size_t i = 0; i < e.lambda.size(); ++i) {
         sum += e.lambda[i];
-        text += std::isfinite(e.lambda[i])
-                    ? fmt::format("  {:3}  {:16.9g} ± {:.2g} 1/s\n", i + 1, e.lambda[i], e.error[i])
-                    : fmt::format("  {:3}  {:>16}\n", i + 1, "-inf");
+        text += std::isfinite(e.lambda[i]) ? fmt::format("  {:3}  {:16.{}f} ± {:.2g} 1/s\n", i + 1, e.lambda[i],
+                                                         decimals_of(e.error[i]), e.error[i])
+                                           : fmt::format("  {:3}  {:>16}\n", i + 1, "-inf");
     }
     text += fmt::format("  sum  {:16.12g}\n", sum);
     return text + verdict(e);

@@ -322,6 +322,11 @@ std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem) {
     return fewer;
 }
 
+int decimals_of(double error) {
+    constexpr int kMost = 12;
+    return error > 0 ? std::clamp(1 - static_cast<int>(std::floor(std::log10(error))), 0, kMost) : kMost;
+}
+
 Estimate estimate(const sim::Problem& problem, double value, std::optional<double> fewer) {
     // The errors of many steps add up to a few tolerances.
     const double integration = 10 * problem.solver.rtol * std::abs(value);

@@ -86,6 +86,9 @@ std::string accuracy(const Runs& runs, Lang lang);
 // bounds the effect of further shape functions. None for a rigid beam.
 std::optional<sim::Problem> with_one_mode_fewer(const sim::Problem& problem);
 
+// The decimal places that show two digits of an error, at most twelve.
+int decimals_of(double error);
+
 // A computed number and its uncertainty.
 struct Estimate {
     double value = 0, error = 0;

@@ -19,8 +19,7 @@ std::string value_text(const sim::Exponents& e, std::size_t i) {
     const std::string name = fmt::format("$λ$_{{{}}}", i + 1);
     if (!std::isfinite(e.lambda[i])) return name + " = −∞";
     if (!(e.error[i] > 0)) return fmt::format("{} = {} s^{{−1}}", name, number(e.lambda[i], 4));
-    // Two digits of the error, and the value to the same place.
-    const int decimals = std::clamp(1 - static_cast<int>(std::floor(std::log10(e.error[i]))), 0, 12);
+    const int decimals = decimals_of(e.error[i]);
     return fmt::format("{} = {} ± {} s^{{−1}}", name, render::fixed(e.lambda[i], decimals),
                        render::fixed(e.error[i], decimals));
 }

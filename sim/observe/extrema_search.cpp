@@ -16,6 +16,10 @@ void ExtremaFinder::search_parts(const SegmentInterval& s, Channel channel, doub
     // Vibrations of which too little reaches the channel need no parts.
     if (!traits(channel.kind).by_samples() && is_beaten(sampled_range(s, channel, e), channel.kind, sign, e)) return;
     halvings_left_ -= static_cast<long>(parts.size()) - 1;
+    if (halvings_left_ < 0) {
+        ++incomplete_;
+        return;
+    }
     for (const SegmentInterval& part : parts) {
         if (poll_ && (evaluations_ += kNodes) % kEvaluationsPerPoll < kNodes) poll_();
         step_.begin(part);

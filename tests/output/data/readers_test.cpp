@@ -87,13 +87,15 @@ TEST(PngReader, GivesTheMetadataWithoutDecodingPixels) {
     EXPECT_EQ(found.at("Title"), "");
 }
 
-TEST(PngReader, GivesThousandsOfTexts) {
+TEST(PngReader, NamesItsLimitOfTexts) {
     Scratch scratch;
     std::map<std::string, std::string> texts;
-    for (int k = 0; k < 3000; ++k) texts["key " + std::to_string(k)] = "value";
+    for (int k = 0; k < 900; ++k) texts["key " + std::to_string(k)] = "value";
     write_png(scratch / "a.png", pattern(8, 8, true), {std::nullopt, texts});
     EXPECT_EQ(read_png_info(scratch / "a.png").metadata.size(), texts.size());
-    EXPECT_EQ(digest(read_png(scratch / "a.png")), digest(pattern(8, 8, true)));
+    for (int k = 0; k < 200; ++k) texts["more " + std::to_string(k)] = "value";
+    write_png(scratch / "a.png", pattern(8, 8, true), {std::nullopt, texts});
+    EXPECT_NE(io_error_of([&] { read_png(scratch / "a.png"); }).find("more than a thousand"), std::string::npos);
 }
 
 TEST(PngReader, DigestsOfEveryKindOfPngAreFFmpegs) {
