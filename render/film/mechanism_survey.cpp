@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <ranges>
 #include <vector>
 
 #include "render/film/caption_places.hpp"
@@ -60,9 +59,15 @@ void MechanismPanel::add_tips_before(int frame) {
     const PoseStore* path = at_.motion().path.get();
     if (!path || frame == 0) return;
     const double from = at_.context.at(frame - 1), to = at_.context.at(frame);
-    const auto all = std::views::iota(std::size_t{0}, path->size());
-    const auto is_past = [&](std::size_t i) { return path->time(i) <= from; };
-    for (std::size_t i = *std::ranges::partition_point(all, is_past); i < path->size() && path->time(i) < to; ++i)
+    std::size_t first = 0;
+    for (std::size_t end = path->size(); first < end;) {
+        const std::size_t middle = (first + end) / 2;
+        if (path->time(middle) <= from)
+            first = middle + 1;
+        else
+            end = middle;
+    }
+    for (std::size_t i = first; i < path->size() && path->time(i) < to; ++i)
         tip_path_.add_between_frames(knot_of(at_, path->pose(i)));
 }
 

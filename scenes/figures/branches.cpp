@@ -3,7 +3,6 @@
 #include <limits>
 #include <map>
 #include <numbers>
-#include <ranges>
 
 #include "render/base/error.hpp"
 #include "scenes/figures/axis_labels.hpp"
@@ -42,8 +41,10 @@ std::size_t first_impact(const sim::PeriodicOrbit& before, const sim::PeriodicOr
         }
         return sum;
     };
-    const auto all = std::views::iota(std::size_t{0}, count);
-    return count == 0 ? 0 : *std::ranges::min_element(all, {}, moves_by);
+    std::size_t least = 0;
+    for (std::size_t first = 1; first < count; ++first)
+        if (moves_by(first) < moves_by(least)) least = first;
+    return least;
 }
 
 std::vector<FollowedImpact> followed_impacts(const sim::Branch& branch) {
