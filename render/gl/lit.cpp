@@ -51,7 +51,7 @@ std::vector<std::string> choose_driver() {
 
 // The modules in order of preference: OSMesa loads faster; newer releases of Mesa have only EGL.
 std::vector<std::string> modules() {
-    const std::vector<std::string> all = {"osmesa", "egl"};
+    std::vector<std::string> all = {"osmesa", "egl"};
     const char* one = std::getenv("BEAMCAM_GL");
     if (one == nullptr || *one == '\0') return all;
     if (std::ranges::find(all, one) == all.end())
