@@ -1,8 +1,11 @@
 #include "scenes/format/units.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <numbers>
+
+#include "sim/observe/channels.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -97,6 +100,12 @@ TEST(Units, ExponentsAreReadWholeOrRejected) {
     EXPECT_NE(parse_quantity("6 m014").problem.find("beyond ±12"), std::string::npos);
     // An exponent at the end of the integers, moved by the prefix.
     EXPECT_EQ(parse_quantity("0e2147483647 Gm").quantity.value_or(Quantity{}).value, 0);
+}
+
+TEST(Units, ThoseOfAllChannelsAreRead) {
+    for (const sim::ChannelRow& channel : sim::kChannels)
+        EXPECT_TRUE(parse_quantity(fmt::format("1 {}", channel.unit)).quantity)
+            << channel.name << ": kUnits in scenes/format/units.cpp has no " << channel.unit;
 }
 
 TEST(Units, EveryDimensionOfTheFormatNamesAUnitThatReadsBack) {
