@@ -84,9 +84,11 @@ constexpr SolverFunctions kCvode{"CVODE",           CVodeGetReturnFlagName, CVod
         "ARKODE",           ARKStepGetReturnFlagName,  ARKStepSetUserData, ARKStepWFtolerances, ARKStepSetMaxNumSteps,
         ARKStepReset,       ARKStepSetInitStep,        ARKStepSetStopTime, ARKStepEvolve,       ARKStepGetDky,
         ARKStepGetNumSteps, ARKStepGetNumErrTestFails, ARKStepFree};
+// NOLINTBEGIN(misc-redundant-expression): equal now, but of two libraries
 static_assert(CV_ONE_STEP == ARK_ONE_STEP && CV_TOO_MUCH_ACC == ARK_TOO_MUCH_ACC && CV_ERR_FAILURE == ARK_ERR_FAILURE &&
               CV_RHSFUNC_FAIL == ARK_RHSFUNC_FAIL && CV_FIRST_RHSFUNC_ERR == ARK_FIRST_RHSFUNC_ERR &&
               CV_REPTD_RHSFUNC_ERR == ARK_REPTD_RHSFUNC_ERR && CV_UNREC_RHSFUNC_ERR == ARK_UNREC_RHSFUNC_ERR);
+// NOLINTEND(misc-redundant-expression)
 
 // Why a step failed, by the flag of either solver.
 const char* reason_of(int flag) {
