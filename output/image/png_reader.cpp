@@ -52,7 +52,7 @@ class PngDecoder {
         require(
             spng_decode_image(png_.get(), raster.rgba.data(), raster.rgba.size(), SPNG_FMT_RGBA8, SPNG_DECODE_TRNS));
         require(spng_decode_chunks(png_.get()));
-        if (bytes_.find(kEnd) == bytes_.npos) refuse("the picture is cut off; make or copy it again");
+        if (bytes_.rfind(kEnd) == bytes_.npos) refuse("the picture is cut off; make or copy it again");
         return raster;
     }
 

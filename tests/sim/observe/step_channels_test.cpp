@@ -47,6 +47,15 @@ void visit_steps(const Problem& p, double end, Visit visit) {
     run.integrate();
 }
 
+Problem on_fast_cam(ContactModel contact, ModelKind model, int modes) {
+    Problem p;
+    p.beam.model = model;
+    p.beam.modes = modes;
+    p.cam->speed = 10;
+    p.contact.model = contact;
+    return p;
+}
+
 TEST(StepChannels, EstimatesKeepTheirError) {
     constexpr int kInstants = 50;
     constexpr double kSlack = 1 + 1e-9;
@@ -55,11 +64,7 @@ TEST(StepChannels, EstimatesKeepTheirError) {
                                       {ContactModel::restitution, ModelKind::second_order},
                                       {ContactModel::compliant, ModelKind::exact}}) {
         SCOPED_TRACE(name(kind));
-        Problem p;
-        p.beam.model = kind;
-        p.beam.modes = kind == ModelKind::exact ? 4 : 8;
-        p.cam->speed = 10;
-        p.contact.model = model;
+        const Problem p = on_fast_cam(model, kind, kind == ModelKind::exact ? 4 : 8);
         double largest = 0, error = 0;  // of the separation
         visit_steps(p, 0.4, [&](const SegmentInterval& s, StepChannels& step) {
             for (const auto* name : {"tip_deflection", "tip_rate", "separation", "separation_paper"}) {
@@ -127,11 +132,7 @@ TEST(StepChannels, APolynomialFollowsEveryChannelInShortParts) {
                                       {ContactModel::compliant, ModelKind::first_order},
                                       {ContactModel::compliant, ModelKind::exact}}) {
         SCOPED_TRACE(name(kind));
-        Problem p;
-        p.beam.model = kind;
-        p.beam.modes = kind == ModelKind::exact ? 3 : 6;
-        p.cam->speed = 10;
-        p.contact.model = model;
+        const Problem p = on_fast_cam(model, kind, kind == ModelKind::exact ? 3 : 6);
         std::map<std::string, double> largest;
         visit_steps(p, 0.32, [&](const SegmentInterval& s, StepChannels& step) {
             const std::vector<SegmentInterval> parts = step.followed_parts(s);
