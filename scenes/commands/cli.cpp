@@ -24,6 +24,7 @@
 #include "output/json/tree.hpp"
 #include "render/gl/lit.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/format/absent.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/scene/version.hpp"
 
@@ -40,7 +41,9 @@ void reject_unknown_command(std::span<const char* const> words, const std::deque
     if (found != commands.end()) return reject_unknown_command(words.subspan(1), found->subcommands);
     if (word.ends_with(".json"))
         throw UsageError(fmt::format("there is no command before the scene; write beamcam run {}", word));
-    throw UsageError(fmt::format("unknown command {}{}", in_quotes(word), suggestion_or_list(word, known)));
+    const std::string remedy = absent_command(word);
+    throw UsageError(fmt::format("unknown command {}{}", in_quotes(word),
+                                 remedy.empty() ? suggestion_or_list(word, known) : remedy));
 }
 
 constexpr std::size_t kHelpColumns = 100;  // of the help
@@ -170,7 +173,9 @@ int parse_and_run(int argc, const char* const* argv) {
         std::string name;
         for (const auto& [parser, command] : parsers.commands)
             if (parser->parsed()) name += " " + command->name;
-        throw UsageError(fmt::format("{} (see beamcam{} --help)", error.what(), name));
+        std::string remedy;
+        for (const std::string& word : app.remaining(true)) remedy += absent_option(word);
+        throw UsageError(fmt::format("{}{} (see beamcam{} --help)", error.what(), remedy, name));
     }
     for (const auto& [parser, command] : parsers.commands)
         if (parser->parsed() && command->action) return command->action();

@@ -11,6 +11,7 @@
 #include "output/files/standard_output.hpp"
 #include "render/plot/style.hpp"
 #include "scenes/commands/commands.hpp"
+#include "scenes/format/absent.hpp"
 #include "scenes/format/keys.hpp"
 #include "scenes/format/overrides.hpp"
 #include "scenes/format/reader.hpp"
@@ -201,7 +202,8 @@ void require_ending(const char* option, const std::string& file, std::initialize
     if (is_stdout(file))
         throw UsageError(fmt::format("{} -: name a file that ends in {}", option, fmt::join(endings, " or ")));
     if (std::ranges::find(endings, ending_of(file)) != endings.end()) return;
-    throw UsageError(fmt::format("{} {}: the name must end in {}", option, file, fmt::join(endings, " or ")));
+    throw UsageError(
+        fmt::format("{} {}: the name must end in {}{}", option, file, fmt::join(endings, " or "), absent_ending(file)));
 }
 
 void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings) {

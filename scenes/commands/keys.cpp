@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "scenes/commands/commands.hpp"
+#include "scenes/format/absent.hpp"
 #include "scenes/format/description.hpp"
 #include "scenes/format/suggest.hpp"
 
@@ -81,12 +82,14 @@ void act(const KeysArguments& args) {
     if (args.markdown) return print_data(reference_text());
     const std::vector<KeyRow> rows = chosen(args.pattern);
     if (rows.empty()) {
+        std::string remedy = absent_key(args.pattern);
         std::vector<std::string> names;
         for (const KeyRow& row : key_rows()) {
             names.push_back(row.path);
             names.push_back(row.path.substr(row.path.rfind('.') + 1));  // npos + 1 is 0
         }
-        throw UsageError(fmt::format("no key matches {}{}", args.pattern, suggestion(args.pattern, names)));
+        if (remedy.empty()) remedy = suggestion(args.pattern, names);
+        throw UsageError(fmt::format("no key matches {}{}", args.pattern, remedy));
     }
     print_data(args.json ? to_text(array_node(rows, json_of)) : text_of(rows));
 }

@@ -6,6 +6,7 @@
 #include <iterator>
 #include <regex>
 
+#include "scenes/format/absent.hpp"
 #include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
@@ -251,13 +252,14 @@ void ObjectReader::finish(const SuggestPlace& suggest) {
     if (!object_ || unknown_shape_) return;
     for (const Member& member : object_->members) {
         if (member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end()) continue;
-        const std::string where = suggest ? suggest(member.key) : "";
-        diagnostics_.error(
-            member.key_place, path(member.key),
-            !where.empty()
-                ? fmt::format("unknown key {} in {}; it belongs {}", in_quotes(member.key), object_name(), where)
-                : fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(),
-                              diagnostics_.exceed_report() ? "" : suggestion_or_list(member.key, visited_)));
+        std::string remedy;
+        if (const std::string where = suggest ? suggest(member.key) : ""; !where.empty())
+            remedy = fmt::format("; it belongs {}", where);
+        else if (!diagnostics_.exceed_report())
+            remedy = absent_key(path(member.key));
+        if (remedy.empty() && !diagnostics_.exceed_report()) remedy = suggestion_or_list(member.key, visited_);
+        diagnostics_.error(member.key_place, path(member.key),
+                           fmt::format("unknown key {} in {}{}", in_quotes(member.key), object_name(), remedy));
     }
 }
 

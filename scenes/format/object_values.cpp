@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/format/absent.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
 #include "sim/base/counted.hpp"
@@ -75,10 +76,8 @@ std::optional<std::size_t> ObjectReader::keyword_value(const Node& node, std::st
     }
     const auto found = std::ranges::find(words, node.text);
     if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-    const bool is_film = path(key).ends_with(".type") && (node.text == "gif" || node.text == "apng");
-    reject_value(node, key, " {}",
-                 is_film ? fmt::format("is not a type; write a \"video\" whose \"file\" ends in .{}", node.text)
-                         : "is unknown" + suggestion_or_list(node.text, words));
+    const std::string remedy = absent_value(path(key), node.text);
+    reject_value(node, key, " is unknown{}", remedy.empty() ? suggestion_or_list(node.text, words) : remedy);
     return std::nullopt;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenes/format/absent.hpp"
 #include "scenes/format/description.hpp"
 
 namespace beamcam::scenes {
@@ -106,10 +107,19 @@ class Reference {
             scene_format().meaning +
             "\n\nA quantity may be a text with a unit: `\"12 mm\"`, `\"300 rpm\"`, `\"5 %\"`.\n";
         shape(scene_format(), "", "The scene");
+        absent();
         return std::move(out_);
     }
 
   private:
+    void absent() {
+        out_ +=
+            "\n## Not modelled\n\nA key with one of these words is an error that says the same.\n\n"
+            "| words |  |\n|---|---|\n";
+        for (const NotModelled& each : not_modelled())
+            out_ += fmt::format("| {} | {} |\n", fmt::join(each.words, ", "), each.sentence);
+    }
+
     void shape(const DescribedObject& shape, const std::string& path, const std::string& title) {
         if (shape.keys.empty() && shape.tags.empty()) return;
         const bool top = path.empty();

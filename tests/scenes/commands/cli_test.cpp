@@ -145,6 +145,9 @@ TEST(CommandLine, WrongUsageIsTwo) {
           std::pair{"test s.json --tolerance motion=1e9", "--tolerance.motion = 1e9 is outside 0 … 1"}})
         EXPECT_THAT(shell(folder, std::string("$BEAMCAM ") + arguments).err, HasSubstr(message));
     EXPECT_THAT(shell(folder, "$BEAMCAM rnder s.json").err, HasSubstr("did you mean \"render\"?"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM help").err, HasSubstr("unknown command \"help\"; write beamcam --help"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --emit=slurm").err, HasSubstr("--emit=slurm; it was withdrawn"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys tip_mass").err, HasSubstr("no key matches tip_mass; a mass at the tip"));
     EXPECT_THAT(shell(folder, "$BEAMCAM cache list").err,
                 HasSubstr("unknown command \"list\"; the choices are ls, clear"));
     EXPECT_THAT(shell(folder, "$BEAMCAM cache").err, HasSubstr("(see beamcam cache --help)"));

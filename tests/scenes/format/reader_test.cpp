@@ -253,6 +253,20 @@ TEST(Reader, WhatTheVersionCannotDoIsRejectedByName) {
                 ElementsAre(HasSubstr("write a \"video\" whose \"file\" ends in .gif")));
 }
 
+TEST(Reader, KeysForWhatIsNotModelledSaySo) {
+    for (const auto& [scene, message] :
+         {std::pair{R"({"cam": {"profile": [1]}})", "unknown key \"profile\" in cam; the cam is an eccentric disc"},
+          {R"({"cam": {"liftTable": 1}})", "profiles and lift tables are not modelled"},
+          {R"({"hub": {"return_spring": {}}})", "springs at the hub or at the beam are not modelled"},
+          {R"({"hub": {"damping": 1}})", "damping and friction at the hub are not modelled"},
+          {R"({"beam": {"tip-mass": 1}})", "a mass at the tip or at a point is not modelled"},
+          {R"({"contact": {"roller_radius": 1}})", "a roller or a nose is not modelled"},
+          {R"({"beam": {"taper": 0.5}})", "tapered and stepped beams are not modelled"},
+          {R"({"beam": {"width": 0.01}})", "give the cross-section as \"area\" and \"second_moment\""}})
+        EXPECT_THAT(messages(read(scene)), ElementsAre(HasSubstr(message)));
+    EXPECT_THAT(messages(read(R"({"beam": {"dampng_ratio": 1}})")), ElementsAre(HasSubstr("did you mean")));
+}
+
 TEST(Reader, AnImpossibleFormatIsRejectedWithAPossibleOne) {
     EXPECT_THAT(messages(read(R"({"outputs": [{"type": "video", "background": "transparent"}]})")),
                 ElementsAre(HasSubstr("name a .webm (vp9)")));

@@ -1,0 +1,26 @@
+// Words that a user may expect in a scene or on the command line, and that beamcam does not have: what is not modelled,
+// and what was withdrawn. One table (absent.cpp) holds them with the sentence that the error then ends with; a word
+// that exists is never looked up here.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace beamcam::scenes {
+
+// Each returns "; SENTENCE", or nothing for a word that the table does not have.
+std::string absent_key(std::string_view path);                           // "cam.profile"
+std::string absent_value(std::string_view path, std::string_view word);  // "solver.method", "exponential"
+std::string absent_command(std::string_view name);
+std::string absent_option(std::string_view name);  // "--frames", or "--frames=0:60"
+std::string absent_ending(std::string_view file);  // of a file name: "a.eps"
+
+// What is not modelled: the words in keys, and the sentence.
+struct NotModelled {
+    std::vector<std::string> words;
+    std::string sentence;
+};
+std::vector<NotModelled> not_modelled();
+
+}  // namespace beamcam::scenes
