@@ -28,7 +28,7 @@ PRIVATE_LIBRARIES = [
     ("HDF5", re.compile(r"^hdf5"), {"output": 1}),
     ("OpenSSL", re.compile(r"^openssl/"), {"output": 1}),
     ("libspng", re.compile(r"^spng\.h$"), {"output": 1}),
-    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 2}),
+    ("nlohmann-json", re.compile(r"^nlohmann/"), {"output": 3}),
 ]
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")

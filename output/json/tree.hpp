@@ -1,4 +1,4 @@
-// JSON as a tree, for reading and writing. Every key and value that was read remembers its position (parser.cpp); `//`
+// JSON as a tree, for reading and writing. Every key and value that was read remembers its position (reader.cpp); `//`
 // and `/* */` comments and trailing commas are accepted.
 #pragma once
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 #include <random>
 
@@ -79,6 +80,21 @@ TEST(Tree, SyntaxErrorsNameThePlaceAndTheRemedy) {
     EXPECT_EQ(first_message("{\"a\": [1, 2]"), "1:1 this object is never closed: the file ends before its '}'");
     EXPECT_EQ(first_message("{\"a\": \"b\n\"}"),
               "1:7 this text has no closing quote in its line; close it with \" (a line break inside a text is \\n)");
+    EXPECT_EQ(first_message("{\"a\": \"b\tc\"}"),
+              "1:7 this text contains a control character; write it as \\t or \\u0000");
+    for (const char* text : {"{\"a\": \"\\ud800\"}", "{\"a\": \"\\ud800\\n\"}", "{\"a\": \"\\q\"}"})
+        EXPECT_TRUE(first_message(text).starts_with("1:7 this text contains an escape that JSON does not have"))
+            << text;
+    for (const char* word : {"1.5.2", "1.", "-", "+1", ".5", "0x10", "1e", "2-1"})
+        EXPECT_EQ(
+            first_message(std::string("[0, ") + word + "]"),
+            std::string("1:5 \"") + word +
+                "\" is not a number in JSON; write for example 0.5, -3 or 1e-8, and \"12 mm\" with a unit in quotes");
+    EXPECT_EQ(
+        first_message("[trues]"),
+        "1:2 \"trues\" has no quotes; put names and texts in double quotes (only true, false and null have none)");
+    EXPECT_EQ(first_message("[1 /**/ 2]"), "1:9 a comma is missing before this");
+    EXPECT_EQ(first_message("{1: 2}"), "1:2 a key is expected here, in double quotes: \"key\": value");
     EXPECT_EQ(first_message("{\"a\": 09}"), "1:7 number 09 begins with 0; JSON writes it without");
     EXPECT_EQ(first_message("{\"a\": 1e999}"), "1:7 number 1e999 is too large for a double; the largest is 1.8e308");
     EXPECT_EQ(first_message("{\"a\": " + std::string(5000, '9') + "}"),
@@ -92,6 +108,28 @@ TEST(Tree, SyntaxErrorsNameThePlaceAndTheRemedy) {
     EXPECT_EQ(first_message(std::string("{\0}", 3)),
               "1:2 a NUL byte; the file is not text, or it is damaged: save it as UTF-8 text");
     EXPECT_EQ(first_message(std::string(100, '[')), "1:65 more than 64 nested brackets; a scene needs only a few");
+}
+
+TEST(Tree, NumbersAreThoseThatAreWritten) {
+    const Parsed parsed =
+        parse("[-0, -0.0, 18446744073709551615, 18446744073709551616, -9223372036854775808, 1e5, 5e-324]");
+    ASSERT_TRUE(parsed.is_json);
+    std::vector<double> numbers;
+    for (const Node& item : parsed.root.items) numbers.push_back(item.number);
+    EXPECT_EQ(numbers, (std::vector<double>{0, 0, 0x1p64, 0x1p64, -0x1p63, 1e5, 5e-324}));
+    EXPECT_TRUE(std::signbit(numbers[0]) && std::signbit(numbers[1]));
+    EXPECT_EQ(parsed.root.items[3].text, "18446744073709551616");
+    EXPECT_EQ(first_message("[0, 1e-400]"), "1:5 number 1e-400 is too small for a double; write 0 if zero is meant");
+    EXPECT_EQ(first_message("[0e-400]"), "");
+}
+
+TEST(Tree, ManyDuplicateKeysAreReportedInOnePass) {
+    std::string text = "{\"a\": 0";
+    for (int i = 0; i < 200; ++i) text += ",\n\"a\": 1";
+    const Parsed parsed = parse(text + "}");
+    ASSERT_EQ(parsed.messages.size(), 200U);
+    EXPECT_EQ(parsed.messages[99].text, "duplicate key \"a\", first in line 1; remove one of them");
+    EXPECT_EQ(parsed.messages[100].text, "duplicate key \"a\"; remove one of them");  // only counted in reports
 }
 
 TEST(Tree, NoPrefixOfASceneIsMistakenForAWholeOneOrCrashes) {
@@ -127,8 +165,8 @@ bool has_trailing_comma(const std::string& text) {
     return false;
 }
 
-// An independent parser decides which of many damaged texts are JSON, and what their values are.
-TEST(Tree, TheParserAgreesWithAnotherOneOnDamagedTexts) {
+// The tree of nlohmann-json is built in another way, and without trailing commas.
+TEST(Tree, AgreesWithNlohmannsOwnTreeOnDamagedTexts) {
     const std::string whole =
         "{\"a\": [1.5e-3, \"x\\u00e9\\ud83d\\ude00\\n\", {\"b\": null, \"c\": [[], {}]}], \"f\": -0, \"t\": [true, "
         "false, 1e5, "
@@ -152,11 +190,11 @@ TEST(Tree, TheParserAgreesWithAnotherOneOnDamagedTexts) {
                     text.insert(at, 1, byte);
             }
         }
-        if (has_trailing_comma(text)) continue;  // the other one rejects it
+        if (has_trailing_comma(text)) continue;  // nlohmann's rejects it
         const Parsed parsed = parse(text);
         const auto other = nlohmann::json::parse(text, nullptr, false);
         ASSERT_EQ(parsed.is_json, !other.is_discarded()) << text;
-        if (!parsed.is_json || !parsed.messages.empty()) continue;  // the other one keeps the last of equal keys
+        if (!parsed.is_json || !parsed.messages.empty()) continue;  // nlohmann's keeps the last of equal keys
         ++accepted;
         ASSERT_EQ(nlohmann::json::parse(to_text(parsed.root)), other) << text;
     }
