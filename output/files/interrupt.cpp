@@ -107,6 +107,8 @@ void install_crash_handlers(int exit_code) {
     for (const int signal_number : {SIGSEGV, SIGBUS, SIGILL}) handle(signal_number, on_crash, kFlags);
 }
 
+void end_silently(int exit_code) { end(exit_code); }
+
 bool interrupted() { return signals_seen.load(std::memory_order_relaxed) > 0; }
 
 TemporaryName::TemporaryName(const std::filesystem::path& absolute) {

@@ -7,12 +7,15 @@
 
 namespace beamcam::output {
 
-// SIGINT, SIGTERM, SIGHUP (unless ignored by the parent, as under nohup) set the flag. SIGPIPE and
-// SIGXFSZ are ignored, so that a closed pipe or a file-size limit gives an error message.
+// SIGINT, SIGTERM, SIGHUP (unless ignored by the parent, as under nohup) set the flag. SIGPIPE and SIGXFSZ are ignored:
+// standard_output.cpp handles a pipe that is closed, and a file-size limit gives an error message.
 void install_handlers();
 // GLib, Mesa and LLVM abort, or dereference a null pointer, if an allocation fails or a thread cannot start. The
 // handlers then print a message, remove temporary files and exit with this code. They leave other crashes unchanged.
 void install_crash_handlers(int exit_code);
+
+// Removes the temporary files of this process, and ends it with this code and without a message.
+[[noreturn]] void end_silently(int exit_code);
 
 // True once a signal has come.
 bool interrupted();

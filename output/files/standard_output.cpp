@@ -1,17 +1,27 @@
 #include "output/files/standard_output.hpp"
 
+#include <poll.h>
+#include <signal.h>
+#include <unistd.h>
+
 #include <cstdio>
 #include <iostream>
 #include <new>
 #include <string>
 
 #include "output/files/errors.hpp"
+#include "output/files/interrupt.hpp"
 #include "output/files/text_safety.hpp"
 
 namespace beamcam::output {
 namespace {
 
-[[noreturn]] void fail() { throw IoError("cannot write to standard output; is the pipe closed or the disk full?"); }
+// A reader such as `head` that has ended is no error: the program ends as other programs do by SIGPIPE.
+[[noreturn]] void fail() {
+    pollfd out = {STDOUT_FILENO, POLLOUT, 0};
+    if (poll(&out, 1, 0) == 1 && (out.revents & POLLERR) != 0) end_silently(128 + SIGPIPE);
+    throw IoError("cannot write to standard output; is the disk full?");
+}
 
 }  // namespace
 

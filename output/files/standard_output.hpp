@@ -8,12 +8,13 @@
 
 namespace beamcam::output {
 
-// These functions write and flush. They throw IoError if the pipe is closed or the disk is full.
+// These functions write and flush. They throw IoError if the disk is full; if the reader of the pipe has ended, they
+// end the program with exit code 141.
 void print_data(std::string_view text);  // for programs, byte by byte
 void print_text(std::string_view text);  // for people: see `visible` in text_safety.hpp
 void print_json(std::string_view text);  // for programs and people: see `escaped_json`
 
-// Flushes std::cout. Throws IoError as print_data.
+// Flushes std::cout; errors are those of print_data.
 void flush_data();
 
 // For people, as print_text. A full disk or a closed pipe does not end the program.

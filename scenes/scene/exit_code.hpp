@@ -15,7 +15,8 @@ enum ExitCode {
     kMissingPart = 5,
     kInputOutput = 6,
     kDiffers = 7,
-    kInterrupted = 130
+    kInterrupted = 130,
+    kReaderEnded = 141  // output::print_data
 };
 // Their meanings in the help text.
 struct ExitMeaning {
@@ -32,6 +33,7 @@ inline constexpr ExitMeaning kExitCodes[] = {
     {kInputOutput, "input/output"},
     {kDiffers, "differs"},
     {kInterrupted, "interrupted"},
+    {kReaderEnded, "the reader of standard output has ended"},
 };
 
 // Exit code 2.
