@@ -15,13 +15,11 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr const char* kPrefix = "output.";  // of keys in the reader's messages
-
-// A number, JSON, or else a word, as --set reads values.
-Node value_of(const std::string& text, std::vector<Message>& messages) {
+// A number, JSON, or else a word, as --set reads values. `source`: where messages say that the value comes from.
+Node value_of(const std::string& text, std::size_t source, std::vector<Message>& messages) {
     if (Node node = value_node(text); node.kind == Node::Kind::number) return node;
     Node holder = object_node();
-    apply_override(holder, "value=" + text, 0, messages);
+    apply_override(holder, "value=" + text, source, messages);
     const Member* value = holder.find("value");
     return value ? value->value : Node{};
 }
@@ -85,47 +83,30 @@ void KeyOptions::forget(std::string_view name) {
         if (option.name == name) option.value.reset();
 }
 
-bool KeyOptions::is_in_values(const std::string& word, const std::vector<const Option*>& given) {
-    const auto has = [&](const std::string& value) { return value.find(word) != value.npos; };
-    return std::ranges::any_of(given, [&](const Option* option) {
-        return (option->value && has(*option->value)) || std::ranges::any_of(option->values, has);
-    });
-}
-
 Output read_output(Node output, std::initializer_list<const KeyOptions*> options, Scene scene,
                    const std::string& scene_file, const Common& common) {
     std::vector<Message> messages;
-    std::vector<const KeyOptions::Option*> given;
+    std::vector<const KeyOptions::Option*> given;  // each is a source of messages, after the scene
     for (const KeyOptions* group : options)
-        for (const KeyOptions::Option& option : group->options_)
-            if (option.given()) given.push_back(&option);
-    for (const KeyOptions::Option* option : given) {
-        const auto value = [&](const std::string& text) { return value_of(text, messages); };
-        set_value(output, option->key, option->value ? value(*option->value) : array_node(option->values, value),
-                  messages);
-    }
-    std::vector<Message> of_reader;
-    read_only_output(output, scene_file, kPrefix, scene, of_reader);
-    messages.insert(messages.end(), of_reader.begin(), of_reader.end());
-    // "x_low" before "x", which begins it.
-    std::ranges::stable_sort(given, std::ranges::greater(), [](const auto* option) { return option->key.size(); });
-    for (Message& message : messages) {
-        if (message.text.starts_with("output: ")) message.text.erase(0, 8);
-        for (const KeyOptions::Option* option : given) {
-            const std::string first = option->key.substr(0, option->key.find('.')),
-                              unknown = fmt::format("unknown key {} in ", in_quotes(first));
-            if (message.fatal && message.text.starts_with(unknown))
-                throw UsageError(fmt::format("{} belongs to outputs of type {}; this one is of type {}", option->name,
-                                             types_with(option->key), output.find("type")->value.text));
-            replace_all(message.text, kPrefix + option->key, option->name);
+        for (const KeyOptions::Option& option : group->options_) {
+            if (!option.given()) continue;
+            given.push_back(&option);
+            const auto read = [&](const std::string& text) { return value_of(text, given.size(), messages); };
+            Node value = option.value ? read(*option.value) : array_node(option.values, read);
+            move_to(value, {given.size(), 0});
+            set_value(output, option.key, std::move(value), messages);
         }
-        for (const KeyOptions* group : options)  // "to" → --to, unless it may be the user's word
-            for (const KeyOptions::Option& option : group->options_)
-                if (const std::string key = option.key.substr(option.key.rfind('.') + 1);
-                    !KeyOptions::is_in_values(key, given))
-                    replace_all(message.text, in_quotes(key), option.name);
-        if (message.fatal) throw UsageError(message.text);
-        inform(common, fmt::format("{}: warning: {}", scene_file, message.text));
+    std::vector<Message> of_reader;
+    read_only_output(output, scene_file, "", scene, of_reader);
+    messages.insert(messages.end(), of_reader.begin(), of_reader.end());
+    for (const Message& message : messages) {
+        const KeyOptions::Option* option = message.place.source == 0 ? nullptr : given[message.place.source - 1];
+        if (option && message.text.starts_with("unknown key"))
+            throw UsageError(fmt::format("{} belongs to outputs of type {}; this one is of type {}", option->name,
+                                         types_with(option->key), output.find("type")->value.text));
+        const std::string text = option ? fmt::format("{}: {}", option->name, message.text) : message.text;
+        if (message.fatal) throw UsageError(text);
+        inform(common, fmt::format("{}: warning: {}", scene_file, text));
     }
     return std::move(scene.outputs.front());
 }

@@ -41,8 +41,6 @@ class KeyOptions {
         std::vector<std::string> values;  // of a list
         bool given() const { return value || !values.empty(); }
     };
-    // Some value contains the word.
-    static bool is_in_values(const std::string& word, const std::vector<const Option*>& given);
     friend Output read_output(Node, std::initializer_list<const KeyOptions*>, Scene, const std::string&, const Common&);
 
     const char* type_;

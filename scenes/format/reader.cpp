@@ -63,7 +63,7 @@ bool read_only_output(const Node& output, const std::string& scene_name, const s
     const SceneContext context{scene, parsed.root, resolved, others};
     const bool fine = read_object(
         alone, "the scene", [&scene](ObjectReader& r) { visit_outputs(r, scene); }, messages, &context);
-    const std::string_view itself(prefix.data(), prefix.size() - (prefix.ends_with('.') ? 1 : 0));
+    const std::string itself = prefix.empty() ? "the output" : prefix.substr(0, prefix.size() - 1);
     for (Message& message : messages) {
         replace_all(message.text, "outputs.0.", prefix);
         replace_all(message.text, "outputs.0", itself);

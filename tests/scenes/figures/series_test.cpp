@@ -139,7 +139,7 @@ TEST(Series, LimitsThatHideAllCurvesAreReported) {
     EXPECT_THAT(figure("--low 59deg").err, Not(HasSubstr("warning")));
     const Finished wrong = figure("--x theta_dot --x-low 1mm");
     EXPECT_EQ(wrong.code, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("--x-low = \"1mm\" has the wrong dimension (m); it is measured in rad/s"));
+    EXPECT_THAT(wrong.err, HasSubstr("--x-low: x_low = \"1mm\" has the wrong dimension (m); it is measured in rad/s"));
 }
 
 TEST(Series, LimitsOfATimeAxisSelectWhatIsDrawn) {
@@ -411,7 +411,7 @@ TEST(Series, OptionsAreKeysOfTheScene) {
     EXPECT_THAT(compared, HasSubstr("\"speed\": 5.0"));
     const Finished wrong = shell(folder, command + "--channels thetta -o c.png");
     EXPECT_EQ(wrong.code, 2);
-    EXPECT_THAT(wrong.err, HasSubstr("--channels.0 = \"thetta\" is not a channel; did you mean \"theta\"?"));
+    EXPECT_THAT(wrong.err, HasSubstr("channels.0 = \"thetta\" is not a channel; did you mean \"theta\"?"));
     EXPECT_EQ(shell(folder, command + "--channels theta --from 0.5 -o c.png").code, 2);
     EXPECT_EQ(shell(folder, command + "phase --channels theta -o c.png").code, 2);
     EXPECT_EQ(shell(folder, command + "series -o c.png").code, 2);
