@@ -8,7 +8,7 @@
 namespace beamcam::scenes {
 namespace {
 
-enum class Kind { not_modelled, key, value, command, option, ending };
+enum class Kind { not_modelled, key, value, unit, command, option, ending };
 
 struct Absent {
     Kind kind;
@@ -60,6 +60,14 @@ constexpr Absent kAbsent[] = {
     {Kind::value, "method=exponential method=arkode-erk", "it was withdrawn; write auto or rk8"},
     {Kind::value, "type=gif", "write a \"video\" whose \"file\" ends in .gif"},
     {Kind::value, "type=apng", "write a \"video\" whose \"file\" ends in .webp or .gif"},
+
+    {Kind::unit, "inch inches", "write in"},
+    {Kind::unit, "metre metres meter meters", "write m"},
+    {Kind::unit, "second seconds sec", "write s"},
+    {Kind::unit, "degree degrees", "write deg"},
+    {Kind::unit, "radian radians", "write rad"},
+    {Kind::unit, "hertz", "write Hz"},
+    {Kind::unit, "newton newtons", "write N"},
 
     {Kind::command, "accept", "it was withdrawn; write beamcam test BASELINES --update NAME"},
     {Kind::command, "cache", "it was withdrawn: motions are not stored between runs"},
@@ -118,6 +126,10 @@ std::string absent_key(std::string_view path) {
 std::string absent_value(std::string_view path, std::string_view word) {
     const std::string value = std::string(path.substr(path.rfind('.') + 1)) + "=" + std::string(word);
     return sentence(Kind::value, [&](const std::string& each) { return each == value; });
+}
+
+std::string absent_unit(std::string_view symbol) {
+    return sentence(Kind::unit, [&](const std::string& each) { return each == symbol; });
 }
 
 std::string absent_command(std::string_view name) {

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "scenes/format/keys.hpp"
@@ -28,6 +29,27 @@ Node with_text(const Unit& unit) {
 std::string symbol(const Unit& unit) {
     const std::string text = unit.symbol();
     return text == "1" ? "" : text;
+}
+
+// The keys that select one of the shapes.
+std::vector<DescribedKey> tags_of(const std::vector<DescribedObject>& shapes) {
+    std::vector<DescribedKey> tags;
+    for (const DescribedObject& shape : shapes)
+        for (const auto& [name, word] : shape.tags) {
+            auto tag = std::ranges::find(tags, name, &DescribedKey::name);
+            if (tag == tags.end()) {
+                tag = tags.insert(tag, DescribedKey{});
+                tag->name = name;
+                tag->type = "word";
+                if (shape.explicit_tags) tag->example = fmt::format("\"{}\"", word);
+                if (!shape.explicit_tags) tag->meaning = "May be left out where the other keys leave only one choice.";
+            }
+            const bool is_new = std::ranges::find(tag->words, word) == tag->words.end();
+            if (is_new) tag->words.push_back(word);
+            if (!tag->meaning.empty()) tag->meaning += ' ';
+            tag->meaning += is_new ? fmt::format("{}: {}", word, shape.meaning) : shape.meaning;
+        }
+    return tags;
 }
 
 class Describer final : public SceneVisitor {
@@ -94,15 +116,16 @@ class Describer final : public SceneVisitor {
         Describer inside(meaning);
         fields(inside);
         DescribedKey& d = add_key(key, present ? "object or null" : "object", meaning);
-        d.shapes = inside.take();
+        add_shapes(d, inside.take());
         d.nullable = present;
     }
-    void alternatives(const std::vector<sim::Alternative>& all) override {
+    void alternatives(const std::vector<sim::Alternative>& all, bool explicit_tags) override {
         for (const sim::Alternative& each : all) {
             Describer inside(each.meaning);
             each.fields(inside);
             DescribedObject shape = std::move(inside.take().front());
             for (const auto& [tag, word] : each.tags) shape.tags.emplace_back(tag, word);
+            shape.explicit_tags = explicit_tags;
             shapes_.push_back(std::move(shape));
         }
     }
@@ -113,17 +136,17 @@ class Describer final : public SceneVisitor {
         if (!fields) return;
         Describer inside(meaning);
         fields(inside);
-        d.shapes = inside.take();
+        add_shapes(d, inside.take());
     }
     void list(const Key& key, const List& list, const char* meaning) override {
-        DescribedKey described;
+        std::vector<DescribedObject> shapes;
         if (!list.nested) {
             Describer item(meaning);
             list.item(item, list.size);
-            described.shapes = item.take();
+            shapes = item.take();
         }
         DescribedKey& d = add_key(key, fmt::format("list of {}", list.of), meaning);
-        d.shapes = std::move(described.shapes);
+        add_shapes(d, std::move(shapes));
         d.list = true;
         d.nested = list.nested ? list.nested : "";
         if (list.format) d.item_schema = node_of(list.format->schema);
@@ -145,6 +168,10 @@ class Describer final : public SceneVisitor {
     void exclusive(const char* one, const char* other) override { common_.exclusive.emplace_back(one, other); }
 
   private:
+    static void add_shapes(DescribedKey& key, std::vector<DescribedObject> shapes) {
+        key.shapes = std::move(shapes);
+        key.tags = tags_of(key.shapes);
+    }
     DescribedKey& add_key(const Key& key, std::string type, const char* meaning) {
         DescribedKey& d = common_.keys.emplace_back();
         d.name = key.name;

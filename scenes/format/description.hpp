@@ -18,6 +18,7 @@ struct DescribedKey;
 // An object with these keys. Tags are keys with a fixed value.
 struct DescribedObject {
     std::vector<std::pair<std::string, std::string>> tags;
+    bool explicit_tags = false;  // else they may follow from the other keys
     std::string meaning;
     std::vector<DescribedKey> keys;
     std::vector<std::pair<std::string, std::string>> exclusive;  // pairs of keys that exclude each other
@@ -32,6 +33,7 @@ struct DescribedKey {
     std::string example;                  // of a required key
     Node schema;                          // of the value
     std::vector<DescribedObject> shapes;  // of an object, or of the objects in a list
+    std::vector<DescribedKey> tags;       // of the shapes: the keys that select one
     bool list = false, nullable = false;
     Node item_schema;          // of items that are not objects
     std::string names;         // regular expression of the names of the object's members, which have these shapes

@@ -33,7 +33,7 @@ std::vector<sim::Alternative> types_of(std::variant<PictureOutput, Others...>& o
 
 }  // namespace
 
-void visit(SceneVisitor& v, Output& output) { v.alternatives(types_of(output)); }
+void visit(SceneVisitor& v, Output& output) { v.alternatives(types_of(output), true); }
 
 void visit_outputs(SceneVisitor& v, Scene& scene) {
     v.list("outputs", SceneVisitor::items_of(scene.outputs),

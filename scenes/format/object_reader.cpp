@@ -1,9 +1,12 @@
 #include "scenes/format/object_reader.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
+#include <numbers>
 #include <regex>
 
 #include "scenes/format/absent.hpp"
@@ -50,6 +53,7 @@ ObjectReader ObjectReader::inside(const Node& node, std::string_view key) const 
 
 const Node* ObjectReader::take(const Key& key) {
     visited_.emplace_back(key.name);
+    if (key.example) required_.emplace_back(key.name);
     const Member* member = object_ ? object_->find(key.name) : nullptr;
     if (!member && object_ && key.example)
         diagnostics_.error(object_->place, path(key.name),
@@ -71,8 +75,14 @@ void ObjectReader::read_number(const Key& key, std::optional<double>& value, con
         value.reset();
     else if (unit.plain && node->kind != Node::Kind::number)
         expect(*node, key.name, "{}a number", word ? fmt::format("\"{}\" or ", word) : "");
-    else if (const auto read = ranged_value(*node, key.name, unit, range))
+    else if (const auto read = ranged_value(*node, key.name, unit, range)) {
         value = read;
+        const bool perhaps_degrees = node->kind == Node::Kind::number && same(unit.dimension, sim::dimension::kAngle) &&
+                                     std::abs(*read) > 2 * std::numbers::pi && *read == std::round(*read);
+        if (perhaps_degrees)
+            warn(key.name, " = {} is in rad, more than a turn; write \"{} deg\" if degrees are meant", node->text,
+                 node->text);
+    }
 }
 
 void ObjectReader::number(const Key& key, std::optional<double>& value, const Unit& unit, const Range& range,
@@ -97,8 +107,8 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
     if (fixed && read->size() != length.min)
         return reject(key.name, " must have {} numbers, not {}", length.min, read->size());
     if (check_ranges_ && read->size() < length.min) return reject(key.name, " is empty; write at least one number");
-    for (std::size_t i = 0; i < read->size(); ++i)  // reports those outside the range
-        ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range);
+    for (std::size_t i = 0; i < read->size(); ++i)
+        if (!range.contains((*read)[i])) ranged_value(node->items[i], fmt::format("{}.{}", key.name, i), unit, range);
     values = *read;
 }
 
@@ -150,26 +160,54 @@ std::vector<std::string> ObjectReader::keys_of(const Alternative& alternative) c
     return nothing.visited_;
 }
 
-void ObjectReader::alternatives(const std::vector<Alternative>& all) {
+// The object has no other keys than this shape, and all that it needs.
+bool ObjectReader::fits(const Alternative& alternative) const {
+    ObjectReader nothing(diagnostics_, nullptr, path_, root_, context_);
+    alternative.fields(nothing);
+    const auto is_known = [&](const Member& member) {
+        for (const auto& [tag, word] : alternative.tags)
+            if (member.key == tag) return member.value.text == word;
+        return member.key.starts_with("x-") || std::ranges::find(visited_, member.key) != visited_.end() ||
+               std::ranges::find(nothing.visited_, member.key) != nothing.visited_.end();
+    };
+    return std::ranges::all_of(object_->members, is_known) &&
+           std::ranges::all_of(nothing.required_, [&](const std::string& key) { return has(key); });
+}
+
+void ObjectReader::alternatives(const std::vector<Alternative>& all, bool explicit_tags) {
     if (!object_) return;
     std::vector<const Alternative*> left;
     for (const Alternative& each : all) left.push_back(&each);
     for (std::size_t depth = 0; left.front()->tags.size() > depth; ++depth) {
-        std::vector<std::string> words;
-        for (const Alternative* each : left)
-            if (std::ranges::find(words, each->tags[depth].second) == words.end())
-                words.emplace_back(each->tags[depth].second);
-        const auto [tag, first] = left.front()->tags[depth];
-        const std::string example = fmt::format("\"{}\"", first);
-        const Node* node = take(sim::required(tag, example.c_str()));
-        const auto chosen = node ? keyword_value(*node, tag, words) : std::nullopt;
-        if (!chosen) {
+        const char* tag = left.front()->tags[depth].first;
+        const auto words_of = [&](auto&& is_possible) {
+            std::vector<std::string> words;
+            for (const Alternative* each : left)
+                if (is_possible(*each) && std::ranges::find(words, each->tags[depth].second) == words.end())
+                    words.emplace_back(each->tags[depth].second);
+            return words;
+        };
+        std::vector<std::string> words = words_of([](const Alternative&) { return true; });
+        std::optional<std::string> word;
+        if (const Node* node = take(tag)) {
+            if (const auto chosen = keyword_value(*node, tag, words)) word = words[*chosen];
+        } else {
+            std::vector<std::string> possible;
+            if (!explicit_tags) possible = words_of([&](const Alternative& each) { return fits(each); });
+            if (possible.size() == 1)
+                word = possible.front();
+            else
+                fail(*object_, tag,
+                     fmt::format("{} needs \"{}\", one of {}", object_name(), tag,
+                                 fmt::join(possible.empty() ? words : possible, ", ")));
+        }
+        if (!word) {
             if (depth == 0 && all.size() > 1) unknown_shape_ = true;
             for (const Alternative* each : left)
                 for (std::string& key : keys_of(*each)) visited_.push_back(std::move(key));
             return;
         }
-        std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != words[*chosen]; });
+        std::erase_if(left, [&](const Alternative* each) { return each->tags[depth].second != *word; });
     }
     // Shapes with the same tags differ by their keys; the first shape is the default.
     const auto named = std::find_if(left.rbegin(), left.rend(), [&](const Alternative* each) {

@@ -130,7 +130,7 @@ class ObjectReader final : public SceneVisitor {
     void keyword(const Key& key, const std::vector<std::string>& words, std::size_t& chosen,
                  const char* meaning) override;
     void object(const Key& key, const Fields& fields, const char* meaning, bool* present) override;
-    void alternatives(const std::vector<sim::Alternative>& all) override;
+    void alternatives(const std::vector<sim::Alternative>& all, bool explicit_tags) override;
     void value(const Key& key, const ValueFormat& format, const char* meaning, const Fields& fields) override;
     void list(const Key& key, const List& list, const char* meaning) override;
     void named(const Key& key, const NamedItems& items, const char* meaning) override;
@@ -145,6 +145,7 @@ class ObjectReader final : public SceneVisitor {
     void read_number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,
                      const char* word);
     std::vector<std::string> keys_of(const sim::Alternative& alternative) const;
+    bool fits(const sim::Alternative& alternative) const;
     std::string wrong_dimension(const Node& node, std::string_view key, const std::string& unit,
                                 const sim::Dimension& given) const;
 
@@ -153,7 +154,7 @@ class ObjectReader final : public SceneVisitor {
     std::string path_, root_;
     const SceneContext* context_;
     bool check_ranges_ = true;
-    std::vector<std::string> visited_;
+    std::vector<std::string> visited_, required_;
     std::vector<std::function<void()>> deferred_;  // numbers whose unit depends on another key
     bool unknown_shape_ = false;                   // a tag is unreadable, so any key may belong here
 };

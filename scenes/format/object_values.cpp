@@ -89,7 +89,9 @@ std::optional<std::vector<double>> ObjectReader::numbers_value(const Node& node,
     }
     std::vector<double> values;
     for (std::size_t i = 0; i < node.items.size(); ++i)
-        if (const auto value = number_value(node.items[i], fmt::format("{}.{}", key, i), dimension))
+        if (const Node& item = node.items[i]; item.kind == Node::Kind::number)
+            values.push_back(item.number);
+        else if (const auto value = number_value(item, fmt::format("{}.{}", key, i), dimension))
             values.push_back(*value);
     return values.size() == node.items.size() ? std::optional(values) : std::nullopt;
 }

@@ -22,15 +22,33 @@ std::string when(const DescribedObject& shape, const std::vector<DescribedObject
     return fmt::format("{}", fmt::join(parts, " "));
 }
 
+// The tags that come before this one in a shape: a law is that of a prescribed drive.
+std::string before(const std::string& tag, const std::vector<DescribedObject>& shapes) {
+    for (const DescribedObject& shape : shapes) {
+        std::string text;
+        for (const auto& [name, word] : shape.tags) {
+            if (name == tag) return text;
+            text += fmt::format("{}{}={}", text.empty() ? "" : " ", name, word);
+        }
+    }
+    return {};
+}
+
+std::string joined(const std::string& outside, const std::string& inside) {
+    return outside + (outside.empty() || inside.empty() ? "" : ", ") + inside;
+}
+
 void add_rows(const DescribedObject& shape, const std::string& path, const std::string& needed,
               std::vector<KeyRow>& rows) {
     for (const DescribedKey& key : shape.keys) {
         const std::string own = path.empty() ? key.name : path + "." + key.name;
         rows.push_back({own, needed, &key});
+        for (const DescribedKey& tag : key.tags)
+            rows.push_back(
+                {own + (key.list ? "[]." : ".") + tag.name, joined(needed, before(tag.name, key.shapes)), &tag});
         for (const DescribedObject& inside : key.shapes) {
             const std::string more = when(inside, key.shapes);
-            add_rows(inside, own + (key.list ? "[]" : ""), needed + (needed.empty() || more.empty() ? "" : ", ") + more,
-                     rows);
+            add_rows(inside, own + (key.list ? "[]" : ""), joined(needed, more), rows);
         }
     }
 }

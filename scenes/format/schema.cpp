@@ -97,7 +97,7 @@ class SchemaWriter {
         Node properties = object_node(), needed = array_node();
         for (const auto& [tag, word] : shape.tags) {
             add(properties, tag, object_node({{"const", word}}));
-            needed.items.emplace_back(tag);
+            if (shape.explicit_tags) needed.items.emplace_back(tag);
         }
         for (const DescribedKey& key : shape.keys) {
             add(properties, key.name, shared(key.name, property(key)));

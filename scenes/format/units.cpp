@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "output/json/source.hpp"
+#include "scenes/format/absent.hpp"
 #include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
@@ -208,8 +209,11 @@ class UnitParser {
             return reject(rest_.empty() ? "the unit ends too early"
                                         : fmt::format("{} is not a unit", in_quotes(rest_)));
         const auto found = named(text);
-        if (!found)
-            return reject(fmt::format("unknown unit {}{}", in_quotes(text), suggestion(text, symbols_of(expected_))));
+        if (!found) {
+            const std::string remedy = absent_unit(text);
+            return reject(fmt::format("unknown unit {}{}", in_quotes(text),
+                                      remedy.empty() ? suggestion(text, symbols_of(expected_)) : remedy));
+        }
         q = *found;
         rest_.remove_prefix(n);
         return true;

@@ -37,7 +37,7 @@ class Writer final : public SceneVisitor {
         if (key.written) fields(inside);
         put(key, inside.take());
     }
-    void alternatives(const std::vector<sim::Alternative>& all) override {
+    void alternatives(const std::vector<sim::Alternative>& all, bool) override {
         for (const sim::Alternative& each : all) {
             if (!each.chosen) continue;
             for (const auto& [tag, word] : each.tags) put(tag, word);

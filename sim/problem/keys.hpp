@@ -103,8 +103,9 @@ class Visitor {
     // An object. With `present` the key may be null; `present` is then false.
     virtual void object(const Key& key, const std::function<void(Visitor&)>& fields, const char* meaning,
                         bool* present = nullptr) = 0;
-    // The object that is visited has one of these shapes.
-    virtual void alternatives(const std::vector<Alternative>& all) = 0;
+    // The object that is visited has one of these shapes. A tag that is left out follows from the other keys where only
+    // one of its words has a shape with all of them; with `explicit_tags` it is required.
+    virtual void alternatives(const std::vector<Alternative>& all, bool explicit_tags = false) = 0;
 
     // ---- in terms of those above ----
     void number(const Key& key, double& value, const Unit& unit, const Range& range, const char* meaning) {
@@ -179,7 +180,7 @@ class NumberVisitor : public Visitor {
         fields(*this);
         path_ = outside;
     }
-    void alternatives(const std::vector<Alternative>& all) final {
+    void alternatives(const std::vector<Alternative>& all, bool) final {
         for (const Alternative& each : all)
             if (each.chosen) each.fields(*this);
     }

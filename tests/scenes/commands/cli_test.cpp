@@ -74,6 +74,29 @@ TEST(CommandLine, EveryKeyIsExplained) {
     EXPECT_THAT(shell(folder, "$BEAMCAM keys sped").err, HasSubstr("did you mean \"speed\" or \"seed\"?"));
 }
 
+TEST(CommandLine, KeysThatSelectAVariantAreExplained) {
+    const Folder folder;
+    EXPECT_THAT(
+        shell(folder, "$BEAMCAM keys contact.friction.type").out,
+        AllOf(StartsWith("contact.friction.type\n    none | coulomb | stick-slip\n"), HasSubstr("May be left out")));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys hub.drive.law").out,
+                StartsWith("hub.drive.law  (type=prescribed)\n    constant | spin-up | table\n"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys 'outputs*type'").out,
+                HasSubstr("outputs[].type\n    video | frames | still"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM keys around").out,
+                HasSubstr("outputs[].speed.around  (type=video | type=frames"));
+}
+
+TEST(CommandLine, AReaderThatEndsEarlyIsNoError) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 2}, "outputs": []})");
+    for (const char* arguments :
+         {"schema", "simulate s.json --trajectory - --rate '10 kHz'"})  // more than a pipe holds
+        EXPECT_EQ(shell(folder, fmt::format("($BEAMCAM {}; echo code $? >&2) | head -c 1", arguments)).err,
+                  "code 141\n");
+    EXPECT_THAT(shell(folder, "$BEAMCAM schema > /dev/full").err, HasSubstr("cannot write to standard output"));
+}
+
 TEST(CommandLine, WrongUsageIsTwo) {
     const Folder folder;
     folder.write("s.json", "{}");
@@ -132,10 +155,10 @@ TEST(CommandLine, WrongUsageIsTwo) {
     EXPECT_THAT(shell(folder, "$BEAMCAM figure s.json --channels theta --low abc -o a.pdf -n").err,
                 HasSubstr("beamcam: --low = \"abc\": it does not begin with a number"));
     for (const auto& [arguments, message] :
-         {std::pair{"figure s.json --channels theta --low 3 --high 1 -o a.pdf", "--high must be above --low"},
+         {std::pair{"figure s.json --channels theta --low 3 --high 1 -o a.pdf", "high must be above \"low\""},
           std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "beamcam: the film from 1 s to 0.5 s has no frame"},
-          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to must be later than --from"},
-          std::pair{"render s.json --from 30 -o a.mp4", "--from must be earlier than the end of the scene"},
+          std::pair{"render s.json --from 1 --to 0.5 -o a.mp4", "--to: to must be later than \"from\""},
+          std::pair{"render s.json --from 30 -o a.mp4", "--from: from must be earlier than the end of the scene"},
           std::pair{"render s.json --at 1 -o s.json/x.png", "s.json/x.png: s.json is not a directory"},
           std::pair{"render s.json --at 1 -o none/x.png", "none/x.png: the directory none does not exist"},
           std::pair{"render s.json --at 1 -o x.mp4", "-o x.mp4 must be a .png, .pdf, .svg or .eps file"},
@@ -271,7 +294,7 @@ TEST(CommandLine, QuotesTheUsersWordsAsTheyAre) {
     const Folder folder;
     folder.write("s.json", "{}");
     EXPECT_THAT(shell(folder, "$BEAMCAM render s.json --at 0.3 --style speed -o a.png").err,
-                HasSubstr("--style = \"speed\""));
+                HasSubstr("--style: view.style = \"speed\""));
 }
 
 TEST(CommandLine, AnUnreadableSceneIsSix) {

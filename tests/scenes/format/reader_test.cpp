@@ -253,6 +253,37 @@ TEST(Reader, WhatTheVersionCannotDoIsRejectedByName) {
                 ElementsAre(HasSubstr("write a \"video\" whose \"file\" ends in .gif")));
 }
 
+TEST(Reader, ATypeThatIsLeftOutFollowsFromTheOtherKeys) {
+    const auto drive = [](const char* keys) {
+        return read(fmt::format(R"({{"hub": {{"drive": {}}}}})", keys)).scene.value().problem.hub.drive;
+    };
+    EXPECT_TRUE(std::holds_alternative<sim::FreeDrive>(drive("{}")));
+    EXPECT_TRUE(std::holds_alternative<sim::ConstantTorque>(drive(R"({"value": 1})")));
+    EXPECT_TRUE(std::holds_alternative<sim::HarmonicTorque>(drive(R"({"amplitude": 1, "frequency": 2})")));
+    EXPECT_TRUE(std::holds_alternative<sim::ConstantSpeed>(drive(R"({"speed": 1, "x-why": "paper"})")));
+    EXPECT_TRUE(std::holds_alternative<sim::SpinUp>(drive(R"({"type": "prescribed", "speed": 1, "duration": 2})")));
+    EXPECT_TRUE(std::holds_alternative<sim::AngleTable>(drive(R"({"law": "table", "t": [0, 1], "theta": [0, 1]})")));
+    EXPECT_TRUE(std::holds_alternative<sim::StickSlipFriction>(
+        read(R"({"contact": {"friction": {"coefficient": 0.2, "static_coefficient": 0.3}}})")
+            .scene.value()
+            .problem.contact.friction));
+    EXPECT_THAT(messages(read(R"({"contact": {"friction": {"coefficient": 0.2}}})")),
+                ElementsAre("1:26 contact.friction needs \"type\", one of coulomb, stick-slip"));
+    EXPECT_THAT(messages(read(R"({"hub": {"drive": {"torqe": 1}}})")),
+                ElementsAre("1:18 hub.drive needs \"type\", one of free, torque, prescribed"));
+    EXPECT_THAT(messages(read(R"({"outputs": [{"file": "a.mp4"}]})")),
+                ElementsAre(HasSubstr("needs \"type\", one of video")));
+}
+
+TEST(Reader, WholeNumbersOfRadiansBeyondATurnArePerhapsDegrees) {
+    const Reading reading = read(R"({"initial": {"angle": 45}, "cam": {"phase": 6.5}})");
+    EXPECT_TRUE(reading.scene);
+    EXPECT_THAT(messages(reading),
+                ElementsAre("1:23 initial.angle = 45 is in rad, more than a turn; write \"45 deg\" if "
+                            "degrees are meant"));
+    EXPECT_THAT(messages(read(R"({"beam": {"length": "12 inch"}})")), ElementsAre(HasSubstr("\"inch\"; write in")));
+}
+
 TEST(Reader, KeysForWhatIsNotModelledSaySo) {
     for (const auto& [scene, message] :
          {std::pair{R"({"cam": {"profile": [1]}})", "unknown key \"profile\" in cam; the cam is an eccentric disc"},
