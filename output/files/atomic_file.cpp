@@ -2,10 +2,12 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
+#include <ctime>
 #include <random>
 #include <utility>
 
@@ -49,6 +51,13 @@ void require_file(const fs::path& target, const fs::path& real) {
     throw IoError("cannot write " + target.string() + ": it is a device or a pipe, which cannot be replaced by a file");
 }
 
+// Locks a new temporary file, which remove_abandoned_parts may have removed before.
+bool is_kept(Descriptor& file) {
+    file.lock();
+    struct stat status = {};
+    return fstat(file.number(), &status) != 0 || status.st_nlink > 0;
+}
+
 void sync_directory(const fs::path& directory) {
     // If this fails, the file itself is safe; some file systems do not open directories.
     if (const Descriptor opened(directory, O_RDONLY | O_DIRECTORY); opened) fsync(opened.number());
@@ -87,12 +96,12 @@ void AtomicFile::create() {
     for (int attempt = 0; attempt < 100 && !file_; ++attempt) {
         temporary_ = real_.parent_path() / temporary_name(real_.filename().string());
         if (std::error_code error; fs::exists(fs::symlink_status(temporary_, error))) continue;
-        if (target_.before_creation) target_.before_creation(temporary_);
         // Registered first: a signal between the two lines must not leave the file behind.
         registered_.emplace(temporary_);
         file_ = Descriptor(openat(directory_.number(), temporary_.filename().c_str(),
                                   O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666));  // less the umask
         if (!file_ && errno != EEXIST) throw write_error(target_.path, errno);
+        if (file_ && !is_kept(file_)) file_.close();
     }
     if (!file_) throw write_error(target_.path, EEXIST);
     pending_ = true;
@@ -114,6 +123,7 @@ void AtomicFile::write_at(std::uint64_t offset, std::string_view bytes) {
 void AtomicFile::commit(Durability durability) {
     if (!pending_) throw std::logic_error("AtomicFile: " + target_.path.string() + " is committed already");
     if (durability == Durability::synced && fsync(file_.number()) != 0) throw write_error(target_.path, errno);
+    const Descriptor lock(fcntl(file_.number(), F_DUPFD_CLOEXEC, 0));  // until the file has its name
     if (!file_.close()) throw write_error(target_.path, errno);
     if (target_.before_rename) target_.before_rename(temporary_);
     const int directory = directory_.number();
@@ -171,16 +181,26 @@ std::string read_file(const fs::path& file) {
 
 std::string random_digits() { return fmt::format("{:0{}x}", std::random_device()(), kRandomDigits); }
 
-bool is_random_part(std::string_view text) {
-    return text.size() == kRandomDigits && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
 bool is_temporary_name(std::string_view name) {
     if (!name.starts_with('.') || !name.ends_with(kTemporaryEnding) || name.find('/') != std::string_view::npos)
         return false;
     name.remove_suffix(kTemporaryEnding.size());
     return name.size() > kRandomDigits + 2 && name[name.size() - kRandomDigits - 1] == '.' &&
-           is_random_part(name.substr(name.size() - kRandomDigits));
+           name.substr(name.size() - kRandomDigits).find_first_not_of("0123456789abcdef") == std::string_view::npos;
+}
+
+void remove_abandoned_parts(const fs::path& directory) {
+    constexpr std::time_t kLongestPause = 3600;  // [s] between two writes of a run that lives
+    std::error_code failed;
+    for (fs::directory_iterator at(directory, failed), end; !failed && at != end; at.increment(failed)) {
+        if (!is_temporary_name(at->path().filename().string())) continue;
+        Descriptor file(at->path(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK);
+        struct stat status = {};
+        if (!file || fstat(file.number(), &status) != 0 || !S_ISREG(status.st_mode) || status.st_uid != geteuid())
+            continue;
+        if (std::time(nullptr) - status.st_mtime <= kLongestPause) continue;
+        if (file.try_lock() || errno != EWOULDBLOCK) unlink(at->path().c_str());
+    }
 }
 
 }  // namespace beamcam::output

@@ -1,5 +1,5 @@
 // A file that appears whole or not at all. It is written under a hidden name beside its target; `commit` flushes and
-// renames it, otherwise the destructor removes it. The manifest (manifest.hpp) decides whether the target may be
+// renames it, otherwise the destructor removes it. The list of files (file_list.hpp) decides whether the target may be
 // replaced.
 #pragma once
 
@@ -66,10 +66,12 @@ void ensure_directory(const std::filesystem::path& directory);
 std::string read_file(const std::filesystem::path& file);
 void read_pieces(const std::filesystem::path& file, const std::function<void(std::string_view piece)>& visit);
 
+// Removes the temporary files that killed runs of this user left in a directory: those that nobody wrote to for an hour
+// and that no living run has locked.
+void remove_abandoned_parts(const std::filesystem::path& directory);
+
 // Eight hexadecimal digits, for names of files that no other run uses.
 std::string random_digits();
-// Whether a name is that of a temporary file of AtomicFile, and whether a text could come from `random_digits`.
-bool is_temporary_name(std::string_view name);
-bool is_random_part(std::string_view text);
+bool is_temporary_name(std::string_view name);  // of AtomicFile
 
 }  // namespace beamcam::output

@@ -1,4 +1,4 @@
-// The destination of a file. A path converts to it; Manifest::target adds the functions that record the file as made by
+// The destination of a file. A path converts to it; FileList::target adds the function that records the file as made by
 // beamcam.
 #pragma once
 
@@ -17,9 +17,9 @@ struct Target {
 
     std::filesystem::path path;
     std::filesystem::path within;  // the file must lie below this folder, symbolic links followed; empty: anywhere
-    // Called with the path of the temporary file: before it is created, and before it, complete, replaces `path`. If
-    // they throw, `path` stays unchanged.
-    std::function<void(const std::filesystem::path&temporary)> before_creation, before_rename;
+    // Called with the path of the temporary file before it, complete, replaces `path`. If it throws, `path` stays
+    // unchanged.
+    std::function<void(const std::filesystem::path& temporary)> before_rename;
 };
 
 }  // namespace beamcam::output

@@ -83,8 +83,8 @@ sim::AccuracyRequest request_of(const AccuracyArguments& args, const Scene& scen
 int act(const AccuracyArguments& args) {
     const Scene scene = load_scene(args.scene, args.common);
     const sim::AccuracyRequest request = request_of(args, scene);
-    output::Manifest manifest(args.common.force);
-    require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
+    output::FileList file_list(args.common.force);
+    require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, file_list);
     Progress progress(progress_style(args.common));
     progress.begin("accuracy", 100, "%");
     const sim::Accuracy found =
@@ -92,7 +92,7 @@ int act(const AccuracyArguments& args) {
     progress.end();
     return write_result({[&] { return output::accuracy_json(found); }, [&] { return accuracy_text(found); },
                          [&] { return accuracy_figure(found, scene.problem, args.files.lang); }},
-                        args.files, scene, args.common, manifest);
+                        args.files, scene, args.common, file_list);
 }
 
 }  // namespace

@@ -1,7 +1,7 @@
 // `beamcam collect`: parts of a sweep joined.
 #include <fmt/format.h>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "scenes/scene/version.hpp"
@@ -19,13 +19,12 @@ struct CollectArguments {
 
 void act(const CollectArguments& args) {
     require_ending("-o", args.file, {".nc", ".csv", ".npz"});
-    output::Manifest manifest(args.common.force);
-    manifest.require_replaceable(args.file);
+    output::FileList file_list(args.common.force);
+    file_list.require_replaceable(args.file);
     CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
     all.scene.set_outputs({SweepOutput{args.file}});
     output::Origin origin{inputs_key(all.scene, 0, 0, ""), std::string(kVersion), metadata_json(all.scene)};
-    output::write_sweep(manifest.target(args.file, std::move(origin)), all.data);
-    manifest.save();
+    output::write_sweep(file_list.target(args.file, std::move(origin)), all.data);
     inform(args.common, fmt::format("wrote {} ({} of {})", args.file, counted(all.data.points(), "point"),
                                     counted(args.parts.size(), "part")));
 }

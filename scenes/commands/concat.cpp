@@ -1,7 +1,7 @@
 // `beamcam concat`: segments of a film joined without encoding them again.
 #include <fmt/format.h>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/film/video.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/scene/files.hpp"
@@ -27,10 +27,9 @@ void act(const ConcatArguments& args) {
         if (std::filesystem::equivalent(segment, args.file, unreadable))
             throw UsageError(fmt::format("-o {}: it is one of the segments; name another file", args.file));
     }
-    output::Manifest manifest(args.common.force);
-    manifest.require_replaceable(args.file);
-    const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, manifest.target(args.file));
-    manifest.save();
+    output::FileList file_list(args.common.force);
+    file_list.require_replaceable(args.file);
+    const long frames = output::concatenate({args.segments.begin(), args.segments.end()}, file_list.target(args.file));
     inform(args.common, fmt::format("wrote {} ({} of {})", args.file, counted(frames, "frame"),
                                     counted(args.segments.size(), "segment")));
 }

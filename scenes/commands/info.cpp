@@ -1,11 +1,11 @@
-// `beamcam info`: the provenance of a file, from its metadata or from the manifest beside it.
+// `beamcam info`: the provenance of a file, from its metadata or from the list of files beside it.
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <map>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/text_safety.hpp"
@@ -66,9 +66,17 @@ void read_png_info(const std::string& file, Provenance& p) {
     const output::PngInfo info = output::read_png_info(file);
     p.facts["size"] = fmt::format("{}x{}", info.width, info.height);
     read_own_keys(info.metadata, p);
+    // The frames of a sequence name the first one, which has the scene.
+    const std::string first = find(info.metadata, "beamcam-scene-in");
+    if (first.empty() || first.find('/') != std::string::npos) return;
+    p.facts["scene_in"] = first;
+    const fs::path beside = fs::path(file).parent_path() / first;
+    std::error_code unreadable;
+    if (fs::is_regular_file(beside, unreadable))
+        p.scene = find(output::read_png_info(beside).metadata, "beamcam-scene");
 }
 
-void read_manifest(const std::string& file, Provenance& p);
+void read_file_list(const std::string& file, Provenance& p);
 
 void read_film(const std::string& file, Provenance& p) {
     const output::VideoReader film(file);
@@ -79,13 +87,12 @@ void read_film(const std::string& file, Provenance& p) {
     if (info.frames > 0) p.facts["frames"] = std::to_string(info.frames);
     if (info.seconds > 0) p.facts["duration"] = fmt::format("{:.6g} s", info.seconds);
     read_own_keys(info.metadata, p);
-    if (!p.made_by_beamcam()) read_manifest(file, p);  // formats without metadata, such as GIF
+    if (!p.made_by_beamcam()) read_file_list(file, p);  // formats without metadata, such as GIF
 }
 
-// Tables contain only numbers; the manifest beside them describes them.
-void read_manifest(const std::string& file, Provenance& p) {
-    const auto record = output::Manifest::find(file);
-    if (const std::string damage = output::Manifest::damage(file); !damage.empty()) p.facts["unknown"] = damage;
+// Tables contain only numbers; the list of files beside them describes them.
+void read_file_list(const std::string& file, Provenance& p) {
+    const auto record = output::FileList::find(file);
     if (!record) return;
     p.version = record->origin.version;
     p.scene = record->origin.scene;
@@ -93,7 +100,7 @@ void read_manifest(const std::string& file, Provenance& p) {
 }
 
 void read_table(const std::string& file, Provenance& p) {
-    read_manifest(file, p);
+    read_file_list(file, p);
     const output::ColumnTable table = output::read_table(file, output::Texts::kept);
     const bool texts = std::ranges::any_of(table.columns, [](const auto& column) { return !column.texts.empty(); });
     p.kind = texts ? "table with texts" : "table";  // texts: such as the data of a figure
@@ -132,7 +139,7 @@ Provenance provenance_of(const std::string& file) {
         read_netcdf(file, p);
     } else if (const char* kind = kind_without_scene(ending); kind && ending != ".gif" && ending != ".apng") {
         p.kind = kind;  // also an animated .webp, which FFmpeg does not read
-        read_manifest(file, p);
+        read_file_list(file, p);
     } else {
         read_film(file, p);
     }

@@ -55,8 +55,8 @@ int act(const LyapunovArguments& args) {
     sim::ExponentsRequest request = args.request;
     request.transient = args.transient ? transient_argument(*args.transient, scene.problem) : 20;
     if (args.duration) request.duration = positive_argument("--duration", *args.duration, dimension::kTime);
-    output::Manifest manifest(args.common.force);
-    require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, manifest);
+    output::FileList file_list(args.common.force);
+    require_writable("-o", args.files.names, {".json", ".png", ".svg", ".pdf"}, file_list);
     Progress progress(progress_style(args.common));
     const auto reached = [&](double t) { return progress.reach(t); };
     progress.begin("exponents", request.transient + request.duration, "s");
@@ -69,7 +69,7 @@ int act(const LyapunovArguments& args) {
     }
     const int code = write_result({[&] { return output::exponents_json(found); }, [&] { return exponents_text(found); },
                                    [&] { return exponents_figure(found, subject_of(scene, args.files.lang)); }},
-                                  args.files, scene, args.common, manifest);
+                                  args.files, scene, args.common, file_list);
     if (std::cmp_greater(request.count, found.lambda.size()))
         inform(args.common,
                fmt::format("note: the motion has {}, not {}", counted(found.lambda.size(), "exponent"), request.count));

@@ -150,12 +150,11 @@ Scene scene_on(const Scene& scene, const sim::PeriodicOrbit& orbit, const sim::P
 
 // False if the beam never leaves the cam: a scene must begin in flight.
 bool write_scene(const OrbitsArguments& args, const Scene& scene, const std::vector<sim::PeriodicOrbit>& orbits,
-                 output::Manifest& manifest) {
+                 output::FileList& file_list) {
     for (const sim::PeriodicOrbit& orbit : orbits)
         if (const std::optional<sim::Problem> begun = sim::begun_on(scene.problem, orbit)) {
             const Scene on = scene_on(scene, orbit, *begun, std::filesystem::path(*args.scene_file).stem().string());
-            output::write_file(manifest.target(*args.scene_file), to_json(on));
-            manifest.save();
+            output::write_file(file_list.target(*args.scene_file), to_json(on));
             inform(args.common, "wrote " + *args.scene_file);
             return true;
         }
@@ -179,11 +178,11 @@ void reject_unused_options(const OrbitsArguments& args) {
 }
 
 // Before any work.
-void require_writable_files(const OrbitsArguments& args, output::Manifest& manifest) {
-    require_writable("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, manifest);
+void require_writable_files(const OrbitsArguments& args, output::FileList& file_list) {
+    require_writable("-o", args.files.names, {".json", ".csv", ".npz", ".nc", ".png", ".svg", ".pdf"}, file_list);
     if (args.scene_file) {
         require_ending("--scene", *args.scene_file, {".json"});
-        require_writable("--scene", {*args.scene_file}, {".json"}, manifest);
+        require_writable("--scene", {*args.scene_file}, {".json"}, file_list);
     }
 }
 
@@ -253,8 +252,8 @@ int act(const OrbitsArguments& args) {
     std::optional<KeyRange> range;
     if (args.over) range = range_argument(*args.over, scene.problem, scene.units);
     reject_unused_options(args);
-    output::Manifest manifest(args.common.force);
-    require_writable_files(args, manifest);
+    output::FileList file_list(args.common.force);
+    require_writable_files(args, file_list);
     if (args.sweep_file)
         if (const std::string keys = differences_from_sweep(scene.problem, *args.sweep_file); !keys.empty())
             inform(args.common,
@@ -270,7 +269,7 @@ int act(const OrbitsArguments& args) {
     const output::BranchTable table = compute(args, scene.problem, range, scene.units);
 
     // 3. What is missing, the result and its files; the code of an error of a file comes first.
-    const bool written = !args.scene_file || write_scene(args, scene, table.orbits, manifest);
+    const bool written = !args.scene_file || write_scene(args, scene, table.orbits, file_list);
     if (table.orbits.empty()) inform(args.common, nothing_found(request_of(args, scene.problem)));
     const bool followed = !range || !table.branches.empty();
     if (!followed && !table.orbits.empty())
@@ -281,7 +280,7 @@ int act(const OrbitsArguments& args) {
         write_result({[&] { return output::orbits_json(table); }, [&] { return to_text(table, scene.units); },
                       [&] { return branches_figure(table, swept, scene, args.files.lang); },
                       [&] { return output::orbit_columns(table, attributes_of(scene)); }},
-                     args.files, scene, args.common, manifest);
+                     args.files, scene, args.common, file_list);
     if (code != kDone) return code;
     return written && followed && !table.orbits.empty() ? kDone : kSolverFailed;
 }

@@ -3,7 +3,7 @@
 
 #include <filesystem>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/errors.hpp"
 #include "scenes/commands/commands.hpp"
@@ -88,7 +88,7 @@ std::vector<std::string> files_of(const PaperArguments& args, const std::vector<
 
 class PaperWriter {
   public:
-    PaperWriter(const PaperArguments& args) : args_(args), manifest_(args.common.force) {}
+    PaperWriter(const PaperArguments& args) : args_(args), file_list_(args.common.force) {}
 
     // Before any work: throws what `write` would throw.
     void prepare(const std::vector<std::string>& files) {
@@ -98,25 +98,22 @@ class PaperWriter {
             std::error_code ignored;
             if (fs::is_directory(path, ignored))
                 throw output::IoError(fmt::format("{} is a directory; choose another -o", path.string()));
-            manifest_.require_replaceable(path);
+            file_list_.require_replaceable(path);
         }
     }
     void write(const std::string& file, const std::string& bytes) {
         stop_if_interrupted();
         const fs::path path = fs::path(args_.directory) / file;
-        output::Target target = manifest_.target(path, {{}, std::string(kVersion), {}});
+        output::Target target = file_list_.target(path, {{}, std::string(kVersion), {}});
         target.within = args_.directory;
         output::write_file(target, bytes);
         ++count_;
     }
-    void finish() {
-        manifest_.save();
-        inform(args_.common, fmt::format("wrote {} to {}", counted(count_, "file"), args_.directory));
-    }
+    void finish() { inform(args_.common, fmt::format("wrote {} to {}", counted(count_, "file"), args_.directory)); }
 
   private:
     const PaperArguments& args_;
-    output::Manifest manifest_;
+    output::FileList file_list_;
     int count_ = 0;
 };
 

@@ -31,13 +31,13 @@ std::string content_of(const Result& result, const ResultFiles& files, Scene sce
 }
 
 void write_to(const std::string& file, const Result& result, const ResultFiles& files, const Scene& scene,
-              output::Manifest& manifest) {
+              output::FileList& file_list) {
     if (is_stdout(file))
         print_data(result.json());
     else if (is_table(file))
-        output::write_table(manifest.target(file), result.table());
+        output::write_table(file_list.target(file), result.table());
     else
-        output::write_file(manifest.target(file), content_of(result, files, scene, file));
+        output::write_file(file_list.target(file), content_of(result, files, scene, file));
 }
 
 }  // namespace
@@ -52,18 +52,18 @@ void add_result_options(Command& app, ResultFiles& files, Common& common, const 
 }
 
 void require_writable(const char* option, const std::vector<std::string>& files,
-                      std::initializer_list<const char*> endings, output::Manifest& manifest) {
+                      std::initializer_list<const char*> endings, output::FileList& file_list) {
     for (const std::string& file : files) {
         require_ending_or_stdout(option, file, endings);
         if (is_stdout(file)) continue;
         if (file.ends_with(".nc")) output::netcdf_library();  // fails here where it is missing
-        manifest.require_replaceable(file);
-        output::AtomicFile(manifest.target(file));  // created and removed: fails here where it cannot be written
+        file_list.require_replaceable(file);
+        output::AtomicFile(file_list.target(file));  // created and removed: fails here where it cannot be written
     }
 }
 
 int write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
-                 output::Manifest& manifest) {
+                 output::FileList& file_list) {
     const bool prints_data = std::ranges::find(files.names, "-") != files.names.end();
     if (common.json && !prints_data)
         print_json(result.json());
@@ -71,13 +71,12 @@ int write_result(const Result& result, const ResultFiles& files, const Scene& sc
         print_text(result.text());
     const int code = for_each_file(files.names, [&](const std::string& file) {
         try {
-            write_to(file, result, files, scene, manifest);
+            write_to(file, result, files, scene, file_list);
         } catch (const render::PictureError& error) {  // such as a diagram of branches without impacts
             throw render::PictureError(fmt::format("{} is not written: {}", file, error.what()));
         }
         if (!is_stdout(file)) inform(common, "wrote " + file);
     });
-    manifest.save();
     return code;
 }
 

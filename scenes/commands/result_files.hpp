@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/data/tables.hpp"
 #include "render/plot/figure.hpp"
 #include "scenes/commands/commands.hpp"
@@ -32,12 +32,12 @@ void add_result_options(Command& app, ResultFiles& files, Common& common, const 
 // To be called before any work. Throws UsageError for other endings, WouldOverwrite, IoError where a file cannot be
 // written.
 void require_writable(const char* option, const std::vector<std::string>& files,
-                      std::initializer_list<const char*> endings, output::Manifest& manifest);
+                      std::initializer_list<const char*> endings, output::FileList& file_list);
 
 // Prints the result as JSON or as text, and writes the files. If "-" is one of them, prints JSON alone. Returns the
 // exit code of for_each_file.
 int write_result(const Result& result, const ResultFiles& files, const Scene& scene, const Common& common,
-                 output::Manifest& manifest);
+                 output::FileList& file_list);
 
 // --transient of `lyapunov` and `orbits` [s], a span_argument.
 double transient_argument(const std::string& text, const sim::Problem& problem);

@@ -92,12 +92,11 @@ render::Image sheet_of(const SheetArguments& args) {
 }
 
 void act(const SheetArguments& args) {
-    output::Manifest manifest(args.common.force);
-    require_writable("-o", {args.file}, {".png"}, manifest);
+    output::FileList file_list(args.common.force);
+    require_writable("-o", {args.file}, {".png"}, file_list);
     const std::string bytes = output::encode_png(sheet_of(args));
     if (is_stdout(args.file)) return print_data(bytes);
-    output::write_file(manifest.target(args.file), bytes);
-    manifest.save();
+    output::write_file(file_list.target(args.file), bytes);
     inform(args.common, fmt::format("wrote {}", args.file));
 }
 

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <map>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/image/png.hpp"
 #include "output/json/tree.hpp"
@@ -167,17 +167,16 @@ void write(const output::Target& file, const sim::Campaign& campaign, const std:
 
 int act(const StressArguments& args) {
     if (args.quick && args.full) throw UsageError("--quick and --full exclude each other; keep one");
-    output::Manifest manifest(args.common.force);
+    output::FileList file_list(args.common.force);
     for (const std::string& file : args.files) {
         require_ending("-o", file, {".csv", ".json", ".png"});
-        manifest.require_replaceable(file);
+        file_list.require_replaceable(file);
     }
     const sim::Campaign campaign = sim::stress_campaign(args.full);
     const std::vector<sim::StressResult> results = run_cases(campaign, args.common);
     print_text(stress_text(campaign, results));
     const int code =
-        for_each_file(args.files, [&](const std::string& file) { write(manifest.target(file), campaign, results); });
-    manifest.save();
+        for_each_file(args.files, [&](const std::string& file) { write(file_list.target(file), campaign, results); });
     const bool failed =
         std::ranges::any_of(results, [](const sim::StressResult& r) { return r.outcome == sim::Outcome::failed; });
     if (failed)

@@ -4,15 +4,21 @@
 #include <link.h>
 
 #include <cstring>
+#include <filesystem>
 #include <set>
 #include <string_view>
 
 #include "output/files/digest.hpp"
+#include "render/base/modules.hpp"
 #include "scenes/motions/fingerprint.hpp"
 #include "scenes/scene/version.hpp"
 
 namespace beamcam::scenes {
 namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kModules[] = {"beamcam_video.so", "beamcam_netcdf.so", "beamcam_osmesa.so", "beamcam_egl.so"};
 
 // Collects the build id, a digest of the content that the linker stores in every program and library.
 int add_build_id(dl_phdr_info* info, std::size_t, void* out) {
@@ -36,6 +42,25 @@ int add_build_id(dl_phdr_info* info, std::size_t, void* out) {
     return 0;
 }
 
+// The libraries that the program is linked with. Before main no module is loaded, whatever the command.
+const std::set<std::string>& linked_build_ids() {
+    static const std::set<std::string> all = [] {
+        std::set<std::string> found;
+        dl_iterate_phdr(add_build_id, &found);
+        return found;
+    }();
+    return all;
+}
+[[maybe_unused]] const std::set<std::string>& at_start = linked_build_ids();
+
+// The modules that a command may load, by their files.
+std::string digest_of_module(const char* name) {
+    std::error_code unknown;
+    for (const fs::path& place : render::module_places(fs::read_symlink("/proc/self/exe", unknown), name))
+        if (fs::is_regular_file(place, unknown)) return output::sha256_of_file(place);
+    return "none";
+}
+
 // Problems with the same motion become equal.
 sim::Problem canonical(sim::Problem p) {
     p.beam.basis = resolved_basis(p);
@@ -53,11 +78,10 @@ sim::Problem canonical(sim::Problem p) {
 
 const std::string& program_identity() {
     static const std::string identity = [] {
-        std::set<std::string> build_ids;
-        dl_iterate_phdr(add_build_id, &build_ids);
         output::Sha256 builds;
-        for (const std::string& each : build_ids) builds.update(each);
-        if (build_ids.empty()) builds.update(output::sha256_of_file("/proc/self/exe"));
+        for (const std::string& each : linked_build_ids()) builds.update(each);
+        for (const char* name : kModules) builds.update(digest_of_module(name));
+        if (linked_build_ids().empty()) builds.update(output::sha256_of_file("/proc/self/exe"));
         return fmt::format("beamcam {} {} {}", kVersion, builds.hex(), processor_path());
     }();
     return identity;

@@ -8,7 +8,8 @@
 
 namespace beamcam::scenes {
 
-// Version and build of this program and its loaded libraries, and the instruction set that selects code paths.
+// Version and build of this program, the libraries that it is linked with and its modules, and the instruction set that
+// selects code paths. It does not depend on which modules a command has loaded.
 const std::string& program_identity();
 
 // SHA-256 of everything that determines the motion: the physics with resolved defaults and the solver's settings. It

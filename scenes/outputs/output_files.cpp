@@ -18,7 +18,7 @@ void OutputFiles::recover() {
     std::set<fs::path> folders;
     for (const Output& output : scene_.outputs)
         if (!is_stdout(file_of(output))) folders.insert(path_of(file_of(output)).parent_path());
-    for (const fs::path& folder : folders) context_.manifest.recover(folder);
+    for (const fs::path& folder : folders) context_.file_list.recover(folder);
 }
 
 void OutputFiles::claim(const Plan& plan) {
@@ -36,7 +36,7 @@ void OutputFiles::claim(const Plan& plan) {
                                 ? fmt::format("{} is not a directory", folder.string())
                                 : fmt::format("the directory {} does not exist; create it first", folder.string())));
         if (!directory.empty()) output::require_within(file, directory);
-        context_.manifest.require_replaceable(file);
+        context_.file_list.require_replaceable(file);
     }
     if (!directory.empty())
         for (const fs::path& file : claimed) output::ensure_directory(file.parent_path());
@@ -70,7 +70,7 @@ output::Target OutputFiles::target(const fs::path& file, std::optional<std::size
     output::Origin origin;
     if (output) origin.inputs = inputs_[*output];
     if (kind_without_scene(ending_of(file))) origin.version = kVersion, origin.scene = metadata_json(scene_);
-    output::Target target = context_.manifest.target(file, std::move(origin));
+    output::Target target = context_.file_list.target(file, std::move(origin));
     target.within = context_.options.directory;
     return target;
 }

@@ -15,16 +15,26 @@ namespace {
 
 class PngSink final : public PictureSink {
   public:
-    PngSink(const Pictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {}
+    PngSink(const Pictures& p, const SinkFiles& to) : p_(p), to_(to), metadata_(png_metadata(to)) {
+        if (p.kind != Pictures::Kind::frames) return;
+        // A scene may be many times as large as a picture: the first frame has it, the others name that.
+        later_metadata_ = metadata_;
+        later_metadata_.erase("beamcam-scene");
+        later_metadata_["beamcam-scene-in"] =
+            std::filesystem::path(numbered_file(p.file, p.first_frame)).filename().string();
+    }
 
     Input input(Gate&) override {
         // An unchanged frame has the file of the one before.
-        return [this, file = std::make_shared<std::string>()](long k, const render::Image& image,
-                                                              const render::DirtyTiles& changed) {
+        return [this, file = std::make_shared<std::string>(), encoded_with_scene = std::make_shared<bool>(false)](
+                   long k, const render::Image& image, const render::DirtyTiles& changed) {
             const std::filesystem::path path = path_of(static_cast<std::size_t>(k));
             const output::Target target = to_.files.target(path, p_.output);
             const auto start = Clock::now();
-            if (file->empty() || changed.any()) *file = output::encode_png(image, {std::nullopt, metadata_});
+            const bool has_scene = p_.kind == Pictures::Kind::still || p_.draw[static_cast<std::size_t>(k)] == 0;
+            if (file->empty() || changed.any() || *encoded_with_scene != has_scene)
+                *file = output::encode_png(image, {std::nullopt, has_scene ? metadata_ : later_metadata_});
+            *encoded_with_scene = has_scene;
             output::write_file(
                 target, *file,
                 p_.kind == Pictures::Kind::still ? output::Durability::synced : output::Durability::buffered);
@@ -50,7 +60,8 @@ class PngSink final : public PictureSink {
     const Pictures& p_;
     SinkFiles to_;
     const std::map<std::string, std::string> metadata_;
-    std::mutex mutex_;  // guards the counts
+    std::map<std::string, std::string> later_metadata_;  // of the frames after the first
+    std::mutex mutex_;                                   // guards the counts
 };
 
 class CallbackSink final : public PictureSink {

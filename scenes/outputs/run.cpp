@@ -18,7 +18,7 @@ namespace beamcam::scenes {
 RunContext::RunContext(const RunOptions& run_options)
     : options(run_options),
       progress(resolve(run_options.progress)),
-      manifest(run_options.force),
+      file_list(run_options.force),
       cache(open_cache(run_options.no_cache)),
       history(cache ? History(cache->directory()) : History()),
       motions(cache_or_null(), &history, progress,
@@ -108,7 +108,6 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     for (const auto& scene : all) scene->compute_sweep();
     // 3. Write the files, and record them and their cost.
     for (const auto& scene : all) scene->write_outputs();
-    context.manifest.save();
     context.history.save();
     // 4. Report.
     if (options.verbose) report_times_and_work(context);

@@ -1,11 +1,11 @@
-// What the scenes of one `run` share: options, manifest of files, motions, counts and times.
+// What the scenes of one `run` share: options, list of files, motions, counts and times.
 #pragma once
 
 #include <exception>
 #include <optional>
 #include <utility>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/files/standard_output.hpp"
 #include "output/files/work.hpp"
 #include "scenes/motions/motion_store.hpp"
@@ -33,7 +33,7 @@ struct RunContext {
 
     const RunOptions& options;
     Progress progress;
-    output::Manifest manifest;
+    output::FileList file_list;
     std::optional<Cache> cache;
     History history;
     MotionStore motions;

@@ -41,7 +41,7 @@ sim::Table reached_rows(const sim::Table& table) {
 SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
-      up_to_date_(check_up_to_date(scene, context.options.selection, context.options.directory, context.manifest,
+      up_to_date_(check_up_to_date(scene, context.options.selection, context.options.directory, context.file_list,
                                    context.cache_or_null(), context.options.force)),
       plan_(scenes::plan(scene, context.options.selection, up_to_date_.existing)),
       files_(scene, up_to_date_.inputs, context),

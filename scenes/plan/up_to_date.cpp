@@ -18,8 +18,8 @@ namespace fs = std::filesystem;
 class UpToDateCheck {
   public:
     UpToDateCheck(const Scene& scene, const Selection& selection, const std::string& directory,
-                  output::Manifest& manifest)
-        : scene_(scene), whole_(plan(scene, selection)), directory_(directory), manifest_(manifest) {
+                  output::FileList& file_list)
+        : scene_(scene), whole_(plan(scene, selection)), directory_(directory), file_list_(file_list) {
         found_.inputs.resize(scene.outputs.size());
     }
 
@@ -52,33 +52,26 @@ class UpToDateCheck {
     }
 
     bool is_up_to_date(const std::string& file, std::size_t output) {
-        return !is_stdout(file) && manifest_.is_up_to_date(place_of(directory_, file), found_.inputs[output]);
+        return !is_stdout(file) && file_list_.is_up_to_date(place_of(directory_, file), found_.inputs[output]);
     }
 
     void check_files() {
         for (const Pictures& p : whole_.pictures)
             if (p.kind == Pictures::Kind::frames)
                 check_frames(p);
-            else if (!lacks_poster(p))
+            else
                 check(p.file, p.output);
-        for (const FigureFile& f : whole_.figures) check_figure(f);
+        for (const FigureFile& f : whole_.figures) check(f.file, f.output);
         for (const DataFile& d : whole_.data) check(d.file, d.output);
     }
 
-    // A film without its poster is not up to date. The part that has the poster may depend on events.
-    bool lacks_poster(const Pictures& p) {
-        const bool has = p.times_known ? p.makes_poster() : p.selection.shard.whole();
-        return !p.poster_file.empty() && has && !is_up_to_date(p.poster_file, p.output);
-    }
-
+    // A file without those that are written beside it, such as the poster of a film, is not up to date. A part of the
+    // work has another name, and its first file alone.
     void check(const std::string& file, std::size_t output) {
-        if (is_up_to_date(file, output)) found_.existing.finished.emplace(output, file);
-    }
-
-    void check_figure(const FigureFile& f) {
-        const auto files = written_by(scene_.outputs[f.output]);
-        if (std::ranges::all_of(files, [&](const std::string& file) { return is_up_to_date(file, f.output); }))
-            found_.existing.finished.emplace(f.output, f.file);
+        const std::vector<std::string> whole = written_by(scene_.outputs[output]);
+        const std::vector<std::string> files = file == whole.front() ? whole : std::vector{file};
+        if (std::ranges::all_of(files, [&](const std::string& each) { return is_up_to_date(each, output); }))
+            found_.existing.finished.emplace(output, file);
     }
 
     void check_frames(const Pictures& p) {
@@ -113,7 +106,7 @@ class UpToDateCheck {
     const Scene& scene_;
     const Plan whole_;
     const std::string& directory_;
-    output::Manifest& manifest_;
+    output::FileList& file_list_;
     UpToDate found_;
 };
 
@@ -147,8 +140,8 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
 }
 
 UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
-                          output::Manifest& manifest, const Cache* cache, bool ignore_files) {
-    return UpToDateCheck(scene, selection, directory, manifest).run(cache, ignore_files);
+                          output::FileList& file_list, const Cache* cache, bool ignore_files) {
+    return UpToDateCheck(scene, selection, directory, file_list).run(cache, ignore_files);
 }
 
 fs::path place_of(const std::string& directory, const std::string& file) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "scenes/motions/cache.hpp"
 #include "scenes/plan/plan.hpp"
 
@@ -23,7 +23,7 @@ struct UpToDate {
 
 // `directory` as in RunOptions. `cache` may be null. `ignore_files`: no file counts as up to date.
 UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
-                          output::Manifest& manifest, const Cache* cache, bool ignore_files);
+                          output::FileList& file_list, const Cache* cache, bool ignore_files);
 
 // The path of an output's file; with an empty `directory` the name is the path.
 std::filesystem::path place_of(const std::string& directory, const std::string& file);

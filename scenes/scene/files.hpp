@@ -18,7 +18,7 @@ std::string problem_with_numbering(std::string_view file);
 bool is_numbered(std::string_view file);
 inline bool is_stdout(std::string_view file) { return file == "-"; }
 std::string ending_of(const std::filesystem::path& file);  // ".png"
-// What a file with this ending is, if its format holds no scene, which then is in the manifest beside it; null: it
+// What a file with this ending is, if its format holds no scene, which then is in the list of files beside it; null: it
 // does.
 const char* kind_without_scene(std::string_view ending);
 

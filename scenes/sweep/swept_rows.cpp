@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/data/tables.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/format/reader.hpp"
@@ -82,7 +82,7 @@ sim::Problem problem_at_row(sim::Problem problem, const std::string& file, int r
 }
 
 std::string differences_from_sweep(const sim::Problem& problem, const std::string& file) {
-    const auto record = output::Manifest::find(file);
+    const auto record = output::FileList::find(file);
     if (!record || record->origin.scene.empty()) return "";
     const std::optional<Scene> of_sweep = read_scene(Source{file, record->origin.scene}).scene;
     if (!of_sweep || !of_sweep->sweep) return "";

@@ -16,7 +16,7 @@ import tempfile
 DOCUMENTED = {0, 5, 6}
 STEPS = [20, 40, 60, 80, 100, 115, 130, 160, 200, 250, 300, 330, 360, 400, 500, 600, 700, 800, 1000, 1500, 2000]  # [MB]
 LONGEST = 120  # [s]
-NOTES = re.compile(r"\.beamcam\.(json|[0-9a-f]+\.journal)")  # of the program, for its next run
+NOTES = re.compile(r"\.beamcam\.jsonl")  # the list of files
 FRAME, END_OF_PNG = re.compile(r"a-\d\d\.png"), b"IEND\xaeB`\x82"
 SIZE = '"size": [1280, 720]'
 FLAT, LIT, SOLID = ('"view": {"style": "%s"}' % style for style in ("flat", "lit", "solid"))

@@ -3,13 +3,16 @@
 // one that the full scenes lack fails the test.
 #include "scenes/motions/identity.hpp"
 
+#include <dlfcn.h>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 #include <set>
 
+#include "render/base/modules.hpp"
 #include "scenes/plan/up_to_date.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -300,6 +303,33 @@ TEST(Identity, IsThatOfTheProblemHoweverItIsWritten) {
     EXPECT_EQ(key("{}"), key(R"({"beam": {"length": "1000 mm"}, "title": "other", "time": {"end": 3}})"));
     EXPECT_EQ(key("{}"), key(R"({"beam": {"basis": "hub-beam"}, "contact": {"offset": 0}})"));
     EXPECT_EQ(key(R"({"contact": {"offset": "half-depth"}})"), key(R"({"contact": {"offset": 0.0184}})"));
+}
+
+// Started by the test below in a process of its own, because the identity is computed once.
+TEST(Identity, DISABLED_IsPrintedAfterAModuleIsLoaded) {
+    if (const char* module = std::getenv("BEAMCAM_TEST_LOADS")) ASSERT_TRUE(dlopen(module, RTLD_NOW)) << dlerror();
+    fmt::print("identity {}\n", program_identity());
+}
+
+// The module of films brings FFmpeg, which the program is not linked with.
+TEST(Identity, DoesNotDependOnTheModulesThatWereLoadedBefore) {
+    const auto identity = [](const std::string& loads) {
+        const testing::Folder folder;
+        const testing::Finished printed =
+            testing::shell(folder, loads + " " + fs::read_symlink("/proc/self/exe").string() +
+                                       " --gtest_also_run_disabled_tests --gtest_filter=Identity.DISABLED_Is*");
+        EXPECT_EQ(printed.code, 0) << printed.out << printed.err;
+        const std::size_t at = printed.out.find("identity ");
+        return at == std::string::npos ? std::string() : printed.out.substr(at, printed.out.find('\n', at) - at);
+    };
+    const fs::path self = fs::read_symlink("/proc/self/exe");
+    fs::path module;
+    for (const fs::path& place : render::module_places(self, "beamcam_video.so"))
+        if (module.empty() && fs::exists(place)) module = place;
+    if (module.empty()) GTEST_SKIP() << "the module of films is not built";
+    const std::string alone = identity("");
+    EXPECT_TRUE(alone.starts_with("identity beamcam ")) << alone;
+    EXPECT_EQ(identity("BEAMCAM_TEST_LOADS='" + module.string() + "'"), alone);
 }
 
 }  // namespace

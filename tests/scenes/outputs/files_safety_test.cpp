@@ -34,9 +34,11 @@ TEST(FileSafety, WhatASignalLeavesIsRecordedOrAbsent) {
         const Finished again =
             shell(folder, "$BEAMCAM render s.json -o out/f.mp4 --poster 0.01 --to 0.05 --size 96x96 -q");
         EXPECT_EQ(again.code, 0) << signal << again.err;
+        // What a kill left half-written goes when it is an hour old.
+        shell(folder, "touch -d '2 hours ago' out/.*.part; $BEAMCAM render s.json -o out/g.png --at 0 --size 64x64 -q");
         std::vector<std::string> left;
         for (const auto& file : fs::directory_iterator(folder / "out")) left.push_back(file.path().filename().string());
-        EXPECT_THAT(left, ::testing::UnorderedElementsAre("f.mp4", "f.png", ".beamcam.json")) << signal;
+        EXPECT_THAT(left, ::testing::UnorderedElementsAre("f.mp4", "f.png", "g.png", ".beamcam.jsonl")) << signal;
     }
 }
 
@@ -91,7 +93,7 @@ TEST(FileSafety, AnInstantThatIsNeverReachedCostsItsOwnOutputAlone) {
     EXPECT_EQ(shell(folder, "$BEAMCAM run broken.json other.json -o out -q").code, 3);
 }
 
-// A folder in the place of a file, no permission, a manifest that is none: never a bug of the program.
+// A folder in the place of a file, no permission, a list of files that is none: never a bug of the program.
 // The exit code is that of the first error.
 TEST(FileSafety, EachOutputThatCannotBeWrittenIsReportedAndTheOthersAreWritten) {
     const Folder folder;
@@ -201,11 +203,11 @@ TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
     if (!another_user_can_run()) GTEST_SKIP() << kNoOtherUser;
     const std::pair<const char*, const char*> cases[] = {
         {"mkdir -p out/t.csv", "out/t.csv is a directory"},
-        {"mkdir -p out/.beamcam.json", "out/.beamcam.json"},
+        {"mkdir -p out/.beamcam.jsonl", "out/.beamcam.jsonl"},
         {"'\"$BEAMCAM\"' run s.json -o out -q --no-cache; touch -d 2001-01-01 out/t.csv; chmod 0 out/t.csv",
          "out/t.csv: Permission denied"},
-        {"mkdir out; touch out/.beamcam.json; chmod 0 out/.beamcam.json; touch out/t.csv",
-         "out/.beamcam.json: Permission denied"},
+        {"mkdir out; touch out/.beamcam.jsonl; chmod 0 out/.beamcam.jsonl; touch out/t.csv",
+         "out/.beamcam.jsonl: Permission denied"},
         {"mkdir out; chmod a-x out", "Permission denied"},
         {"mkdir out; chmod a-w out", "out/t.csv: Permission denied"},
         {"touch out", "out"},
