@@ -109,11 +109,7 @@ def write(folder, baseline):
 def accepted(folder, baseline):
     write(folder, baseline)
     sh(BEAMCAM, "test", "b.json", "--update", "e", "-q", cwd=folder)
-    return json.loads((folder / "b.json").read_text(encoding="utf-8"))["entries"]["e"]
-
-
-def digest(picture):
-    return sh(BEAMCAM, "hash", str(picture)).stdout[:64]
+    return baseline
 
 
 def main():
@@ -123,6 +119,7 @@ def main():
         truth = accepted(folder, entry())
         picture = folder / "b/e/0000.png"
         original = picture.read_bytes()
+        (folder / "b/e/digests.json").write_text("{}\n")  # of another machine: the pictures alone are compared
 
         def judge(name, baseline, exact, loose, motion):
             write(folder, baseline)
@@ -148,7 +145,7 @@ def main():
             if made.returncode:
                 sys.exit(f"{name}: {made.stderr}")
             os.replace(folder / "b/x.png", picture)
-            judge(name, {**truth, "accepted": [{**truth["accepted"][0], "sha256": [digest(picture)]}]}, exact, loose, "identical")
+            judge(name, truth, exact, loose, "identical")
         picture.write_bytes(original)
         judge("one frame later (1/60 s)", {**truth, "output": {**truth["output"], "at": AT + 1 / 60}}, True, True, "different")
         for name, scene, output in SHOWN:

@@ -33,7 +33,4 @@ class PictureSource {
     std::size_t next_ = 0;
 };
 
-// "frame-9" before "frame-10": runs of digits are compared as numbers.
-bool natural_order(const std::string& a, const std::string& b);
-
 }  // namespace beamcam::output

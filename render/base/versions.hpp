@@ -1,4 +1,4 @@
-// Versions of the drawing libraries: part of the fingerprint of accepted digests.
+// Versions of the drawing libraries: part of the fingerprint of digests of references.
 #pragma once
 
 #include <string>

@@ -134,6 +134,8 @@ void add_parameter(CLI::App& app, const Parameter& parameter, Parsers& parsers) 
         option->description(fmt::format("{} ({:g} to {:.10g})", parameter.meaning, low, high));
     }
     if (parameter.is_option() && !parameter.takes_several) option->allow_extra_args(false);
+    if (!parameter.value_if_alone.empty())
+        option->expected(0, CLI::detail::expected_max_vector_size)->default_str(parameter.value_if_alone);
 }
 
 void add_command(CLI::App& parent, const Command& command, Parsers& parsers) {

@@ -1,14 +1,16 @@
-// `beamcam diff`: the difference of two pictures, sequences, films or tables.
+// `beamcam diff`: the difference of two pictures, sequences of pictures, or tables.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <optional>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/data/tables.hpp"
 #include "output/files/digest.hpp"
-#include "output/film/picture_source.hpp"
+#include "output/image/picture_files.hpp"
 #include "output/image/png.hpp"
+#include "output/image/png_reader.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/commands/result_files.hpp"
 #include "scenes/motions/progress.hpp"
@@ -32,12 +34,12 @@ struct DiffArguments {
 // Writes one file, for the pair of pictures that differs most, or a sequence, for every pair that differs.
 class DifferencePictures {
   public:
-    DifferencePictures(const DiffArguments& args) : args_(args), manifest_(args.common.force) {
+    DifferencePictures(const DiffArguments& args) : args_(args), file_list_(args.common.force) {
         if (!args.picture) return;
         if (ending_of(*args.picture) != ".png")
             throw UsageError(fmt::format("-o {}: the difference picture is a .png file", *args.picture));
         numbered_ = is_numbered(fs::path(*args.picture).filename().string());
-        if (!numbered_) manifest_.require_replaceable(*args.picture);
+        if (!numbered_) file_list_.require_replaceable(*args.picture);
     }
 
     void add(long number, const output::Raster& a, const output::Raster& b, const PictureComparison& found) {
@@ -48,7 +50,6 @@ class DifferencePictures {
     }
     void finish() {
         if (worst_) write(*args_.picture, worst_->a, worst_->b);
-        manifest_.save();
     }
 
   private:
@@ -61,13 +62,13 @@ class DifferencePictures {
         // If all differences are within the tolerance, the picture shows these.
         const int threshold = static_cast<int>(args_.tolerance.value_or(0));
         const bool beyond = output::difference(a, b, threshold).changed > 0;
-        output::write_png(manifest_.target(file),
+        output::write_png(file_list_.target(file),
                           output::to_image(output::difference_picture(a, b, beyond ? threshold : 0)));
         inform(args_.common, fmt::format("wrote {}", file));
     }
 
     const DiffArguments& args_;
-    output::Manifest manifest_;
+    output::FileList file_list_;
     bool numbered_ = false;
     std::optional<Worst> worst_;
 };
@@ -84,31 +85,21 @@ Comparison compare_pictures(const DiffArguments& args) {
         throw UsageError("--tolerance: of pictures it is a difference of a colour channel, 0 … 255");
     const int tolerance = static_cast<int>(args.tolerance.value_or(0));
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
-    output::PictureSource a(args.a), b(args.b);
+    const std::vector<fs::path> a = output::picture_files(args.a), b = output::picture_files(args.b);
+    all.pictures_a = a.size();
+    all.pictures_b = b.size();
+    if (a.size() != b.size()) all.verdict = Verdict::different;  // further pictures are only counted
     DifferencePictures pictures(args);
-    if (have_same_bytes(args.a, args.b)) {  // then it is enough to count them
-        while (a.skip()) ++all.pictures_a;
-        all.pictures_b = all.pictures_a;
-        return all;
-    }
-    output::Raster left, right;
-    std::string name_a, name_b;
-    for (;;) {
+    for (std::size_t k = 0; k < std::min(a.size(), b.size()); ++k) {
         stop_if_interrupted();
-        const bool more_a = a.next(left, name_a), more_b = b.next(right, name_b);
-        if (!more_a && !more_b) break;
-        all.pictures_a += more_a ? 1 : 0;
-        all.pictures_b += more_b ? 1 : 0;
-        if (!more_a || !more_b) {
-            all.verdict = Verdict::different;  // further pictures are only counted
-            continue;
-        }
+        if (have_same_bytes(a[k], b[k])) continue;
+        const output::Raster left = output::read_png(a[k]), right = output::read_png(b[k]);
         PictureComparison found = compare(left, right, tolerance);
         if (args.ssim && found.same_size() && found.difference.ssim >= *args.ssim)
             found.verdict = std::min(found.verdict, Verdict::equivalent);
-        found.a = name_a;
-        found.b = name_b;
-        pictures.add(static_cast<long>(all.pictures_a) - 1, left, right, found);
+        found.a = a[k].string();
+        found.b = b[k].string();
+        pictures.add(static_cast<long>(k), left, right, found);
         all.verdict = std::max(all.verdict, found.verdict);
         if (found.verdict != Verdict::identical) all.pictures.push_back(std::move(found));
     }
@@ -142,10 +133,9 @@ int act(const DiffArguments& args) {
 
 void add_diff(Grammar& grammar) {
     const auto [app, args] = grammar.command<DiffArguments>(
-        "diff", "Compare two pictures, sequences, films or tables; exit code 7 if they differ", act);
+        "diff", "Compare two pictures, sequences of pictures, or tables; exit code 7 if they differ", act);
     app.examples = {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"};
-    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), film, .csv, .npz or .nc table")
-        .required();
+    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), .csv, .npz or .nc table").required();
     app.positional("B", &args.b, "The same kind of file").required();
     app.option("-o,--output", &args.picture, "FILE",
                "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");

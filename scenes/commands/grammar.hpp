@@ -33,10 +33,12 @@ struct Parameter {
     std::string (*problem)(const std::string& value) = nullptr;  // of a value; empty: it has none
     char separator = 0;                                          // between several values in one word
     bool is_required = false, takes_several = false;
+    std::string value_if_alone;  // of an option that takes several words; empty: it needs one
 
     Parameter& required() { return is_required = true, *this; }
     // One occurrence of the option takes all words that follow it.
     Parameter& several() { return takes_several = true, *this; }
+    Parameter& alone(std::string word) { return value_if_alone = std::move(word), *this; }
     Parameter& separated_by(char c) { return separator = c, *this; }
     Parameter& one_of(std::vector<std::string> values) { return choices = std::move(values), *this; }
     // The help text of an option that sets a key, in place of the key's meaning.

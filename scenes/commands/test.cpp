@@ -1,13 +1,11 @@
 // `beamcam test`: the regression test of a file of baselines.
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <filesystem>
-#include <fstream>
 #include <map>
 #include <optional>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "output/files/atomic_file.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/regression/regression.hpp"
@@ -19,28 +17,17 @@ namespace {
 
 namespace fs = std::filesystem;
 
-enum class Annotations { automatic, github, none };
-constexpr sim::Named<Annotations> kAnnotations[] = {
-    {Annotations::automatic, "auto"}, {Annotations::github, "github"}, {Annotations::none, "none"}};
-
 struct TestArguments {
     Common common;
     std::string baselines;
     RegressionOptions test;  // those that options set directly
     std::vector<std::string> tolerance;
     std::optional<std::string> report, junit;
-    Annotations annotate = Annotations::automatic;
 };
-
-constexpr sim::Named<NewRenderer> kOnNewRenderer[] = {
-    {NewRenderer::fail, "fail"}, {NewRenderer::warn, "warn"}, {NewRenderer::accept, "accept"}};
 
 RegressionOptions options_of(const TestArguments& args) {
     if (!args.test.update.empty() && !args.test.only.empty())
-        throw UsageError("--update and --only exclude each other; --update runs only the entries that it names");
-    if (!args.test.update.empty() && args.test.add_digest)
-        throw UsageError(
-            "--update and --add-digest exclude each other: one replaces the expected pictures, the other adds to them");
+        throw UsageError("--update and --filter exclude each other; --update runs only the entries that it names");
     RegressionOptions options = args.test;
     options.tolerance = tolerance_argument(args.tolerance);
     if (args.report) options.report = *args.report;
@@ -49,34 +36,20 @@ RegressionOptions options_of(const TestArguments& args) {
 }
 
 // Before any work: throws if a file is in the way of a report.
-void require_replaceable(const TestArguments& args, output::Manifest& manifest) {
-    if (args.report) manifest.require_replaceable(fs::path(*args.report) / "index.html");
-    if (args.junit) manifest.require_replaceable(*args.junit);
+void require_replaceable(const TestArguments& args, output::FileList& file_list) {
+    if (args.report) file_list.require_replaceable(fs::path(*args.report) / "index.html");
+    if (args.junit) file_list.require_replaceable(*args.junit);
 }
 
 void write_reports(const TestArguments& args, const RegressionResult& result, const PassRule& rule,
-                   output::Manifest& manifest) {
+                   output::FileList& file_list) {
     const std::string title = fs::path(args.baselines).filename().string();
     if (args.junit)
-        output::write_file(manifest.target(*args.junit), to_junit(result, fs::path(title).stem().string(), rule));
+        output::write_file(file_list.target(*args.junit), to_junit(result, fs::path(title).stem().string(), rule));
     if (args.report) {
-        write_page(*args.report, result, title, rule, manifest);
+        write_page(*args.report, result, title, rule, file_list);
         inform(args.common, fmt::format("wrote {}", (fs::path(*args.report) / "index.html").string()));
     }
-    manifest.save();
-}
-
-// Annotations, and a table in the file to which the steps of GitHub Actions append their summaries.
-void report_to_github(const TestArguments& args, const RegressionResult& result, const PassRule& rule) {
-    const char* actions = std::getenv("GITHUB_ACTIONS");
-    if (args.annotate == Annotations::none) return;
-    if (args.annotate == Annotations::automatic && !(actions && *actions)) return;
-    output::print_message("{}", to_annotations(result, rule));
-    const char* summary = std::getenv("GITHUB_STEP_SUMMARY");
-    if (!summary || !*summary) return;
-    std::ofstream file(summary, std::ios::app);
-    file << to_markdown(result, fs::path(args.baselines).filename().string(), rule);
-    if (!file.flush()) throw output::IoError(fmt::format("cannot write {}, the summary of the step", summary));
 }
 
 // The patterns of --update, with `all` and `failed` resolved.
@@ -95,35 +68,31 @@ void print_verdicts(const TestArguments& args, const RegressionResult& result) {
     print_result(args.common, to_json(result), to_text(result));
     std::map<Verdict, std::size_t> counts;
     for (const EntryResult& entry : result.entries) ++counts[entry.verdict()];
-    const std::size_t new_renderer = counts[Verdict::new_renderer], not_run = counts[Verdict::not_run];
-    inform(
-        args.common,
-        fmt::format("{}: {} identical, {} equivalent, {}{} different, {} missing{}; {}, {}, {:.2f} s",
-                    counted(result.entries.size(), "entry"), counts[Verdict::identical], counts[Verdict::equivalent],
-                    new_renderer > 0 ? fmt::format("{} new-renderer, ", new_renderer) : "", counts[Verdict::different],
-                    counts[Verdict::missing], not_run > 0 ? fmt::format(", {} not-run", not_run) : "",
-                    counted(result.simulations, "simulation"), counted(result.pictures, "picture"), result.seconds));
-    if (result.changed)
-        inform(args.common,
-               fmt::format("{} was changed: check the pictures and motions that it accepts now before you keep it",
-                           args.baselines));
+    const std::size_t not_run = counts[Verdict::not_run];
+    inform(args.common,
+           fmt::format("{}: {} identical, {} equivalent, {} different, {} missing{}; {}, {}, {:.2f} s",
+                       counted(result.entries.size(), "entry"), counts[Verdict::identical], counts[Verdict::equivalent],
+                       counts[Verdict::different], counts[Verdict::missing],
+                       not_run > 0 ? fmt::format(", {} not-run", not_run) : "",
+                       counted(result.simulations, "simulation"), counted(result.pictures, "picture"), result.seconds));
+    if (result.is_updated())
+        inform(args.common, "references were changed: check them, for example with git diff, before you keep them");
 }
 
 int act(const TestArguments& args) {
     if (args.junit) require_ending("--junit", *args.junit, {".xml"});
     RegressionOptions options = options_of(args);
-    output::Manifest manifest(args.common.force);
-    require_replaceable(args, manifest);
+    output::FileList file_list(args.common.force);
+    require_replaceable(args, file_list);
     options.update = entries_to_update(args, options);
     if (options.update.empty() && !args.test.update.empty()) {
         inform(args.common, "no entry fails; nothing is updated");
         return kDone;
     }
     const RegressionResult result = test_regression(args.baselines, options);
-    write_reports(args, result, options.rule, manifest);
+    write_reports(args, result, options.rule, file_list);
     print_verdicts(args, result);
-    report_to_github(args, result, options.rule);
-    bool fine = !result.changed || (options.update.empty() && !args.test.add_digest);  // a change must be checked
+    bool fine = !result.is_updated();  // a change must be checked
     for (const EntryResult& entry : result.entries)
         if (entry.could_not_run()) return entry.exit_code;
     for (const EntryResult& entry : result.entries) fine = fine && options.rule.passes(entry);
@@ -139,19 +108,14 @@ void add_test(Grammar& grammar) {
                                                             act);
     app.examples = {"test baselines.json --report report", "test baselines.json --update 'fall-*'"};
     app.positional("BASELINES", &args.baselines, "The file of baselines, JSON; - is standard input").required();
-    app.option("--only,--filter", &args.test.only, "NAME...",
+    app.option("--filter,--only", &args.test.only, "NAME...",
                "Test only these entries; patterns such as 'fall-*' are allowed")
         .several();
     app.option("--update", &args.test.update, "NAME...",
                "Replace the references of these entries by the present pictures and motions (exit code 7 if that "
-               "changes any); patterns, all and failed are allowed")
-        .several();
-    app.flag("--add-digest", args.test.add_digest,
-             "Accept the pictures of this machine in addition to the others, where they are equivalent, or where no "
-             "picture of its libraries and fonts is accepted yet (exit code 7)");
-    app.choice("--on-new-renderer", args.test.rule.new_renderer, kOnNewRenderer, "WHAT",
-               "Verdict on pictures of libraries or fonts of which no picture is accepted yet: fail; warn: similar "
-               "pictures pass; accept: they pass and are accepted (default: fail)");
+               "changes any); patterns, all and failed are allowed (without NAME: all)")
+        .several()
+        .alone("all");
     app.flag("--strict", args.test.rule.strict, "Fail entries that are only equivalent");
     app.option("--tolerance", &args.tolerance, "KEY=X,...",
                "Tolerances that replace those of the file: channel=2, share=1e-4, ssim=0.97, motion=2e-5, impacts=1e-4 "
@@ -160,9 +124,6 @@ void add_test(Grammar& grammar) {
     app.option("--report", &args.report, "DIR",
                "Directory for an HTML page with actual, expected and difference pictures");
     app.option("--junit", &args.junit, "FILE", "Write a JUnit report, .xml");
-    app.choice("--annotate", args.annotate, kAnnotations, "SERVICE",
-               "Print failures as annotations, and add a table to the summary of the step (default: auto: if "
-               "GITHUB_ACTIONS is set)");
     add_jobs(app, args.common, "Largest number of threads that draw");
     add_progress(app, args.common);
     add_json(app, args.common);

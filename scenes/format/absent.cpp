@@ -53,6 +53,10 @@ constexpr Absent kAbsent[] = {
     {Kind::key, "trace tip_path swing shutter exposures view.strobe palette logo",
      "it was withdrawn; \"theme\" and \"background\" remain, and the figure \"strobe\" draws several instants"},
 
+    {Kind::key, "accepted reproducible_until renderers",
+     "it was withdrawn: references are plain files, which beamcam test BASELINES --update writes; remove the key"},
+    {Kind::key, "expected", "it was withdrawn; beamcam diff compares pictures of other programs"},
+
     {Kind::value, "type=model", "3-D models were withdrawn; a \"page\" plays the motion in a browser"},
     {Kind::value, "type=sweep-film", "it was withdrawn; write a \"sweep\", a \"figure\" and \"video\" outputs"},
     {Kind::value, "codec=hevc codec=av1 codec=apng",
@@ -85,6 +89,7 @@ constexpr Absent kAbsent[] = {
     {Kind::option, "--emit", "it was withdrawn; scenes/SWEEPS.md has recipes for GNU parallel, Snakemake and Slurm"},
     {Kind::option, "--film", "it was withdrawn; --diagram draws the sweep, beamcam render one of its motions"},
     {Kind::option, "--add-digest --on-new-renderer", "it was withdrawn; --update writes the references"},
+    {Kind::option, "--annotate", "it was withdrawn; --report writes a page, --junit a file for CI services"},
     {Kind::option, "--text", "it was withdrawn: texts are drawn as outlines"},
 
     {Kind::ending, ".apng .eps .glb .tif .tiff .vtt .srt", "this format was withdrawn"},

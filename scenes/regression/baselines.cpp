@@ -17,7 +17,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostPictures = 10'000;  // of one entry: each has a digest in the file and a reference picture
+constexpr int kMostPictures = 10'000;  // of one entry: each is a file among the references
+
+// Tables are kept as CSV and not as NPZ, so that people and git can read them.
+constexpr auto name_as_reference = [](auto& output) {
+    output.file = fmt::format("output{}", output.file.ends_with(".json") ? ".json" : ".csv");
+};
 
 class Reader {
   public:
@@ -34,7 +39,10 @@ class Reader {
         all_.folder = path_ == "-" ? "references" : fs::path(path_).stem().string();
         read_object(
             parsed.root, "the file of baselines", [this](ObjectReader& r) { visit(r, all_); }, messages);
-        all_.references = folder() / (all_.folder.empty() ? "." : all_.folder);
+        const fs::path named = all_.folder.empty() ? "." : all_.folder;
+        all_.references = folder() / named;
+        const bool leaves = named.is_absolute() || std::ranges::find(named, fs::path("..")) != named.end();
+        all_.root = leaves ? all_.references : folder().empty() ? fs::path(".") : folder();
         for (Baseline& entry : all_.entries) {
             const Member& member = *parsed.root.find("entries")->value.find(entry.name);
             if (member.value.kind == Node::Kind::object) complete(entry, member.key_place);
@@ -52,23 +60,15 @@ class Reader {
 
     // Reads the scene and the output of the entry. A missing scene, or an error in it, concerns its entry only.
     void complete(Baseline& entry, const Place& place) {
-        for (std::string* file : {&entry.file, &entry.expected})
-            if (!file->empty()) *file = beside(*file);
-        const Tolerances given = all_.tolerances.overridden_by(entry.tolerances);
-        if (!entry.file.empty()) {
-            entry.tolerances = Tolerances{{0, 0.0, {}, {}, {}}, {}}.overridden_by(given);
-            return;
-        }
+        const Tolerance given = all_.tolerance.overridden_by(entry.tolerance);
         const auto present = [&](const Node& node, const char* key, const char* example) {
             return !node.is_null() ||
                    reject(entry, place, "", fmt::format(" needs {}, for example {}", in_quotes(key), example));
         };
         if (present(entry.scene_key, "scene", "\"fall.json\"") &&
             present(entry.output_key, "output", "{\"type\": \"still\", \"at\": \"0.3 s\"}") && read_scene_of(entry) &&
-            read_output_of(entry) &&
-            (entry.expected.empty() || entry.has_pictures() ||
-             reject_output(entry, " has no pictures to compare with \"expected\"")))
-            entry.tolerances = defaults_for(entry).overridden_by(given);
+            read_output_of(entry))
+            entry.tolerance = defaults_for(entry).overridden_by(given);
     }
 
     // Of the entry, at `key` in it: "entries.NAME.KEY<why>".
@@ -136,6 +136,7 @@ class Reader {
         for (const Message& message : messages)
             if (message.fatal) entry.problem += describe({all_.source}, message);
         if (!fine) return false;
+        if (is_data(entry.output())) std::visit(name_as_reference, entry.scene.outputs.front());
         if (picture_of(entry.output(), video))
             return reject_output(entry, ": films are compared before they are encoded; write \"type\": \"frames\"");
         if (const auto* pictures = std::get_if<PictureOutput>(&entry.output()); pictures && pictures->is_document())
@@ -150,14 +151,14 @@ class Reader {
         return true;
     }
 
-    static Tolerances defaults_for(const Baseline& entry) {
+    static Tolerance defaults_for(const Baseline& entry) {
         bool lit = false;
         if (const auto* picture = entry.picture()) lit = picture->view.style != render::Style::flat;
         // Flat views have the same pixels on all machines with the same libraries; those of OpenGL differ by a level or
         // two between processors. The tolerances of motion and impacts lie between the effect of another tolerance of
         // the solver up to the horizon (7e-6, 5e-5) and the effect of 0.1 % contact stiffness in one impact (1e-4,
         // 5e-4).
-        return {{lit ? 2 : 0, 0.0, {}, 2e-5, 1e-4}, {}};
+        return {lit ? 2 : 0, 0.0, {}, 2e-5, 1e-4};
     }
 
     std::string path_;
@@ -166,17 +167,17 @@ class Reader {
 
 }  // namespace
 
-bool Baseline::has_pictures() const { return !file.empty() || !(is_sweep || is_data(output())); }
+bool Baseline::has_pictures() const { return !is_sweep && !is_data(output()); }
 
 const Picture* Baseline::picture() const {
-    if (!file.empty() || is_sweep) return nullptr;
+    if (is_sweep) return nullptr;
     const PictureOutput* still = picture_of(output(), PictureOutput::Kind::still);
     return still ? still : picture_of(output(), PictureOutput::Kind::frames);
 }
 
-bool Baseline::is_of_first_renderer(long frame, const std::string& sha256) const {
-    const std::vector<std::string>& first = accepted.front().sha256;
-    return std::cmp_less(frame, first.size()) && first[static_cast<std::size_t>(frame)] == sha256;
+std::string Baseline::numbers_file() const {
+    const bool is_motion = is_sweep || !is_data(output()) || std::holds_alternative<TrajectoryOutput>(output());
+    return is_motion ? "" : file_of(output());
 }
 
 Baselines read_baselines(const std::string& path) { return Reader(path).read(); }

@@ -1,4 +1,4 @@
-// The comparison of two pictures, sequences, films or tables, and its description as text and JSON.
+// The comparison of two pictures, sequences of pictures, or tables, and its description as text and JSON.
 #pragma once
 
 #include <optional>
@@ -14,15 +14,16 @@ namespace beamcam::scenes {
 
 enum class Verdict {  // the worse, the greater
     identical,
-    equivalent,    // not identical, but within the tolerance
-    new_renderer,  // similar pictures of libraries or fonts of which no picture is accepted yet
+    equivalent,  // not identical, but within the tolerance
     different,
-    missing,  // nothing is accepted yet
+    missing,  // there is no reference yet
     not_run   // not compared, for example without its scene
 };
-constexpr sim::Named<Verdict> kVerdicts[] = {
-    {Verdict::identical, "identical"}, {Verdict::equivalent, "equivalent"}, {Verdict::new_renderer, "new-renderer"},
-    {Verdict::different, "different"}, {Verdict::missing, "missing"},       {Verdict::not_run, "not-run"}};
+constexpr sim::Named<Verdict> kVerdicts[] = {{Verdict::identical, "identical"},
+                                             {Verdict::equivalent, "equivalent"},
+                                             {Verdict::different, "different"},
+                                             {Verdict::missing, "missing"},
+                                             {Verdict::not_run, "not-run"}};
 inline std::span<const sim::Named<Verdict>> names(Verdict) { return kVerdicts; }
 using sim::name;
 

@@ -1,11 +1,14 @@
 #include "scenes/regression/entry_motion.hpp"
 
 #include <fmt/format.h>
+#include <stdlib.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <sstream>
 
 #include "output/files/atomic_file.hpp"
-#include "output/files/digest.hpp"
+#include "scenes/regression/number_record.hpp"
 #include "scenes/regression/sweep_record.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "scenes/sweep/sweep_run.hpp"
@@ -16,56 +19,25 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Keeps the rows up to `until`, at least the first.
-void cut(sim::Table& table, double until) {
-    const std::vector<double>& t = table.values.front();
-    const auto kept = std::max<std::ptrdiff_t>(1, std::upper_bound(t.begin(), t.end(), until) - t.begin());
-    for (std::vector<double>& column : table.values) column.resize(static_cast<std::size_t>(kept));
-}
-
-// ---- sweeps ----------------------------------------------------------------------------------------
-
-// Far above rounding errors, far below the differences between settled motions.
-constexpr double kPerturbation = 1e-12;
-constexpr int kRepetitions = 3;  // find a point that changes in every third run with a probability of 70 %
-constexpr int kUnsettled = static_cast<int>(sim::AttractorClass::unsettled);
-
-// At most two of these keys are swept; the third changes.
-Scene perturbed(Scene scene, int times) {
-    const double factor = 1 + times * kPerturbation;
-    scene.problem.gravity *= factor;
-    if (scene.problem.cam) scene.problem.cam->speed *= factor, scene.problem.cam->eccentricity *= factor;
-    return scene;
-}
-
-// Points that may differ on another processor: unsettled points, and points that change if the sweep is repeated with
-// slightly more gravity, speed and eccentricity of the cam.
-std::vector<bool> uncertain_points(const SweepRun& sweep, const Tolerance& tolerance, int threads, Progress& progress) {
-    const output::ColumnTable own = table_of(sweep.data());
-    std::vector<bool> uncertain(sweep.grid().points());
-    for (std::uint64_t k = 0; k < uncertain.size(); ++k) uncertain[k] = sweep.read(k).kind == kUnsettled;
-    for (int repetition = 1; repetition <= kRepetitions; ++repetition) {
-        SweepRun other(perturbed(sweep.grid().scene(), repetition));
-        other.make(threads, progress);
-        const auto& problem = sweep.grid().scene().problem;
-        for (const std::size_t k : points_that_differ(own, table_of(other.data()), tolerance, problem))
-            uncertain[k] = true;
+// A folder that is removed at the end.
+class TemporaryFolder {
+  public:
+    TemporaryFolder() {
+        std::string name = (fs::temp_directory_path() / "beamcam-test-XXXXXX").string();
+        if (!mkdtemp(name.data())) throw output::write_error(name, errno);
+        path_ = name;
     }
-    return uncertain;
-}
+    ~TemporaryFolder() {
+        std::error_code ignored;
+        fs::remove_all(path_, ignored);
+    }
+    TemporaryFolder(const TemporaryFolder&) = delete;
+    TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+    fs::path operator/(const std::string& name) const { return path_ / name; }
 
-// The sweep with these points unsettled and without samples. Valid during the lifetime of both.
-output::SweepData without_points(output::SweepData data, const std::vector<bool>& uncertain) {
-    data.rows = [&uncertain, rows = data.rows](std::uint64_t k) { return uncertain[k] ? 0 : rows(k); };
-    data.read = [&uncertain, read = data.read](std::uint64_t k) {
-        if (!uncertain[k]) return read(k);
-        output::StoredPoint none;
-        none.point = k;
-        none.kind = kUnsettled;
-        return none;
-    };
-    return data;
-}
+  private:
+    fs::path path_;
+};
 
 }  // namespace
 
@@ -74,96 +46,100 @@ bool records_all_channels(const Baseline& entry) {
     return table && table->channels.empty();
 }
 
-void EntryMotion::judge(const sim::Table& table, const std::vector<sim::Impact>& impacts, double until,
+void EntryMotion::judge(std::size_t number, const std::string& label, const sim::Table& table,
+                        const std::vector<sim::Impact>& impacts, double until,
                         std::optional<double> reproducible_until) {
-    if (test_.references.are_replaced || reproducible_until)
-        test_.result.reproducible_until = std::min(until, reproducible_until.value_or(until));
-    judge_record(RecordNames(0), "", table, impacts, until, test_.entry.reproducible_until.value_or(until));
-    if (test_.references.are_replaced && test_.result.reproducible_until < until)
+    const RecordNames names(number);
+    test_.update.keep(names.table), test_.update.keep(names.impacts);
+    Verdict verdict = Verdict::missing;
+    read(
+        [&] {
+            const std::optional<MotionRecord> expected = read_record(test_.references, names);
+            if (!expected) return add_missing(label);
+            const MotionVerdict found = compare(*expected, record_of(table, impacts, until), test_.tolerance);
+            verdict = found.verdict;
+            add(found, label);
+        },
+        label);
+    if (!test_.references.is_updated() || verdict == Verdict::identical) return;
+    put_record(test_.update, names, table, impacts, until, reproducible_until);
+    if (reproducible_until && *reproducible_until < until)
         test_.result.motion_lines.push_back(
-            fmt::format("compared until {:.6g} s of {:.6g} s: after that it is not reproducible on other processors; a "
-                        "sweep guards its statistics",
-                        *test_.result.reproducible_until, until));
-}
-
-sim::TableRequest EntryMotion::compared_table(std::size_t index, const sim::Problem& problem, double until) const {
-    sim::TableRequest request = motion_behind_picture(problem, until);
-    if (test_.references.are_replaced) return request;
-    if (const auto expected = read_record(test_.references.folder, RecordNames(index + 1)))
-        if (const std::vector<double>* t = expected->table.find("t")) request.times = *t;
-    return request;
-}
-
-void EntryMotion::judge_compared(std::size_t index, const std::string& label, sim::Table table,
-                                 const std::vector<sim::Impact>& impacts, std::optional<double> reproducible_until) {
-    if (test_.references.are_replaced && reproducible_until) cut(table, *reproducible_until);
-    const double until = table.values.front().back();
-    judge_record(RecordNames(index + 1), label + ": ", table, impacts, until, until);
+            fmt::format("{}compared until {:.6g} s of {:.6g} s: after that it is not reproducible on other processors; "
+                        "a sweep guards its attractor",
+                        label, *reproducible_until, until));
 }
 
 void EntryMotion::judge_sweep(int threads, Progress& progress) {
     SweepRun sweep(test_.entry.scene);
     sweep.make(threads, progress);
-    test_.references.read([&] {
-        const fs::path record = test_.references.folder / kSweepRecord;
-        if (!output::path_exists(record)) return add_missing("");
-        add(compare_sweeps(output::read_table(record), table_of(sweep.data()), test_.tolerance,
-                           test_.entry.scene.problem),
-            "", {kSweepRecord});
-    });
-    if (!is_stored()) return;
-    const std::vector<bool> uncertain = uncertain_points(sweep, test_.tolerance, threads, progress);
-    const auto count = std::ranges::count(uncertain, true);
-    if (count > 0)
-        test_.result.motion_lines.push_back(
-            fmt::format("{} of {} points are not compared: they have not settled, or may settle to something else on "
-                        "another processor",
-                        count, sweep.grid().points()));
-    if (static_cast<std::uint64_t>(count) == sweep.grid().points())
-        throw SceneError("not accepted: " + test_.result.motion_lines.back());
-    store({kSweepRecord},
-          [&](const Files& file) { output::write_sweep(file(kSweepRecord), without_points(sweep.data(), uncertain)); });
+    const output::ColumnTable samples = output::table_of(sweep.data());
+    test_.update.keep(kSweepRecord);
+    Verdict verdict = Verdict::missing;
+    read(
+        [&] {
+            if (!test_.references.has(kSweepRecord)) return add_missing("");
+            const MotionVerdict found =
+                compare_sweeps(output::read_table(test_.references.file(kSweepRecord)), samples, test_.tolerance);
+            verdict = found.verdict;
+            add(found, "");
+        },
+        "");
+    if (!test_.references.is_updated() || verdict == Verdict::identical) return;
+    require_settled(sweep);
+    std::ostringstream csv;
+    output::write_sweep_csv(csv, sweep.data());
+    test_.update.put(kSweepRecord, csv.str());
 }
 
-void EntryMotion::store(const std::vector<std::string>& names, const std::function<void(const Files&)>& write) {
-    if (!is_stored()) return;
-    write([&](const std::string& name) { return test_.tested.file(name); });
-    for (const std::string& name : names)
-        test_.result.motion_files[name] = output::sha256_of_file(*test_.tested.folder / test_.entry.name / name);
+void EntryMotion::require_settled(const SweepRun& sweep) {
+    const std::uint64_t points = sweep.grid().points();
+    std::uint64_t unsettled = 0;
+    for (std::uint64_t k = 0; k < points; ++k)
+        if (sweep.read(k).kind == static_cast<int>(sim::AttractorClass::unsettled)) ++unsettled;
+    if (unsettled == 0) return;
+    test_.result.motion_lines.push_back(
+        fmt::format("{} of {} points are not compared: they have not settled", unsettled, points));
+    if (unsettled == points) throw SceneError("not accepted: " + test_.result.motion_lines.back());
 }
 
-void EntryMotion::judge_record(const RecordNames& names, const std::string& label, const sim::Table& table,
-                               const std::vector<sim::Impact>& impacts, double until, double horizon) {
-    std::optional<MotionRecord> expected;
-    test_.references.read([&] { expected = read_record(test_.references.folder, names); });
-    if (!expected) {
+void EntryMotion::judge_numbers(const std::string& name, const std::function<void(const output::Target&)>& write) {
+    const TemporaryFolder folder;
+    write(folder / name);
+    test_.update.keep(name);
+    Verdict verdict = Verdict::missing;
+    read(
+        [&] {
+            if (!test_.references.has(name)) return add_missing("");
+            const auto motion = read_record(test_.references, RecordNames(0));
+            const MotionVerdict found = compare_numbers(test_.references.file(name), folder / name, test_.tolerance,
+                                                        motion ? motion->reproducible_until : std::nullopt);
+            verdict = found.verdict;
+            add(found, "");
+        },
+        "");
+    if (test_.references.is_updated() && verdict != Verdict::identical)
+        test_.update.put(name, output::read_file(folder / name));
+}
+
+void EntryMotion::read(const std::function<void()>& work, const std::string& label) {
+    try {
+        work();
+    } catch (const output::IoError&) {
+        if (!test_.references.is_updated()) throw;
         add_missing(label);
-    } else {
-        if (records_all_channels(test_.entry))
-            std::erase_if(expected->table.columns, [](const output::TableColumn& column) {
-                return column.name == "energy_residual";  // of older records
-            });
-        add(compare(*expected, record_of(table, impacts, until), test_.tolerance, horizon), label,
-            {names.table, names.impacts});
     }
-    store({names.table, names.impacts}, [&](const Files& files) { write_record(files, names, table, impacts, until); });
 }
 
-void EntryMotion::add(const MotionVerdict& verdict, const std::string& label, const std::vector<std::string>& names) {
+void EntryMotion::add(const MotionVerdict& verdict, const std::string& label) {
     test_.result.motion = std::max(*test_.result.motion, verdict.verdict);
     for (const std::string& line : verdict.lines) test_.result.motion_lines.push_back(label + line);
-    for (const std::string& name : names)
-        if (!test_.references.is_as_marked(name)) {
-            test_.result.motion = std::max(*test_.result.motion, Verdict::different);
-            test_.result.motion_lines.push_back(
-                fmt::format("{} was changed after beamcam made it", (test_.references.folder / name).string()));
-        }
 }
 
 void EntryMotion::add_missing(const std::string& label) {
     test_.result.motion = Verdict::missing;
     test_.result.motion_lines.push_back(
-        fmt::format("{}there is no motion in {}", label, test_.references.folder.string()));
+        fmt::format("{}there is no motion in {}", label, test_.references.folder().string()));
 }
 
 }  // namespace beamcam::scenes

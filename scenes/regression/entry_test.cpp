@@ -1,12 +1,11 @@
 #include "scenes/regression/entry_test.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "output/files/errors.hpp"
-#include "output/film/picture_source.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/identity.hpp"
 
@@ -15,60 +14,32 @@ namespace {
 
 namespace fs = std::filesystem;
 
-// Structural similarity of similar pictures: other versions of the same fonts and libraries leave it above 0.9.
-constexpr double kSimilar = 0.8;
-
-// Parts of the other renderer that differ from this one: "freetype 2.12.1 for 2.13.3".
-std::vector<std::string> differences(const RendererParts& mine, const RendererParts& other) {
-    std::vector<std::string> parts;
-    for (const auto& [part, version] : mine) {
-        const auto its = other.find(part);
-        if (its == other.end() || its->second != version)
-            parts.push_back(fmt::format("{} {} for {}", part, its == other.end() ? "none" : its->second, version));
+// An instant before `until`, with few digits, but not before `least`.
+std::string instant_before(double until, double least) {
+    for (int digits = 2; digits <= 6; ++digits) {
+        const double step = std::pow(10, std::floor(std::log10(until)) - digits + 1),
+                     rounded = (std::ceil(until / step) - 1) * step;
+        if (rounded > least && rounded > 0.9 * until) return fmt::format("{:.{}g} s", rounded, digits);
     }
-    for (const auto& [part, version] : other)
-        if (!mine.contains(part)) parts.push_back(fmt::format("{} {} for none", part, version));
-    return parts;
-}
-
-bool is_new_renderer(const Baseline& entry, const std::string& id) {
-    return !entry.accepted.empty() &&
-           std::ranges::find(entry.accepted, id, &Accepted::renderer) == entry.accepted.end();
-}
-
-// An update of the entry replaces its references.
-bool is_replaced(const Baseline& entry, const RegressionOptions& options) {
-    return !options.update.empty() && (entry.expected.empty() || entry.has_motion());
-}
-
-// Where pictures and motions of the test are written, if anything needs them.
-TestedFiles tested_files(const Baseline& entry, const RegressionOptions& options, const std::string& renderer,
-                         ReferenceUpdate& update, output::Manifest& report) {
-    const bool replaced = is_replaced(entry, options);
-    if (options.report) return {options.report, &report, entry.name, replaced};
-    if (!replaced && !(options.adds() && entry.expected.empty() && is_new_renderer(entry, renderer)))
-        return {{}, nullptr, entry.name, false};
-    update.begin();
-    return {update.tested(), nullptr, entry.name, replaced};
+    return {};
 }
 
 }  // namespace
 
 EntryTest::EntryTest(const Baselines& baselines, const Baseline& entry, const RegressionOptions& options,
-                     const Fingerprint& renderer, ReferenceUpdate& update, output::Manifest& report_files,
-                     EntryResult& result)
+                     const std::string& renderer, output::FileList& report_files, EntryResult& result)
     : baselines_(baselines),
       options_(options),
-      renderer_(renderer),
       test_{entry,
             result,
-            renderer.id(),
-            entry.tolerances.overridden_by({options.tolerance, {}}).of(renderer.id()),
-            {baselines.references / entry.name, is_replaced(entry, options)},
-            tested_files(entry, options, renderer.id(), update, report_files)},
+            renderer,
+            entry.tolerance.overridden_by(options.tolerance),
+            References(baselines.references, entry.name, !options.update.empty()),
+            {},
+            options.report,
+            report_files},
       pictures_(test_),
       motion_(test_) {
-    if (is_updated()) update.require_replaceable(entry.name);
     if (entry.has_pictures()) test_.result.picture = Verdict::identical;
     if (entry.has_motion()) test_.result.motion = Verdict::identical;
 }
@@ -90,7 +61,7 @@ void EntryTest::prepare() {
         if (plan_.pictures.empty() && plan_.others.empty() && !plan_.figures.empty()) test_.result.motion.reset();
     }
     until_ = plan_.simulation->request.end_time;
-    if (needs_horizon()) plan_.simulation->request.horizon = true;  // some figures request it anyway
+    if (test_.references.is_updated()) plan_.simulation->request.horizon = true;  // some figures request it anyway
     request_record();
     if (needs_motion()) request_compared_records();
     requests_ = requests_of(plan_);
@@ -112,15 +83,17 @@ void EntryTest::request_compared_records() {
     for (Pictures& p : plan_.pictures)
         for (std::size_t i = 0; i < p.compare.size(); ++i) {
             Study& other = p.shown[i];
-            other.request.tables.push_back(motion_.compared_table(i, other.problem, p.end_time));
-            if (needs_horizon()) other.request.horizon = true;
+            other.request.tables.push_back(motion_behind_picture(other.problem, p.end_time));
+            if (test_.references.is_updated()) other.request.horizon = true;
         }
 }
 
 void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
     const sim::Result& run = results.front();
-    require_reproducible(run, until_);
-    if (needs_motion()) motion_.judge(run.tables[recorded_], run.impacts, until_, run.reproducible_until);
+    const bool is_whole = test_.result.picture || std::holds_alternative<SummaryOutput>(test_.entry.output());
+    if (is_whole) require_reproducible(run, until_);
+    if (needs_motion()) motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
+    judge_numbers(run);
     DrawCallbacks callbacks{
         std::move(results),
         [&](const Pictures&, long frame, const render::Image& image) { pictures_.judge(frame, image); },
@@ -130,39 +103,68 @@ void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
         callbacks.compared = [&](std::size_t picture, std::size_t index, const sim::Result& result) {
             const Pictures& shown = plan_.pictures[picture];
             require_reproducible(result, shown.end_time);
-            motion_.judge_compared(index, shown.compare[index].label, result.tables.back(), result.impacts,
-                                   result.reproducible_until);
+            motion_.judge(index + 1, shown.compare[index].label + ": ", result.tables.back(), result.impacts,
+                          shown.end_time, result.reproducible_until);
         };
     options.no_cache = true;  // the test runs the present program
     scenes::draw(plan_, test_.entry.scene, callbacks, options);
-    conclude();
+    if (test_.result.picture) pictures_.conclude();
+    update();
 }
 
-void EntryTest::require_reproducible(const sim::Result& motion, double until) {
+void EntryTest::judge_numbers(const sim::Result& run) {
+    const std::string name = test_.entry.numbers_file();
+    if (name.empty()) return;
+    motion_.judge_numbers(name, [&](const output::Target& file) {
+        const output::Work work;
+        Progress silent(ProgressStyle::none);
+        const Simulation& simulation = *plan_.simulation;
+        for (const DataFile& data : plan_.data)
+            data.write({simulation.problem, simulation.request, run, work, &file, nullptr, silent});
+    });
+}
+
+void EntryTest::judge_sweep(int threads, Progress& progress) {
+    motion_.judge_sweep(threads, progress);
+    update();
+}
+
+void EntryTest::require_reproducible(const sim::Result& motion, double until) const {
     const std::vector<sim::Interval>& lost = motion.not_reproducible;
-    if (!test_.result.picture || !test_.entry.expected.empty() || lost.empty() || lost.front().from >= until) return;
-    test_.result.not_reproducible = fmt::format(
-        "not accepted: it shows the motion until {:.6g} s, and {}; end it before that, or guard a trajectory or a "
-        "sweep",
-        until, motion.reproducibility);
-    if (is_updated()) throw render::PictureError(test_.result.not_reproducible);
+    if (!test_.references.is_updated() || lost.empty() || lost.front().from >= until) return;
+    const std::string end = instant_before(lost.front().from, last_shown());
+    const std::string remedy =
+        end.empty() ? "choose an earlier instant"
+                    : fmt::format("add {} to the entry", test_.entry.set.empty()
+                                                             ? fmt::format("\"set\": [\"time.end={}\"]", end)
+                                                             : fmt::format("\"time.end={}\" to \"set\"", end));
+    throw render::PictureError(
+        fmt::format("not accepted: it depends on the motion until {:.6g} s, which is {}; {}, or "
+                    "guard a trajectory or a sweep",
+                    until, motion.reproducibility, remedy));
+}
+
+double EntryTest::last_shown() const {
+    double last = 0;
+    for (const Pictures& p : plan_.pictures)
+        for (const double t : plan_.times(p)) last = std::max(last, t);
+    return last;
 }
 
 // ---- verdicts --------------------------------------------------------------------------------------
 
-void EntryTest::judge_file() {
-    output::PictureSource source(test_.entry.file);
-    output::Raster picture;
-    std::string name;
-    for (long frame = 0; source.next(picture, name); ++frame) {
-        stop_if_interrupted();
-        pictures_.judge(frame, picture);
-    }
-    conclude();
-}
-
-void EntryTest::conclude() {
-    if (test_.result.picture) pictures_.conclude();
+void EntryTest::update() {
+    if (!test_.references.is_updated()) return;
+    const bool has_pictures = test_.entry.has_pictures();
+    if (has_pictures && pictures_.adds_digests() &&
+        test_.result.motion.value_or(Verdict::identical) <= Verdict::equivalent)
+        test_.update.only_digests();  // the records of the other renderer's machine stay
+    if (!has_pictures && test_.references.has(kDigestsFile)) test_.update.keep(kDigestsFile);
+    if (!has_pictures && !test_.references.has(kDigestsFile)) test_.update.put_digests({});
+    const ReferenceUpdate::Changes changes =
+        test_.update.carry_out(test_.references, baselines_.root, options_.run.force);
+    for (const std::string& name : changes.written) test_.result.written.push_back(test_.references.file(name));
+    for (const std::string& name : changes.removed) test_.result.removed.push_back(test_.references.file(name));
 }
 
 void EntryTest::fail(const std::string& reason, Verdict verdict, int exit_code) {
@@ -170,8 +172,7 @@ void EntryTest::fail(const std::string& reason, Verdict verdict, int exit_code) 
     if (test_.result.motion) test_.result.motion = verdict;
     (test_.result.motion ? test_.result.motion_lines : test_.result.picture_lines) = {reason};
     test_.result.exit_code = exit_code;
-    test_.result.frames.clear();  // a report of them must not be accepted
-    test_.result.motion_files.clear();
+    test_.result.frames.clear();
 }
 
 bool EntryTest::attempt(const std::function<void()>& work) {
@@ -181,7 +182,8 @@ bool EntryTest::attempt(const std::function<void()>& work) {
     } catch (const sim::SolverError& error) {  // such as one of a variant that a figure compares with the scene
         fail(fmt::format("the solver failed at {:.6g} s: {}", error.last_time, error.what()));
     } catch (const render::PictureError& error) {  // such as an impact that does not occur any more
-        fail(error.what());
+        const bool accepted = test_.references.has(kDigestsFile);
+        fail(error.what(), accepted ? Verdict::different : Verdict::missing);
     } catch (const SceneError& error) {  // such as a value that a sweep cannot give to a key
         fail(error.what(), Verdict::not_run, kBadScene);
     } catch (const output::IoError& error) {  // such as a damaged reference
@@ -190,47 +192,6 @@ bool EntryTest::attempt(const std::function<void()>& work) {
         fail(output::io_error(error).what(), Verdict::not_run, kInputOutput);
     }
     return false;
-}
-
-void EntryTest::judge_renderer() {
-    const auto has_accepted_reference = [](const auto& frame) { return frame.second.reference_accepted; };
-    has_new_renderer_ = test_.result.picture == Verdict::different && test_.result.exit_code == 0 &&
-                        test_.result.motion.value_or(Verdict::identical) <= Verdict::equivalent &&
-                        is_new_renderer(test_.entry, test_.renderer) &&
-                        std::ranges::all_of(test_.result.frames, has_accepted_reference) &&
-                        test_.entry.accepted.front().sha256.size() == test_.result.frames.size();
-    if (!has_new_renderer_) return;
-    const auto is_similar = [](const auto& each) {
-        const FrameResult& frame = each.second;
-        return frame.verdict == Verdict::identical ||
-               (frame.compared && frame.comparison.same_size() && frame.comparison.difference.ssim > kSimilar);
-    };
-    if (std::ranges::all_of(test_.result.frames, is_similar)) test_.result.picture = Verdict::new_renderer;
-    if (!options_.add_digest) test_.result.picture_lines.push_back(renderer_message());
-}
-
-std::string EntryTest::renderer_message() const {
-    std::string text = fmt::format("no picture of this renderer, {} (beamcam doctor), is accepted yet", test_.renderer);
-    std::optional<std::pair<std::vector<std::string>, std::string>> nearest;  // different parts, and the id
-    for (const Accepted& accepted : test_.entry.accepted)
-        if (const auto parts = baselines_.renderers.find(accepted.renderer); parts != baselines_.renderers.end()) {
-            auto differing = differences(renderer_.parts, parts->second);
-            if (!nearest || differing.size() < nearest->first.size())
-                nearest = {std::move(differing), accepted.renderer};
-        }
-    if (nearest) text += fmt::format("; the nearest is {}, with {}", nearest->second, fmt::join(nearest->first, ", "));
-    return text + "; check the picture, then use --add-digest";
-}
-
-bool EntryTest::accept() {
-    EntryResult& result = test_.result;
-    if (result.exit_code != 0) return false;
-    result.updated = is_updated();
-    if (result.updated || !test_.entry.expected.empty()) return result.updated;
-    result.digest_added = options_.add_digest ? has_new_renderer_ || result.picture == Verdict::equivalent
-                                              : result.picture == Verdict::new_renderer &&
-                                                    options_.rule.new_renderer == NewRenderer::accept;
-    return result.digest_added;
 }
 
 }  // namespace beamcam::scenes

@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <map>
+#include <sstream>
 
 #include "output/data/records.hpp"
 #include "output/data/tables.hpp"
@@ -15,8 +18,6 @@
 namespace beamcam::scenes {
 namespace {
 
-namespace fs = std::filesystem;
-
 constexpr int kSteps = 200;              // of the record of a picture: a file of 13 kB
 constexpr double kTimeScale = 1e-3;      // [s], a typical duration of a contact: unit of the tolerance of times
 constexpr double kSmallestShare = 0.01;  // of a quantity's largest value: least reference of relative differences
@@ -24,7 +25,7 @@ constexpr std::size_t kMostLines = 4;
 
 // ---- impacts as text and back ----------------------------------------------------------------------
 
-std::string impacts_text(const std::vector<sim::Impact>& impacts, double until) {
+Node impacts_node(const std::vector<sim::Impact>& impacts, double until) {
     sim::Result some;
     for (sim::Impact impact : impacts) {
         if (impact.t_start > until) continue;
@@ -35,15 +36,12 @@ std::string impacts_text(const std::vector<sim::Impact>& impacts, double until) 
         }
         some.impacts.push_back(impact);
     }
-    return output::impacts_json(some);
+    return node_of(output::impacts_json(some)).find("impacts")->value;
 }
 
-std::optional<std::vector<ImpactFields>> parse_impacts(const std::string& text) {
-    const Parsed parsed = parse(text);
-    const Member* list = parsed.is_json ? parsed.root.find("impacts") : nullptr;
-    if (!list || list->value.kind != Node::Kind::array) return std::nullopt;
+std::vector<ImpactFields> fields_of(const Node& list) {
     std::vector<ImpactFields> impacts;
-    for (const Node& item : list->value.items) {
+    for (const Node& item : list.items) {
         ImpactFields fields;
         for (const Member& member : item.members) {
             const bool number = member.value.kind == Node::Kind::number;
@@ -64,30 +62,20 @@ bool is_time(std::string_view key) { return key == "t_start" || key == "t_end"; 
 
 // ---- comparing -------------------------------------------------------------------------------------
 
-struct Finding {
-    double excess;  // multiples of the tolerance
-    std::string line;
-};
-
 class Comparer {
   public:
-    Comparer(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance, double horizon)
-        : expected_(expected), actual_(actual), tolerance_(tolerance), horizon_(horizon) {}
+    Comparer(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance)
+        : expected_(expected),
+          actual_(actual),
+          tolerance_(tolerance),
+          horizon_(expected.reproducible_until.value_or(std::numeric_limits<double>::infinity())) {}
 
     MotionVerdict compare() {
         compare_tables();
         compare_impacts();
-        MotionVerdict result;
-        if (identical_) return result;
-        std::ranges::stable_sort(diagnostics_, [](const Finding& a, const Finding& b) { return a.excess > b.excess; });
-        const bool differs = !diagnostics_.empty() && diagnostics_.front().excess > 1;
-        result.verdict = differs ? Verdict::different : Verdict::equivalent;
-        for (const Finding& finding : diagnostics_)
-            if (result.lines.size() < kMostLines && (finding.excess > 1 || !differs))
-                result.lines.push_back(finding.line);
-        if (result.lines.empty())
-            result.lines.push_back(fmt::format("only after the reproducible horizon of {:.4g} s", horizon_));
-        return result;
+        if (identical_) return {};
+        if (diagnostics_.empty()) add(0, fmt::format("only after the reproducible horizon of {:.4g} s", horizon_));
+        return verdict_of(std::move(diagnostics_));
     }
 
   private:
@@ -183,7 +171,7 @@ MotionRecord record_of(const sim::Table& table, const std::vector<sim::Impact>& 
     MotionRecord record;
     for (std::size_t c = 0; c < table.channels.size(); ++c)
         record.table.columns.push_back({name(table.channels[c]), {}, {}, table.values[c]});
-    record.impacts = *parse_impacts(impacts_text(impacts, until));
+    record.impacts = fields_of(impacts_node(impacts, until));
     return record;
 }
 
@@ -191,29 +179,42 @@ RecordNames::RecordNames(std::size_t motion)
     : table(motion == 0 ? "motion.csv" : fmt::format("motion-{}.csv", motion)),
       impacts(motion == 0 ? "impacts.json" : fmt::format("impacts-{}.json", motion)) {}
 
-void write_record(const std::function<output::Target(const std::string& name)>& target, const RecordNames& names,
-                  const sim::Table& table, const std::vector<sim::Impact>& impacts, double until) {
-    output::write_table(target(names.table), table);
-    output::write_file(target(names.impacts), impacts_text(impacts, until));
+void put_record(ReferenceUpdate& update, const RecordNames& names, const sim::Table& table,
+                const std::vector<sim::Impact>& impacts, double until, std::optional<double> reproducible_until) {
+    std::ostringstream csv;
+    output::write_csv(csv, table);
+    update.put(names.table, csv.str());
+    update.put(names.impacts, to_text(object_node({{"reproducible_until", reproducible_until.value_or(until)},
+                                                   {"impacts", impacts_node(impacts, until)}})));
 }
 
-std::optional<MotionRecord> read_record(const fs::path& folder, const RecordNames& names) {
-    if (!output::path_exists(folder / names.table) || !output::path_exists(folder / names.impacts)) return std::nullopt;
+std::optional<MotionRecord> read_record(const References& references, const RecordNames& names) {
+    if (!references.has(names.table) || !references.has(names.impacts)) return std::nullopt;
     MotionRecord record;
-    record.table = output::read_table(folder / names.table);
-    auto impacts = parse_impacts(output::read_file(folder / names.impacts));
-    if (!impacts)
+    record.table = output::read_table(references.file(names.table));
+    const Parsed parsed = parse(output::read_file(references.file(names.impacts)));
+    const Member *list = parsed.root.find("impacts"), *horizon = parsed.root.find("reproducible_until");
+    if (!parsed.is_json || !list || list->value.kind != Node::Kind::array)
         throw output::IoError(
             fmt::format("cannot read {}: it is not a list of impacts, or it is damaged; restore it, or replace it with "
                         "--update",
-                        (folder / names.impacts).string()));
-    record.impacts = std::move(*impacts);
+                        references.file(names.impacts).string()));
+    record.impacts = fields_of(list->value);
+    if (horizon && horizon->value.kind == Node::Kind::number) record.reproducible_until = horizon->value.number;
     return record;
 }
 
-MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance,
-                      double horizon) {
-    return Comparer(expected, actual, tolerance, horizon).compare();
+MotionVerdict verdict_of(std::vector<Finding> findings) {
+    std::ranges::stable_sort(findings, std::greater(), &Finding::excess);
+    const bool differs = !findings.empty() && findings.front().excess > 1;
+    MotionVerdict result{differs ? Verdict::different : Verdict::equivalent, {}};
+    for (const Finding& finding : findings)
+        if (result.lines.size() < kMostLines && (finding.excess > 1 || !differs)) result.lines.push_back(finding.line);
+    return result;
+}
+
+MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance) {
+    return Comparer(expected, actual, tolerance).compare();
 }
 
 }  // namespace beamcam::scenes

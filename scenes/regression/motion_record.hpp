@@ -1,18 +1,17 @@
-// The record of an entry's motion: a small table up to the last instant that the entry shows, and the impacts until
-// then. It is stored beside the reference pictures and compared impact by impact.
+// The record of an entry's motion: a small table up to the last instant that the entry shows, the impacts until then,
+// and the time up to which the motion is reproducible. It is compared impact by impact.
 #pragma once
 
-#include <filesystem>
-#include <functional>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "output/data/tables.hpp"
-#include "output/files/target.hpp"
-#include "scenes/regression/baselines.hpp"
 #include "scenes/regression/comparison.hpp"
+#include "scenes/regression/references.hpp"
+#include "scenes/regression/tolerance.hpp"
+#include "sim/run/simulate.hpp"
 
 namespace beamcam::scenes {
 
@@ -21,6 +20,7 @@ using ImpactFields = std::vector<std::pair<std::string, std::optional<double>>>;
 struct MotionRecord {
     output::ColumnTable table;
     std::vector<ImpactFields> impacts;
+    std::optional<double> reproducible_until;  // [s]; absent: to the end
 };
 
 // The table that is recorded of the motion in a picture: angle and deflection, in 200 steps up to the last instant.
@@ -34,20 +34,26 @@ struct RecordNames {
     explicit RecordNames(std::size_t motion);
     std::string table, impacts;  // motion.csv, impacts.json; motion-1.csv, impacts-1.json
 };
-// `target`: the place of a file of this name.
-void write_record(const std::function<output::Target(const std::string& name)>& target, const RecordNames& names,
-                  const sim::Table& table, const std::vector<sim::Impact>& impacts, double until);
+void put_record(ReferenceUpdate& update, const RecordNames& names, const sim::Table& table,
+                const std::vector<sim::Impact>& impacts, double until, std::optional<double> reproducible_until);
 // Nothing if the folder has no record. Throws IoError if the record is damaged.
-std::optional<MotionRecord> read_record(const std::filesystem::path& folder, const RecordNames& names);
+std::optional<MotionRecord> read_record(const References& references, const RecordNames& names);
 
 struct MotionVerdict {
     Verdict verdict = Verdict::identical;
     std::vector<std::string> lines;  // the differences, the largest first; empty if identical
 };
 
-// Up to `horizon`, differences within the tolerance are equivalent; after it the motions are not comparable, and any
-// difference is equivalent.
-MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance,
-                      double horizon);
+// Up to the horizon of the expected motion, differences within the tolerance are equivalent; after it the motions are
+// not comparable, and any difference is equivalent.
+MotionVerdict compare(const MotionRecord& expected, const MotionRecord& actual, const Tolerance& tolerance);
+
+// A difference in multiples of the tolerance, and its message.
+struct Finding {
+    double excess;
+    std::string line;
+};
+// Of records that are not identical.
+MotionVerdict verdict_of(std::vector<Finding> findings);
 
 }  // namespace beamcam::scenes

@@ -1,71 +1,69 @@
-// The folders of reference pictures and motions, one for each entry of a file of baselines, and their update.
+// The references of one entry: plain files in references/ENTRY, which git shows, commits and undoes.
 //
-// A folder belongs to beamcam if it contains the marker `.beamcam-reference`. The marker lists the files that an update
-// may replace or remove if they are unchanged. An update touches no other file in the folder.
+//     0000.png, 0001.png …   the pictures
+//     motion.csv             the motion of the scene, or the one behind the picture; motion-1.csv … of compared motions
+//     impacts.json           its impacts, and the time up to which it is reproducible; impacts-1.json …
+//     output.json, .csv      the numbers of an output of another type, such as a summary
+//     sweep.csv              the samples of a sweep
+//     digests.json           {"RENDERER": ["SHA-256 of the pixels", …]}: the pixels that renderers drew when they were
+//                            accepted. They only tell "identical" from "equivalent"; the pictures decide.
 //
-// An update is atomic: the new files are collected in `.beamcam-update` beside the folders, then a list of tasks is
-// written, then the tasks are carried out. If the program is killed before the list exists, the next run removes the
-// collection; afterwards the next run completes the update.
+// An update writes these files and no others. A folder without digests.json may be the user's: an update replaces no
+// file in it without --force.
 #pragma once
 
 #include <filesystem>
 #include <map>
-#include <memory>
+#include <set>
 #include <string>
 #include <vector>
 
-#include "scenes/regression/update_tasks.hpp"
-
 namespace beamcam::scenes {
 
-struct ReferenceFile {
-    std::string sha256;  // of its bytes
-    std::string pixels;  // SHA-256 of the decoded pixels; empty: the file is no picture
-};
-using ReferenceFiles = std::map<std::string, ReferenceFile>;  // by file name
+using Digests = std::map<std::string, std::vector<std::string>>;  // of the pixels of each picture, by renderer
 
-// The files that the marker of a folder lists; none if there is no marker. Throws IoError.
-ReferenceFiles marked_files(const std::filesystem::path& folder);
+inline constexpr const char* kDigestsFile = "digests.json";
+std::string picture_name(long frame);  // "0012.png"
 
-class ReferenceUpdate {
+class References {
   public:
-    // Completes or undoes an update that was killed. Returns a message; empty: there was none.
-    static std::string recover(const std::filesystem::path& references);
+    // `folder`: of all entries. `is_updated`: the test replaces the references; damaged ones are then no error.
+    References(std::filesystem::path folder, std::string entry, bool is_updated);
 
-    // Nothing is written before the first `begin`, `replace` or `extend`. `force`: existing files of the same names may
-    // be replaced, whoever made them.
-    ReferenceUpdate(std::filesystem::path baselines, std::filesystem::path references, bool force);
-    ~ReferenceUpdate();  // undoes an update that is not committed
-    ReferenceUpdate(const ReferenceUpdate&) = delete;
-    ReferenceUpdate& operator=(const ReferenceUpdate&) = delete;
-
-    // Creates the folder of the update. Throws IoError if another update is in progress.
-    void begin();
-    // After `begin`: a directory for the pictures and motions of a test; removed with this.
-    std::filesystem::path tested() const;
-    // Throws WouldOverwrite if the entry's folder does not belong to beamcam or contains changed files.
-    void require_replaceable(const std::string& entry) const;
-    // The directory for the new files of an entry, which replace all its files. Throws what `begin` and
-    // `require_replaceable` throw.
-    std::filesystem::path replace(const std::string& entry);
-    // The same for files that are added to the entry's files or replace those of the same names.
-    std::filesystem::path extend(const std::string& entry);
-    // Carries out the update and replaces the text of the baselines file, which must still be `expected`. `pixels`:
-    // digests of the new pictures of each entry by file name. False: the text and all files are as before.
-    bool commit(const std::string& expected, const std::string& text,
-                const std::map<std::string, std::map<std::string, std::string>>& pixels);
+    std::filesystem::path file(const std::string& name) const { return folder_ / name; }
+    bool has(const std::string& name) const;
+    const std::filesystem::path& folder() const { return folder_; }
+    std::size_t pictures() const;
+    // Throws IoError if digests.json is damaged.
+    Digests digests() const;
+    bool is_updated() const { return is_updated_; }
 
   private:
-    std::filesystem::path open(const std::string& entry, bool keeps_others);
-    void add_tasks(const std::string& entry, bool keeps_others, const std::map<std::string, std::string>& pixels,
-                   std::vector<UpdateTask>& tasks) const;
-    std::filesystem::path folder_of(const std::string& entry) const { return references_ / entry; }
-    std::filesystem::path staged(const std::string& entry) const;
+    const std::filesystem::path folder_;
+    const bool is_updated_;
+};
 
-    std::filesystem::path baselines_, references_, staging_;
-    bool force_;
-    std::unique_ptr<output::Journal> journal_;  // locked as long as this program lives; null: not started
-    std::map<std::string, bool> entries_;       // whether the entry's other files are kept
+// The update of one entry, collected in memory until the entry is judged.
+class ReferenceUpdate {
+  public:
+    // The references have, or get, a file of this name. Those that nothing names are removed.
+    void keep(const std::string& name) { names_.insert(name); }
+    void put(const std::string& name, std::string content);
+    void put_digests(const Digests& digests);
+    void withdraw(const std::string& name) { changed_.erase(name); }
+    void only_digests();  // withdraws all others
+
+    struct Changes {
+        std::vector<std::string> written, removed;  // file names
+        bool empty() const { return written.empty() && removed.empty(); }
+    };
+    // Each file appears complete or not at all. `root`: symbolic links must not lead out of it. Throws WouldOverwrite
+    // before the first change, and IoError.
+    Changes carry_out(const References& references, const std::filesystem::path& root, bool force) const;
+
+  private:
+    std::set<std::string> names_;
+    std::map<std::string, std::string> changed_;  // content by file name
 };
 
 }  // namespace beamcam::scenes

@@ -10,9 +10,8 @@
 #include "output/files/standard_output.hpp"
 #include "render/base/error.hpp"
 #include "scenes/motions/fan_out.hpp"
+#include "scenes/motions/fingerprint.hpp"
 #include "scenes/motions/identity.hpp"
-#include "scenes/regression/acceptance.hpp"
-#include "scenes/regression/baseline_edit.hpp"
 #include "scenes/regression/entry_test.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "sim/base/clock.hpp"
@@ -24,7 +23,6 @@ namespace {
 using Renderer = Fingerprint (*)();
 
 Renderer renderer_of(const Baseline& entry) {
-    if (!entry.file.empty()) return [] { return Fingerprint{{{"pictures", "of another tool"}}}; };
     if (!entry.has_pictures()) return [] { return Fingerprint(); };
     const Picture* picture = entry.picture();
     return !picture                                     ? figure_fingerprint
@@ -35,22 +33,14 @@ Renderer renderer_of(const Baseline& entry) {
 class Regression {
   public:
     Regression(const std::string& path, const RegressionOptions& options)
-        : path_(path),
-          options_(options),
-          baselines_(read_recovered(path)),
-          update_(path, baselines_.references, options.run.force),
-          report_files_(options.run.force) {}
+        : path_(path), options_(options), baselines_(read_baselines(path)), report_files_(options.run.force) {}
 
     RegressionResult run() {
         const auto started = Clock::now();
         result_.baselines = path_;
-        if (path_ == "-" && (!options_.update.empty() || options_.adds()))
-            throw UsageError("baselines from standard input cannot be changed; name the file");
         choose_entries();
         run_groups();
-        run_others();
-        change_baselines();
-        report_files_.save();
+        run_sweeps();
         result_.simulations = simulations_;
         for (const EntryResult& entry : result_.entries) result_.pictures += entry.frames.size();
         result_.seconds = seconds_since(started);
@@ -71,13 +61,12 @@ class Regression {
             }
             const Renderer renderer = renderer_of(*chosen[i]);
             try {
-                if (!fingerprints_.contains(renderer)) fingerprints_[renderer] = renderer();
-                tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, fingerprints_[renderer],
-                                                             update_, report_files_, result));
+                if (!renderers_.contains(renderer)) renderers_[renderer] = renderer().id();
+                tests_.push_back(std::make_unique<EntryTest>(baselines_, *chosen[i], options_, renderers_[renderer],
+                                                             report_files_, result));
             } catch (const render::MissingPart& error) {  // such as OpenGL for a lit view
                 reject(result, fmt::format("{}\n", error.what()), kMissingPart);
-            } catch (const output::IoError& error) {  // a damaged marker
-                if (!options_.update.empty()) throw;
+            } catch (const output::IoError& error) {  // damaged digests
                 reject(result, fmt::format("{}\n", error.what()), kInputOutput);
             }
         }
@@ -132,54 +121,31 @@ class Regression {
         std::map<std::string, std::size_t> index;
         std::vector<Group> all;
         for (const auto& test : tests_) {
-            if (!shares_motion(test->entry())) continue;
+            if (test->entry().is_sweep) continue;
             const auto [found, added] = index.emplace(motion_key(test->entry().scene.problem), all.size());
             if (added) all.emplace_back();
             all[found->second].push_back(test.get());
         }
         return all;
     }
-    static bool shares_motion(const Baseline& entry) { return entry.file.empty() && !entry.is_sweep; }
 
-    // Pictures of other programs, and sweeps, whose points run in parallel.
-    void run_others() {
+    // Their points run in parallel.
+    void run_sweeps() {
         Progress progress(resolve(options_.run.progress));
         for (const auto& test : tests_) {
-            if (shares_motion(test->entry())) continue;
+            if (!test->entry().is_sweep) continue;
             const auto started = Clock::now();
-            test->attempt([&] {
-                test->entry().is_sweep ? test->judge_sweep(options_.run.threads, progress) : test->judge_file();
-            });
+            test->attempt([&] { test->judge_sweep(options_.run.threads, progress); });
             test->result().seconds = seconds_since(started);
         }
-    }
-
-    void change_baselines() {
-        const bool updates = !options_.update.empty();
-        Acceptance acceptance(baselines_, update_, options_.report ? *options_.report : update_.tested(), updates);
-        for (const auto& test : tests_) {
-            EntryResult& result = test->result();
-            if (result.picture && (test->is_updated() || result.picture > Verdict::identical) &&
-                result.exit_code == 0) {
-                const Fingerprint& renderer = fingerprints_.at(renderer_of(test->entry()));
-                result.renderer = renderer.id();
-                result_.renderers[result.renderer] = renderer.parts;
-            }
-            test->judge_renderer();
-            if (test->accept()) acceptance.accept(test->entry(), result, updates);
-        }
-        result_.changed = acceptance.commit(result_.renderers);
-        if (result_.changed) return;
-        for (EntryResult& entry : result_.entries) entry.updated = false;
     }
 
     std::string path_;
     const RegressionOptions& options_;
     Baselines baselines_;
     std::atomic<std::size_t> simulations_ = 0;
-    ReferenceUpdate update_;
-    output::Manifest report_files_;
-    std::map<Renderer, Fingerprint> fingerprints_;
+    output::FileList report_files_;
+    std::map<Renderer, std::string> renderers_;  // their ids
     RegressionResult result_;
     std::vector<std::unique_ptr<EntryTest>> tests_;
 };

@@ -18,14 +18,10 @@ namespace beamcam::scenes {
 struct RegressionOptions {
     std::vector<std::string> only;    // names or patterns such as "fall-*"; empty: all
     std::vector<std::string> update;  // the same; only these are run, and their references are replaced
-    bool add_digest = false;          // accept equivalent pictures and pictures of a new renderer
     PassRule rule;
     Tolerance tolerance;                          // replaces those of the entries
     std::optional<std::filesystem::path> report;  // folder for actual, expected and difference pictures
     RunOptions run;
-
-    // Pictures may be added to the accepted ones.
-    bool adds() const { return add_digest || rule.new_renderer == NewRenderer::accept; }
 };
 
 // Throws UsageError for unknown names, and the errors of runs and files. If the solver fails, the entry fails.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "output/data/manifest.hpp"
+#include "output/data/file_list.hpp"
 #include "scenes/regression/result.hpp"
 
 namespace beamcam::scenes {
@@ -22,24 +22,10 @@ std::string to_text(const RegressionResult& result);
 std::string to_json(const RegressionResult& result);
 // A test case for each picture and each motion.
 std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule);
-// Workflow commands of GitHub Actions, one for each entry that fails.
-std::string to_annotations(const RegressionResult& result, const PassRule& rule);
-// A table in Markdown, for the summary of a step.
-std::string to_markdown(const RegressionResult& result, const std::string& title, const PassRule& rule);
-
-inline constexpr const char* kReportFile = "report.json";
-
-// Writes index.html, report.css and report.json, which `beamcam accept` reads, into a folder that contains the pictures
+// Writes index.html, report.css and report.json into a folder that contains the pictures
 // (RegressionOptions::report). The page works without scripts and inline styles, so that a strict content security
 // policy allows it.
 void write_page(const std::filesystem::path& folder, const RegressionResult& result, const std::string& title,
-                const PassRule& rule, output::Manifest& manifest);
-
-// ---- reading a report -------------------------------------------------------------------------------
-
-// The folder of `write_page`: `given`, or the only one in it. Throws IoError.
-std::filesystem::path folder_of_report(const std::filesystem::path& given);
-// Frames only of entries whose pictures are not identical, with their digests and verdicts. Throws IoError.
-RegressionResult read_report(const std::filesystem::path& folder);
+                const PassRule& rule, output::FileList& file_list);
 
 }  // namespace beamcam::scenes

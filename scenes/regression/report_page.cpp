@@ -5,7 +5,7 @@
 #include <span>
 
 #include "output/files/atomic_file.hpp"
-#include "scenes/regression/entry_pictures.hpp"
+#include "scenes/regression/entry_context.hpp"
 #include "scenes/regression/report.hpp"
 #include "sim/base/counted.hpp"
 
@@ -33,7 +33,7 @@ td, th { text-align: left; padding: .35rem .7rem; border-bottom: 1px solid var(-
 section { border-top: 2px solid var(--line); padding: 1rem 0 1.6rem; }
 .soft { color: var(--soft); }
 .identical { color: var(--good); }
-.equivalent, .new-renderer { color: var(--near); }
+.equivalent { color: var(--near); }
 .different, .missing, .not-run { color: var(--bad); font-weight: 600; }
 input[type=radio] { position: absolute; opacity: 0; }
 label { display: inline-block; margin: .6rem .3rem .4rem 0; padding: .1rem .7rem; border: 1px solid var(--line); border-radius: 1rem; cursor: pointer; }
@@ -93,9 +93,6 @@ std::string section_html(const EntryResult& entry, const char* classes) {
     for (const std::string& line : {describe("picture", entry.picture, entry.picture_lines),
                                     describe("motion", entry.motion, entry.motion_lines)})
         if (!line.empty()) out += fmt::format("<p>{}</p>\n", escaped_for_xml(line));
-    if (!entry.new_digest.empty())
-        out += fmt::format("<p class=\"soft\">expected <code>{}</code><br>actual <code>{}</code></p>\n",
-                           entry.old_digest.empty() ? "none" : entry.old_digest, entry.new_digest);
     const ChangedFrames frames = entry.changed_frames();
     for (const auto& [number, frame] : std::span(frames).first(std::min(frames.size(), kMostShown)))
         out += frame_html(entry, number, *frame);
@@ -134,11 +131,11 @@ std::string to_html(const RegressionResult& result, const std::string& title, co
 }  // namespace
 
 void write_page(const fs::path& folder, const RegressionResult& result, const std::string& title, const PassRule& rule,
-                output::Manifest& manifest) {
+                output::FileList& file_list) {
     output::ensure_directory(folder);
-    output::write_file(manifest.target(folder / "report.css"), std::string(kStyle));
-    output::write_file(manifest.target(folder / kReportFile), to_json(result));
-    output::write_file(manifest.target(folder / "index.html"), to_html(result, title, rule));
+    output::write_file(file_list.target(folder / "report.css"), std::string(kStyle));
+    output::write_file(file_list.target(folder / "report.json"), to_json(result));
+    output::write_file(file_list.target(folder / "index.html"), to_html(result, title, rule));
 }
 
 }  // namespace beamcam::scenes

@@ -1,5 +1,4 @@
-// The result of a regression test as text, and for continuous integration: JUnit, annotations and summaries of GitHub
-// Actions.
+// The result of a regression test as text and as a JUnit report.
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -9,8 +8,6 @@
 
 namespace beamcam::scenes {
 namespace {
-
-std::string short_digest(const std::string& digest) { return digest.empty() ? "none" : digest.substr(0, 16) + "…"; }
 
 std::string frame_files(const FrameResult& frame) {
     std::string text =
@@ -35,27 +32,6 @@ std::string junit_case(const std::string& suite, const EntryResult& entry, const
         escaped_for_xml(fmt::format("{}{}{}", name(*verdict), lines.empty() ? "" : ": ", fmt::join(lines, "; ")));
     return out + fmt::format(">\n    <{2} type=\"{0}\" message=\"{1}\">{1}</{2}>\n  </testcase>\n", name(*verdict),
                              message, entry.could_not_run() ? "error" : "failure");
-}
-
-// For workflow commands of GitHub Actions, which are one line. `ends`: characters that end a property.
-std::string escaped_for_annotation(std::string_view text, std::string_view ends = {}) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '%' || c == '\n' || ends.find(c) != std::string_view::npos)
-            out += fmt::format("%{:02X}", static_cast<unsigned>(c));
-        else if (static_cast<unsigned char>(c) >= 0x20)
-            out.push_back(c);
-    }
-    return out;
-}
-
-std::string escaped_for_table(std::string_view text) {
-    std::string out;
-    for (const char c : text) {
-        if (c == '|' || c == '\\' || c == '`' || c == '*' || c == '_' || c == '<') out.push_back('\\');
-        out.push_back(c == '\n' ? ' ' : c);
-    }
-    return out;
 }
 
 }  // namespace
@@ -97,12 +73,10 @@ std::string to_text(const RegressionResult& result) {
         if (const ChangedFrames changed = entry.changed_frames();
             !changed.empty() && entry.picture != Verdict::equivalent)
             text += frame_files(*changed.front().second);
-        if (entry.updated)
-            text += entry.new_digest.empty()
-                        ? "    updated\n"
-                        : fmt::format("    updated     sha256 {} → {}\n", short_digest(entry.old_digest),
-                                      short_digest(entry.new_digest));
-        if (entry.digest_added) text += fmt::format("    added       sha256 {}\n", short_digest(entry.new_digest));
+        for (const std::filesystem::path& file : entry.written)
+            text += fmt::format("    wrote       {}\n", file.string());
+        for (const std::filesystem::path& file : entry.removed)
+            text += fmt::format("    removed     {}\n", file.string());
     }
     return text;
 }
@@ -124,31 +98,6 @@ std::string to_junit(const RegressionResult& result, const std::string& suite, c
         "<testsuite name=\"{}\" tests=\"{}\" failures=\"{}\" errors=\"{}\" skipped=\"0\" "
         "time=\"{:.3f}\">\n{}</testsuite>\n",
         escaped_for_xml(suite), tests, failures, errors, result.seconds, cases);
-}
-
-std::string to_annotations(const RegressionResult& result, const PassRule& rule) {
-    std::string text;
-    for (const EntryResult& entry : result.entries)
-        if (!rule.passes(entry))
-            text += fmt::format("::error file={},title={}: {}::{}\n", escaped_for_annotation(result.baselines, ",:"),
-                                entry.name, name(entry.verdict()), escaped_for_annotation(describe(entry, "\n")));
-    return text;
-}
-
-std::string to_markdown(const RegressionResult& result, const std::string& title, const PassRule& rule) {
-    std::string text = fmt::format("### {}\n\n", escaped_for_table(title)), rows;
-    std::size_t identical = 0;
-    for (const EntryResult& entry : result.entries) {
-        if (entry.verdict() == Verdict::identical) {
-            ++identical;
-            continue;
-        }
-        rows +=
-            fmt::format("| {} | {} | {} | {} |\n", rule.passes(entry) ? "passes" : "**fails**",
-                        escaped_for_table(entry.name), name(entry.verdict()), escaped_for_table(describe(entry, "; ")));
-    }
-    text += fmt::format("{} of {} entries identical, {:.1f} s\n\n", identical, result.entries.size(), result.seconds);
-    return rows.empty() ? text : text + "| | entry | verdict | what changed |\n|---|---|---|---|\n" + rows + "\n";
 }
 
 }  // namespace beamcam::scenes

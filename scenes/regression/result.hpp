@@ -20,31 +20,27 @@ struct FrameResult {
     std::string sha256;  // of the drawn pixels
     PictureComparison comparison;
     bool compared = false;                               // with a reference picture
-    bool reference_accepted = true;                      // the reference picture belongs to an accepted digest
     std::filesystem::path expected, actual, difference;  // files, if they exist
     double weight() const { return compared ? comparison.weight() : 1e300; }
+    bool has_same_pixels() const { return compared && comparison.same_size() && comparison.difference.identical(); }
 };
 
 using ChangedFrames = std::vector<std::pair<long, const FrameResult*>>;  // with their numbers
 
 struct EntryResult {
     std::string name;
-    std::optional<Verdict> picture, motion;                // absent: not compared
+    std::optional<Verdict> picture, motion;                // absent: not compared; motion: and other numbers
     std::map<long, FrameResult> frames;                    // by number, from 0
     std::vector<std::string> picture_lines, motion_lines;  // messages
-    std::map<std::string, std::string> motion_files;       // of a motion that differs, in the report: SHA-256 by name
-    std::optional<double> reproducible_until;              // [s], if it was computed
-    std::string not_reproducible;                          // message, if the pictures show such a motion
-    std::string old_digest, new_digest;                    // of the first picture that changed
-    bool updated = false, digest_added = false;
-    std::string renderer;  // id of the renderer, if the pictures are not identical
-    double seconds = 0;    // drawing and comparison
-    int exit_code = 0;     // of the program if the entry could not be compared; 0: it was compared
+    std::vector<std::filesystem::path> written, removed;   // by an update
+    double seconds = 0;                                    // drawing and comparison
+    int exit_code = 0;  // of the program if the entry could not be compared; 0: it was compared
 
     Verdict verdict() const {
         return std::max(picture.value_or(Verdict::identical), motion.value_or(Verdict::identical));
     }
     bool could_not_run() const { return verdict() == Verdict::not_run; }
+    bool is_updated() const { return !written.empty() || !removed.empty(); }
     bool differs() const { return verdict() >= Verdict::different; }  // or was not compared
     std::vector<std::string> digests() const {                        // of all frames
         std::vector<std::string> all;
@@ -61,16 +57,11 @@ struct EntryResult {
     }
 };
 
-// Pictures of a new renderer fail, pass with a warning, or pass and are accepted.
-enum class NewRenderer { fail, warn, accept };
-
 // Which verdicts pass.
 struct PassRule {
     bool strict = false;  // only identical pictures and motions pass
-    NewRenderer new_renderer = NewRenderer::fail;
     bool passes(Verdict verdict) const {
-        return verdict == Verdict::identical || (verdict == Verdict::equivalent && !strict) ||
-               (verdict == Verdict::new_renderer && new_renderer != NewRenderer::fail);
+        return verdict == Verdict::identical || (verdict == Verdict::equivalent && !strict);
     }
     bool passes(const EntryResult& entry) const {  // its picture and its motion pass
         return passes(entry.picture.value_or(Verdict::identical)) && passes(entry.motion.value_or(Verdict::identical));
@@ -78,12 +69,11 @@ struct PassRule {
 };
 
 struct RegressionResult {
-    std::string baselines;                           // file name as given
-    std::map<std::string, RendererParts> renderers;  // of the entries
+    std::string baselines;  // file name as given
     std::vector<EntryResult> entries;
     std::size_t simulations = 0, pictures = 0;
     double seconds = 0;
-    bool changed = false;  // the baselines file was changed
+    bool is_updated() const { return std::ranges::any_of(entries, &EntryResult::is_updated); }
 };
 
 }  // namespace beamcam::scenes

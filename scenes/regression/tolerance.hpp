@@ -1,7 +1,6 @@
-// How far pictures and motions may be from the accepted ones.
+// How far pictures and motions may be from the references.
 #pragma once
 
-#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -16,23 +15,13 @@ struct Tolerance {
     std::optional<double> share;    // of the pixels that may differ by more, 0…1; default 0
     std::optional<double> ssim;     // least structural similarity of equivalent pictures, 0…1; default: none
     std::optional<double> motion;   // share of a channel's range, up to the reproducible horizon; default 2e-5
-    std::optional<double> impacts;  // share of an impact's quantities; of a millisecond for its times; default 1e-4
+    std::optional<double> impacts;  // relative, of an impact's and a summary's numbers; default 1e-4
 
     // The values of `over`; where it has none, the values of this.
     Tolerance overridden_by(const Tolerance& over) const;
 };
 
-struct Tolerances {
-    Tolerance common;
-    std::map<std::string, Tolerance> by_renderer;  // by the ids of renderers
-
-    // `over` takes precedence over this, and in each a renderer's tolerance over the common one.
-    Tolerances overridden_by(const Tolerances& over) const;
-    const Tolerance& of(const std::string& renderer) const;
-};
-
-void visit(SceneVisitor& v, Tolerance& tolerance);  // of pictures
-void visit(SceneVisitor& v, Tolerances& tolerances);
+void visit(SceneVisitor& v, Tolerance& tolerance);
 
 // The tolerance that `key=value` texts of --tolerance give. Throws UsageError.
 Tolerance tolerance_argument(const std::vector<std::string>& texts);

@@ -72,11 +72,16 @@ class Folder {
     std::filesystem::path path_;
 };
 
+// A shell function: the SHA-256 of the decoded pixels of each picture of the files, as FFmpeg takes them.
+inline constexpr const char* kPictureHash =
+    "picture_hash() { for f; do ffmpeg -v error -i \"$f\" -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact "
+    "-pix_fmt rgba -f framehash -hash sha256 - | grep -v '^#' | sed \"s|.* ||; s|$|  $f|\"; done; }; ";
+
 // Runs a shell command in a folder; the program is $BEAMCAM, its cache the folder's own.
 inline Finished shell(const Folder& folder, const std::string& command) {
     const std::string line = "cd '" + folder.path().string() +
-                             "' && export BEAMCAM_CACHE_DIR=\"$PWD/.cache\"; BEAMCAM='" BEAMCAM_PROGRAM "'; { " +
-                             command + " ; } >.stdout 2>.stderr </dev/null";
+                             "' && export BEAMCAM_CACHE_DIR=\"$PWD/.cache\"; BEAMCAM='" BEAMCAM_PROGRAM "'; " +
+                             kPictureHash + "{ " + command + " ; } >.stdout 2>.stderr </dev/null";
     const int status = std::system(line.c_str());
     Finished finished;
     finished.code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);

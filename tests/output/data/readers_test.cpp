@@ -10,6 +10,7 @@
 #include "output/film/picture_source.hpp"
 #include "output/film/video.hpp"
 #include "output/film/video_reader.hpp"
+#include "output/image/picture_files.hpp"
 #include "output/image/png.hpp"
 #include "output/image/png_reader.hpp"
 #include "output/image/raster.hpp"
@@ -266,19 +267,19 @@ TEST(TableReader, ArraysThatShareTheirBytesAreRefused) {
     EXPECT_NE(io_error_of([&] { read_table(scratch / "b.npz"); }).find("damaged"), std::string::npos);
 }
 
-TEST(PictureSource, TakesDirectoriesAndSequencesInTheOrderOfTheirNumbers) {
+TEST(PictureFiles, AreThoseOfADirectoryOrSequenceInTheOrderOfTheirNumbers) {
     Scratch scratch;
-    std::vector<std::string> expected;
+    std::vector<std::filesystem::path> expected;
     for (const int k : {9, 10, 100}) {
-        const render::Image image = flat_image(4, 4, 0xff000000u + static_cast<std::uint32_t>(k));
-        write_png(scratch / ("f-" + std::to_string(k) + ".png"), image);
-        expected.push_back(digest(image));
+        expected.push_back(scratch / ("f-" + std::to_string(k) + ".png"));
+        write_png(expected.back(), flat_image(4, 4, 0xff000000u + static_cast<std::uint32_t>(k)));
     }
     write_file(scratch / "notes.txt", "no picture");
-    EXPECT_EQ(own_digests(scratch.path()), expected);
-    EXPECT_EQ(own_digests(scratch / "f-#.png"), expected);
-    io_error_of([&] { PictureSource(scratch / "g-#.png"); });
-    io_error_of([&] { PictureSource(scratch / "absent.png"); });
+    EXPECT_EQ(picture_files(scratch.path()), expected);
+    EXPECT_EQ(picture_files(scratch / "f-#.png"), expected);
+    EXPECT_EQ(picture_files(expected[1]), std::vector{expected[1]});
+    for (const char* none : {"g-#.png", "absent.png", "notes.txt"})
+        EXPECT_NE(io_error_of([&] { picture_files(scratch / none); }).find(none), std::string::npos);
 }
 
 // ---- tables --------------------------------------------------------------------------------------

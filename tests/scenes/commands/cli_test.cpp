@@ -183,12 +183,10 @@ TEST(CommandLine, AnUnreadableFileDoesNotHideTheOthers) {
     folder.write("s.json", R"({"time": {"end": 0.1}})");
     ASSERT_EQ(shell(folder, "$BEAMCAM render s.json --at 0 --size 64x64 --style flat -o a.png -q").code, 0);
     folder.write("bad.png", "no picture");
-    for (const char* command : {"info", "hash"}) {
-        const Finished finished = shell(folder, fmt::format("$BEAMCAM {} none.png bad.png a.png", command));
-        EXPECT_EQ(finished.code, 6) << command;
-        EXPECT_THAT(finished.out, HasSubstr("a.png")) << command;
-        EXPECT_THAT(finished.err, HasSubstr("none.png")) << command;
-    }
+    const Finished finished = shell(folder, "$BEAMCAM info none.png bad.png a.png");
+    EXPECT_EQ(finished.code, 6);
+    EXPECT_THAT(finished.out, HasSubstr("a.png"));
+    EXPECT_THAT(finished.err, HasSubstr("none.png"));
     folder.write("bad.json", R"({"beam": 3})");
     for (const char* command : {"check", "plan", "run -n"}) {
         const Finished finished = shell(folder, fmt::format("$BEAMCAM {} bad.json none.json s.json", command));

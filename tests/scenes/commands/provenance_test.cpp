@@ -210,7 +210,7 @@ TEST(GlEnvironment, SettingsOfMesaAreIgnoredAndNamed) {
     const Folder folder;
     folder.write("s.json", "{}");
     const char* render = "$BEAMCAM render s.json -o x.png --at 0 --size 64x48 --force";
-    ASSERT_EQ(shell(folder, std::string(render) + "; $BEAMCAM hash x.png >a").code, 0);
+    ASSERT_EQ(shell(folder, std::string(render) + "; picture_hash x.png >a").code, 0);
     for (const char* setting :
          {"GALLIUM_DRIVER=d3d12", "GALLIUM_DRIVER=zink", "GALLIUM_DRIVER=virpipe", "GALLIUM_DRIVER=softpipe",
           "GALLIUM_DRIVER=nonsense", "DRAW_USE_LLVM=0", "LP_NATIVE_VECTOR_WIDTH=512", "LP_NATIVE_VECTOR_WIDTH=64",
@@ -220,7 +220,7 @@ TEST(GlEnvironment, SettingsOfMesaAreIgnoredAndNamed) {
         EXPECT_EQ(doctor.code, 0) << setting << doctor.out;
         EXPECT_THAT(doctor.out, HasSubstr(setting));
         const Finished drawn =
-            shell(folder, std::string("export ") + setting + "; " + render + " && $BEAMCAM hash x.png | cmp - a");
+            shell(folder, std::string("export ") + setting + "; " + render + " && picture_hash x.png | cmp - a");
         EXPECT_EQ(drawn.code, 0) << setting << drawn.err;
         EXPECT_THAT(drawn.err, HasSubstr(setting));
     }

@@ -60,10 +60,10 @@ TEST(Cache, LeavesPixelsOfFilmsUnchanged) {
     std::string pictures;
     const auto made = [&](const char* how, const char* count) {
         const Finished run =
-            shell(folder, std::string("rm -f f-*.png m.csv .beamcam.json; $BEAMCAM run s.json -v ") + how);
+            shell(folder, std::string("rm -f f-*.png m.csv .beamcam.jsonl; $BEAMCAM run s.json -v ") + how);
         ASSERT_EQ(run.code, 0) << run.err;
         EXPECT_THAT(run.err, HasSubstr(count)) << how;
-        const std::string found = shell(folder, "$BEAMCAM hash f-*.png").out;
+        const std::string found = shell(folder, "picture_hash f-*.png").out;
         EXPECT_GT(std::ranges::count(found, '\n'), 8);
         EXPECT_TRUE(pictures.empty() || found == pictures) << how;
         pictures = found;

@@ -83,7 +83,7 @@ TEST(Films, WhatStandsStillIsNeitherDrawnNorConvertedAgain) {
         ASSERT_EQ(made.code, 0) << made.err;
         EXPECT_THAT(made.err,
                     HasSubstr("frames_repeated=39 "));  // all frozen frames but the first: its ring does not age
-        const std::string found = shell(folder, std::string("$BEAMCAM hash j") + jobs + "/f.mkv | cut -c1-64").out;
+        const std::string found = shell(folder, std::string("picture_hash j") + jobs + "/f.mkv | cut -c1-64").out;
         EXPECT_TRUE(pictures.empty() || found == pictures);
         pictures = found;
     }
@@ -92,8 +92,8 @@ TEST(Films, WhatStandsStillIsNeitherDrawnNorConvertedAgain) {
                     "s.json -q")
                   .code,
               0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM hash j1/f.mkv | cut -c1-64").out,
-              shell(folder, "$BEAMCAM hash f-*.png | cut -c1-64").out);
+    EXPECT_EQ(shell(folder, "picture_hash j1/f.mkv | cut -c1-64").out,
+              shell(folder, "picture_hash f-*.png | cut -c1-64").out);
 }
 
 TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
@@ -108,7 +108,7 @@ TEST(Films, SlowMotionFilesDoNotDependOnThreads) {
         const Finished finished = shell(folder, std::string("$BEAMCAM run s.json -j ") + jobs + " -o j" + jobs);
         ASSERT_EQ(finished.code, 0) << finished.err;
     }
-    EXPECT_EQ(shell(folder, "diff -r -x .beamcam.json j1 j3").out, "");
+    EXPECT_EQ(shell(folder, "diff -r -x .beamcam.jsonl j1 j3").out, "");
     const int frames = std::stoi(shell(folder, "ls j1/*.png | wc -l").out);
     EXPECT_GT(frames, 8);
 }
@@ -339,8 +339,8 @@ TEST(Posters, AreTheFilmsOwnFrame) {
     EXPECT_THAT(made.err, HasSubstr("f.png (poster)"));
     EXPECT_THAT(made.err, HasSubstr("frames_drawn=8 "));  // none of them twice
     // The touch is at 0.277 s: the first frame after it is number 6, and FFV1 keeps every bit of it.
-    const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
-    EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | sed -n 7p").out, HasSubstr(poster));
+    const std::string poster = shell(folder, "picture_hash f.png").out.substr(0, 64);
+    EXPECT_THAT(shell(folder, "picture_hash f.mkv | sed -n 7p").out, HasSubstr(poster));
     EXPECT_THAT(shell(folder, "$BEAMCAM info f.png --scene").out, HasSubstr("\"poster\": \"impact:1\""));
 }
 
@@ -368,8 +368,8 @@ TEST(Posters, OfAFilmThatWasShortenedAreItsLastFrame) {
     folder.write("s.json", R"({"time": {"end": 0.4}, "outputs": [
         {"type": "video", "file": "f.mkv", "size": [160, 90], "fps": 20, "view": {"style": "flat"}, "poster": 0.3}]})");
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q --set time.end=0.2").code, 0);
-    const std::string poster = shell(folder, "$BEAMCAM hash f.png").out.substr(0, 64);
-    EXPECT_THAT(shell(folder, "$BEAMCAM hash f.mkv | tail -n 1").out, HasSubstr(poster));
+    const std::string poster = shell(folder, "picture_hash f.png").out.substr(0, 64);
+    EXPECT_THAT(shell(folder, "picture_hash f.mkv | tail -n 1").out, HasSubstr(poster));
 }
 
 // Nothing of it stands in the picture, as was asked for: then it is told.
@@ -432,8 +432,8 @@ TEST(Films, EndBeforeStillsOfImpactsAndOfLaterInstants) {
                 at +
                 R"(}, {"type": "video", "file": "f.mkv", "to": 0.3, "fps": 10, "size": [160, 90], "view": {"style": "flat"}}]})");
         EXPECT_EQ(shell(folder, "$BEAMCAM run s.json --force").code, 0) << at;
-        EXPECT_EQ(shell(folder, "$BEAMCAM hash f.mkv").out.size(),
-                  shell(folder, "$BEAMCAM hash f.mkv | head -n 3").out.size());
+        EXPECT_EQ(shell(folder, "picture_hash f.mkv").out.size(),
+                  shell(folder, "picture_hash f.mkv | head -n 3").out.size());
     }
 }
 
@@ -650,7 +650,7 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
                          keys + "}]}");
         return shell(folder, "$BEAMCAM run s.json --force --no-cache -v").err;
     };
-    const auto digest = [&] { return shell(folder, "$BEAMCAM hash s.png | cut -c1-64").out; };
+    const auto digest = [&] { return shell(folder, "picture_hash s.png | cut -c1-64").out; };
     EXPECT_THAT(still(""), HasSubstr(" integrations=1 "));
     const std::string plain = digest();
     EXPECT_THAT(still(R"(, "horizon": false)"), HasSubstr(" integrations=1 "));
@@ -673,7 +673,7 @@ TEST(Films, BearALogoAndColoursOfTheirOwn) {
     EXPECT_THAT(without.err, HasSubstr("s.json:2:"));
     EXPECT_THAT(without.err, HasSubstr("outputs.0.logo = \"l.png\""));
     ASSERT_EQ(shell(folder, "$BEAMCAM run l.json && $BEAMCAM run s.json").code, 0);
-    const auto digest = [&] { return shell(folder, "$BEAMCAM hash s.png | cut -c1-64").out; };
+    const auto digest = [&] { return shell(folder, "picture_hash s.png | cut -c1-64").out; };
     const std::string first = digest();
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("up to date"));
     ASSERT_EQ(shell(folder, "$BEAMCAM run l.json --force --set outputs.0.theme=dark && $BEAMCAM run s.json").code, 0);

@@ -1,239 +1,271 @@
-// The folders of references: what an update replaces, what it never touches, and what a kill leaves.
+// References as plain files: what an update writes, what it never touches, and what git does with them.
 #include "scenes/regression/references.hpp"
 
-#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/stat.h>
-#include <sys/syscall.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <functional>
+#include <map>
 
-#include "output/files/atomic_file.hpp"
-#include "tests/output/scratch.hpp"
-#include "tests/scenes/support.hpp"
-
-// The calls that change a folder, instead of the C library's: the process ends before the one that is counted to.
-namespace {
-int changes_left = 0;  // 0: it does not end
-void count_change() {
-    if (changes_left > 0 && --changes_left == 0) _exit(137);
-}
-int result_of(long value) { return static_cast<int>(value); }  // -1 with errno, as of the C library
-}  // namespace
-extern "C" {
-int renameat(int a, const char* from, int b, const char* to) noexcept {
-    count_change();
-    return result_of(syscall(SYS_renameat2, a, from, b, to, 0));
-}
-int rename(const char* from, const char* to) noexcept { return renameat(AT_FDCWD, from, AT_FDCWD, to); }
-int unlinkat(int folder, const char* name, int flags) noexcept {
-    count_change();
-    return result_of(syscall(SYS_unlinkat, folder, name, flags));
-}
-int unlink(const char* name) noexcept { return unlinkat(AT_FDCWD, name, 0); }
-int remove(const char* name) noexcept {
-    const int done = unlinkat(AT_FDCWD, name, 0);
-    return done != 0 && errno == EISDIR ? unlinkat(AT_FDCWD, name, AT_REMOVEDIR) : done;
-}
-int rmdir(const char* name) noexcept { return unlinkat(AT_FDCWD, name, AT_REMOVEDIR); }
-int mkdir(const char* name, mode_t mode) noexcept {
-    count_change();
-    return result_of(syscall(SYS_mkdirat, AT_FDCWD, name, mode));
-}
-}
+#include "scenes/motions/fingerprint.hpp"
+#include "tests/scenes/regression/guarded.hpp"
 
 namespace beamcam::scenes {
 namespace {
 
 namespace fs = std::filesystem;
-using output::Scratch;
-using output::write_file;
-using testing::slurp;
+using ::testing::AllOf, ::testing::ElementsAre, ::testing::HasSubstr, ::testing::IsEmpty, ::testing::Not;
+using testing::Finished, testing::Folder, testing::Guarded, testing::kBaselines, testing::shell, testing::slurp;
 
-using Contents = std::map<std::string, std::string>;
+std::vector<std::string> names_in(const fs::path& folder) {
+    std::vector<std::string> names;
+    for (const auto& file : fs::directory_iterator(folder)) names.push_back(file.path().filename().string());
+    std::ranges::sort(names);
+    return names;
+}
 
 // Every file below a folder.
-Contents contents(const fs::path& folder) {
-    Contents all;
+std::map<std::string, std::string> contents(const fs::path& folder) {
+    std::map<std::string, std::string> all;
     for (const auto& file : fs::recursive_directory_iterator(folder))
-        if (file.is_regular_file()) all[file.path().lexically_relative(folder).string()] = slurp(file.path());
+        if (file.is_regular_file() && !file.path().filename().string().starts_with(".std"))
+            all[file.path().lexically_relative(folder).string()] = slurp(file.path());
     return all;
 }
 
-// Updates two entries; the second one loses a file in the "new" state.
-void update(const Scratch& scratch, const std::string& what, bool force = false) {
-    ReferenceUpdate update(scratch / "b.json", scratch / "refs", force);
-    for (const std::string entry : {"a", "c"}) {
-        const fs::path folder = update.replace(entry);
-        write_file(folder / "0000.png", what + entry);
-        if (entry == "a" || what == "old") write_file(folder / "0001.png", what);
+TEST(References, AreFilesThatPeopleKnowAndTheBaselinesStayAsTheyAre) {
+    const Guarded folder;
+    const Finished updated = folder.update();
+    EXPECT_EQ(updated.code, 7) << updated.err;
+    EXPECT_THAT(updated.out, HasSubstr("wrote       b/fall/0000.png"));
+    EXPECT_EQ(slurp(folder / "b.json"), kBaselines);
+    EXPECT_THAT(names_in(folder / "b/fall"), ElementsAre("0000.png", "digests.json", "impacts.json", "motion.csv"));
+    EXPECT_THAT(names_in(folder / "b/motion"), ElementsAre("digests.json", "impacts.json", "motion.csv"));
+    EXPECT_EQ(slurp(folder / "b/motion/digests.json"), "{}\n");
+    EXPECT_THAT(slurp(folder / "b/fall/digests.json"), HasSubstr("\"" + flat_fingerprint().id() + "\": ["));
+    EXPECT_THAT(slurp(folder / "b/fall/impacts.json"), HasSubstr("\"reproducible_until\": 0.2"));
+}
+
+TEST(References, FramesThatAreNotDrawnAnyMoreGoAndFilesOfTheUserStay) {
+    const Guarded folder;
+    folder.update();
+    for (const char* own : {"b/hit/notes.txt", "b/hit/1.png", "b/hit/motion-old.csv"}) folder.write(own, "mine");
+    folder.swap("b.json", R"("to": 0.35)", R"("to": 0.30)");
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --filter hit").out, HasSubstr("1 picture drawn, 2 expected"));
+    const Finished updated = shell(folder, "$BEAMCAM test b.json --update hit");
+    EXPECT_THAT(updated.out, HasSubstr("removed     b/hit/0001.png"));
+    EXPECT_THAT(names_in(folder / "b/hit"), ElementsAre("0000.png", "1.png", "digests.json", "impacts.json",
+                                                        "motion-old.csv", "motion.csv", "notes.txt"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter hit --strict").code, 0);
+}
+
+// ---- git ---------------------------------------------------------------------------------------------
+
+// The baselines in a repository, with one commit.
+struct Repository : Guarded {
+    Repository() {
+        update();
+        git("init -q . && git add b b.json s.json");
+        git("commit -qm first");
     }
-    update.commit(slurp(scratch / "b.json"), "baselines " + what, {{"a", {{"0000.png", "12ab"}}}, {"c", {}}});
-}
-
-std::string message_of(const std::function<void()>& act) {
-    try {
-        act();
-    } catch (const output::IoError& error) {
-        return error.what();
+    Finished git(const std::string& arguments) const {
+        return shell(*this, "git -c user.name=n -c user.email=a@b.c " + arguments);
     }
-    return "no error";
+    Finished test(const std::string& options = "--strict") const {
+        return shell(*this, "$BEAMCAM test b.json " + options);
+    }
+};
+
+TEST(ReferencesInGit, ShowsCommitsAndUndoesAnUpdate) {
+    const Repository folder;
+    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    EXPECT_EQ(folder.test("--update fall").code, 7);
+    EXPECT_EQ(folder.git("status --short -uno").out, " M b/fall/0000.png\n M b/fall/digests.json\n M s.json\n");
+    EXPECT_EQ(folder.test("--filter fall --strict").code, 0);
+    folder.git("checkout -q -- b");
+    EXPECT_EQ(folder.test("--filter fall").code, 7);
+    folder.git("checkout -q -- .");
+    EXPECT_EQ(folder.test().code, 0);
 }
 
-TEST(References, AnUpdateReplacesWhatTheMarkerListsAndKeepsEverythingElse) {
-    Scratch scratch;
-    write_file(scratch / "b.json", "first");
-    update(scratch, "old");
-    write_file(scratch / "refs/a/notes.txt", "mine");
-    output::ensure_directory(scratch / "refs/a.old");
-    write_file(scratch / "refs/a.old/x", "mine too");
-    update(scratch, "new");
-    const Contents all = contents(scratch.path());
-    EXPECT_EQ(all.at("b.json"), "baselines new");
-    EXPECT_EQ(all.at("refs/a/0000.png"), "newa");
-    EXPECT_EQ(all.at("refs/a/notes.txt"), "mine");
-    EXPECT_EQ(all.at("refs/a.old/x"), "mine too");
-    EXPECT_FALSE(all.contains("refs/c/0001.png"));
-    EXPECT_EQ(all.size(), 8u);  // and two markers
-    EXPECT_EQ(marked_files(scratch / "refs/a").at("0000.png").pixels, "12ab");
-    EXPECT_FALSE(marked_files(scratch / "refs/a").contains("notes.txt"));
+TEST(ReferencesInGit, EntriesAreDeletedRenamedAndTakenFromOlderCommits) {
+    const Repository folder;
+    folder.git("rm -qr b/hit");
+    EXPECT_THAT(folder.test().out, AllOf(HasSubstr("missing     hit"), HasSubstr("identical   fall")));
+    folder.git("reset -q --hard");
+    folder.git("mv b/fall b/drop");
+    folder.swap("b.json", "\"fall\":", "\"drop\":");
+    EXPECT_EQ(folder.test().code, 0);
+    folder.git("reset -q --hard");
+    folder.write("s.json", R"({"time": {"end": 0.35}, "gravity": 9.7})");
+    EXPECT_EQ(folder.test("--update").code, 7);  // all of them
+    folder.git("commit -qam second");
+    EXPECT_EQ(folder.test().code, 0);
+    folder.git("checkout -q HEAD~1 -- b/fall b/motion");
+    const Finished older = folder.test();
+    EXPECT_EQ(older.code, 7);
+    EXPECT_THAT(older.out, AllOf(HasSubstr("different   fall"), HasSubstr("different   motion"),
+                                 HasSubstr("identical   hit"), HasSubstr("identical   fast")));
+    folder.git("checkout -q HEAD~1 -- s.json b");
+    EXPECT_EQ(folder.test().code, 0);
+    folder.git("rm -q --cached b/fall/digests.json");
+    fs::remove(folder / "b/fall/digests.json");
+    EXPECT_EQ(folder.test().code, 0);  // the pictures decide
 }
 
-TEST(References, AFolderThatIsNotMarkedIsRejectedAndUnchanged) {
-    Scratch scratch;
-    write_file(scratch / "b.json", "first");
-    output::ensure_directory(scratch / "refs/a");
-    write_file(scratch / "refs/a/fall.json", "two weeks of work");
-    const Contents before = contents(scratch.path());
-    EXPECT_THAT(message_of([&] { update(scratch, "new"); }),
-                ::testing::HasSubstr("refs/a is not a folder of references"));
-    EXPECT_EQ(contents(scratch.path()), before);
-    update(scratch, "new", true);  // adopts the folder, and keeps what it does not need
-    EXPECT_EQ(slurp(scratch / "refs/a/fall.json"), "two weeks of work");
-    EXPECT_EQ(slurp(scratch / "refs/a/0000.png"), "newa");
-}
-
-TEST(References, AChangedFileAFileInTheWayAndALinkAreRejected) {
-    const std::pair<const char*, std::function<void(const fs::path&)>> cases[] = {
-        {"was changed", [](const fs::path& refs) { write_file(refs / "a/0000.png", "edited"); }},
-        {"was not made by beamcam",
-         [](const fs::path& refs) { write_file(refs / "a/.beamcam-reference", "beamcam reference 1\n"); }},
-        {"is a symbolic link",
-         [](const fs::path& refs) {
-             fs::rename(refs / "a", refs / "moved");
-             fs::create_directory_symlink("moved", refs / "a");
-         }},
-        {"is not a directory",
-         [](const fs::path& refs) {
-             fs::remove_all(refs / "a");
-             write_file(refs / "a", "a file");
-         }},
-        {"damaged", [](const fs::path& refs) { write_file(refs / "a/.beamcam-reference", "?"); }},
-    };
-    for (const auto& [why, change] : cases) {
-        Scratch scratch;
-        write_file(scratch / "b.json", "first");
-        update(scratch, "old");
-        change(scratch / "refs");
-        const Contents before = contents(scratch.path());
-        EXPECT_THAT(message_of([&] { update(scratch, "new"); }), ::testing::HasSubstr(why));
-        EXPECT_EQ(contents(scratch.path()), before) << why;
+TEST(ReferencesInGit, LineEndsThatACheckoutConvertsMakeNoDifference) {
+    const Repository folder;
+    for (const char* how : {"-c core.autocrlf=true clone -q . b2", "clone -q . b3"}) {
+        folder.write(".gitattributes", "* text=auto eol=crlf\n");
+        if (std::string(how).find("b3") != std::string::npos) folder.git("add .gitattributes; git commit -qm crlf");
+        ASSERT_EQ(folder.git(how).code, 0);
+        const std::string copy = std::string(how).substr(std::string(how).size() - 2);
+        ASSERT_THAT(slurp(folder / (copy + "/b/motion/motion.csv")), HasSubstr("\r\n"));
+        ASSERT_THAT(slurp(folder / (copy + "/b/motion/impacts.json")), HasSubstr("\r\n"));
+        const Finished tested = shell(folder, "cd " + copy + "; $BEAMCAM test b.json --strict");
+        EXPECT_EQ(tested.code, 0) << tested.out << tested.err;
+        EXPECT_EQ(shell(folder, "cd " + copy + "; $BEAMCAM test b.json --update").code, 0);
+        EXPECT_EQ(shell(folder, "cd " + copy + "; git status --short -uno").out, "");
     }
 }
 
-TEST(References, BaselinesThatWereEditedMeanwhileAreKept) {
-    Scratch scratch;
-    write_file(scratch / "b.json", "first");
-    ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
-    write_file(update.replace("a") / "0000.png", "x");
-    write_file(scratch / "b.json", "edited");
-    EXPECT_THROW(update.commit("first", "second", {{"a", {}}}), output::WouldOverwrite);
-    EXPECT_EQ(slurp(scratch / "b.json"), "edited");
+TEST(ReferencesInGit, AnUpdateInAFreshCloneNeedsNoForce) {
+    const Repository folder;
+    folder.git("clone -q . copy");
+    folder.write("copy/s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+    const Finished updated =
+        shell(folder, "export XDG_STATE_HOME=$PWD/state; cd copy; $BEAMCAM test b.json --update fall");
+    EXPECT_EQ(updated.code, 7) << updated.err;
+    EXPECT_EQ(shell(folder, "cd copy; git diff --stat | tail -n 1").out.substr(0, 16), " 2 files changed");
 }
 
-TEST(References, OneUpdateAtATime) {
-    Scratch scratch;
-    write_file(scratch / "b.json", "first");
-    ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
-    update.extend("a");
-    EXPECT_THAT(message_of([&] { ReferenceUpdate(scratch / "b.json", scratch / "refs", false).extend("a"); }),
-                ::testing::HasSubstr("in progress"));
-    EXPECT_EQ(ReferenceUpdate::recover(scratch / "refs"), "");
-    EXPECT_TRUE(fs::exists(scratch / "refs/.beamcam-update"));
-}
+// ---- several sorts of machines -------------------------------------------------------------------------
 
-TEST(References, AFolderInThePlaceOfTheCollectionIsNeverRemoved) {
-    Scratch scratch;
-    output::ensure_directory(scratch / "refs/.beamcam-update");
-    write_file(scratch / "refs/.beamcam-update/notes.txt", "mine");
-    EXPECT_THROW(ReferenceUpdate::recover(scratch / "refs"), output::WouldOverwrite);
-    EXPECT_EQ(slurp(scratch / "refs/.beamcam-update/notes.txt"), "mine");
-}
-
-// The picture of another renderer is put beside the others.
-void extend(const Scratch& scratch) {
-    ReferenceUpdate update(scratch / "b.json", scratch / "refs", false);
-    write_file(update.extend("a") / "0000-0123456789ab.png", "a");
-    update.commit(slurp(scratch / "b.json"), "baselines extended", {{"a", {{"0000-0123456789ab.png", "34cd"}}}});
-}
-
-TEST(References, WhatIsAddedLeavesAllElseAsItIs) {
-    Scratch scratch;
-    write_file(scratch / "b.json", "first");
-    update(scratch, "old");
-    Contents expected = contents(scratch.path());
-    extend(scratch);
-    expected["b.json"] = "baselines extended";
-    expected["refs/a/0000-0123456789ab.png"] = "a";
-    Contents all = contents(scratch.path());
-    EXPECT_THAT(all.at("refs/a/.beamcam-reference"),
-                ::testing::HasSubstr(expected.at("refs/a/.beamcam-reference").substr(20)));
-    EXPECT_EQ(marked_files(scratch / "refs/a").at("0000-0123456789ab.png").pixels, "34cd");
-    expected["refs/a/.beamcam-reference"] = all.at("refs/a/.beamcam-reference");
-    EXPECT_EQ(all, expected);
-    update(scratch, "new");  // and goes with them
-    EXPECT_FALSE(contents(scratch.path()).contains("refs/a/0000-0123456789ab.png"));
-}
-
-// The process ends at each of its changes of the file system in turn, as a kill ends it: afterwards everything is old
-// or everything is new, and nothing else is left.
-void torture(const std::function<void(const Scratch&)>& act) {
-    Scratch before_all, after_all;
-    for (const Scratch* scratch : {&before_all, &after_all}) {
-        write_file(*scratch / "b.json", "first");
-        update(*scratch, "old");
+// The references were accepted on a machine whose pictures are these ones, two levels darker.
+struct OtherMachine : Guarded {
+    OtherMachine() {
+        shell(*this, "$BEAMCAM test b.json --update fast");
+        shell(*this,
+              "ffmpeg -v error -i b/fast/0000.png -vf 'lutrgb=r=max(val-2\\,0)' -y x.png && mv x.png b/fast/0000.png");
+        swap("b/fast/digests.json", flat_fingerprint().id(), "0123456789ab");
     }
-    act(after_all);
-    const Contents before = contents(before_all.path()), after = contents(after_all.path());
-    int undone = 0, completed = 0;
-    constexpr int kFarBeyondTheLast = 1000;
-    for (int step = 1; step < kFarBeyondTheLast; ++step) {
-        Scratch scratch;
-        write_file(scratch / "b.json", "first");
-        update(scratch, "old");
-        const int code = output::exit_code_of([&] {
-            changes_left = step;
-            act(scratch);
-            return 0;
-        });
-        ReferenceUpdate::recover(scratch / "refs");
-        const Contents now = contents(scratch.path());
-        ASSERT_TRUE(now == before || now == after) << "killed at change " << step;
-        (now == before ? undone : completed) += 1;
-        if (code == 0) break;
-        ASSERT_EQ(code, 137);
+    Finished test(const std::string& options) const {
+        return shell(*this, "$BEAMCAM test b.json --filter fast " + options);
     }
-    EXPECT_GT(undone, 5);
-    EXPECT_GT(completed, 5);
+};
+
+TEST(References, TwoSortsOfMachinesShareThemByTolerance) {
+    const OtherMachine folder;
+    const Finished exact = folder.test("");
+    EXPECT_EQ(exact.code, 7);
+    EXPECT_THAT(exact.out, HasSubstr("no digest is recorded, " + flat_fingerprint().id()));
+    EXPECT_EQ(folder.test("--tolerance channel=1").code, 7);
+    const Finished within = folder.test("--tolerance channel=2");
+    EXPECT_EQ(within.code, 0) << within.out;
+    EXPECT_THAT(within.out, HasSubstr("equivalent  fast"));
+    EXPECT_EQ(folder.test("--tolerance channel=2 --strict").code, 7);
 }
 
-TEST(References, AnUpdateThatIsKilledAnywhereIsCompletedOrUndone) {
-    torture([](const Scratch& scratch) { update(scratch, "new"); });
+// This machine's digests are recorded beside those of the other, whose pictures stay; a change replaces them all.
+TEST(References, TheDigestsOfASecondMachineOnlySayIdentical) {
+    const OtherMachine folder;
+    const std::string picture = slurp(folder / "b/fast/0000.png"), motion = slurp(folder / "b/fast/motion.csv");
+    const Finished added = shell(folder, "$BEAMCAM test b.json --update fast --tolerance channel=2");
+    EXPECT_EQ(added.code, 7);
+    EXPECT_THAT(added.out, AllOf(HasSubstr("wrote       b/fast/digests.json"), Not(HasSubstr("0000.png\n    wrote"))));
+    EXPECT_EQ(slurp(folder / "b/fast/0000.png"), picture);
+    EXPECT_EQ(slurp(folder / "b/fast/motion.csv"), motion);
+    EXPECT_THAT(slurp(folder / "b/fast/digests.json"), HasSubstr("0123456789ab"));
+    EXPECT_EQ(folder.test("--tolerance channel=2 --strict").code, 0);
+    EXPECT_EQ(folder.test("").code, 7);  // a digest never lets a picture pass
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fast --tolerance channel=2").code, 0);
+    shell(folder, "sed -i 's/cam.speed=5/cam.speed=6/' b.json");
+    EXPECT_EQ(folder.test("--tolerance channel=2").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fast").code, 7);
+    EXPECT_THAT(slurp(folder / "b/fast/digests.json"), Not(HasSubstr("0123456789ab")));
+    EXPECT_EQ(folder.test("--strict").code, 0);
 }
-TEST(References, AnAdditionThatIsKilledAnywhereIsCompletedOrUndone) { torture(extend); }
+
+// ---- what an update must not touch ---------------------------------------------------------------------
+
+TEST(References, AFolderThatIsTheUsersKeepsItsFiles) {
+    for (const std::string references : {"scenes", ".", "..", "ABSOLUTE"}) {
+        const Folder folder;
+        fs::create_directories(folder / "x");
+        const std::string at = references == ".." ? "x/b.json" : "b.json";
+        const fs::path own =
+            references == "scenes" || references == "ABSOLUTE" ? folder / "scenes/fall" : folder / "fall";
+        fs::create_directories(own);
+        const std::string named = references == "ABSOLUTE" ? (folder / "scenes").string() : references;
+        folder.write(at, R"({"references": ")" + named + R"(", "entries": {"fall": {"scene": {"time": {"end": 0.1}},
+            "output": {"type": "still", "at": 0.1, "size": [96, 96], "view": {"style": "flat"}}}}})");
+        for (const char* name : {"fall.json", "0000.png", "0007.png", "motion.csv"})
+            std::ofstream(own / name) << "two weeks of work";
+        const auto before = contents(folder.path());
+        const Finished refused = shell(folder, "$BEAMCAM test " + at + " --update fall");
+        EXPECT_EQ(refused.code, 6) << references << refused.err;
+        EXPECT_THAT(refused.out,
+                    AllOf(HasSubstr("0000.png exists, and its folder has no digests.json"), HasSubstr("--force")));
+        EXPECT_EQ(contents(folder.path()), before) << references;
+        EXPECT_EQ(shell(folder, "$BEAMCAM test " + at + " --update fall --force").code, 7);
+        EXPECT_EQ(slurp(own / "fall.json"), "two weeks of work");
+        EXPECT_EQ(slurp(own / "0007.png"), "two weeks of work");
+        EXPECT_NE(slurp(own / "0000.png"), "two weeks of work");
+    }
+}
+
+TEST(References, LinksAreNotFollowedOutOfTheFolderOfTheBaselines) {
+    const std::pair<const char*, const char*> cases[] = {
+        {"the folder", "mv p/b victim/b; ln -s ../victim/b p/b"},
+        {"the folder of an entry", "mv p/b/fall victim/fall; ln -s ../../victim/fall p/b/fall"},
+        {"a picture", "cp p/b/fall/0000.png victim/; ln -sf ../../../victim/0000.png p/b/fall/0000.png"},
+        {"a dangling link", "ln -sf ../../../victim/new p/b/fall/0000.png"},
+        {"the digests", "mv p/b/fall/digests.json victim/; ln -s ../../../victim/digests.json p/b/fall/digests.json"}};
+    for (const auto& [what, command] : cases) {
+        const Folder folder;
+        fs::create_directories(folder / "p");
+        fs::create_directories(folder / "victim");
+        folder.write("p/b.json", kBaselines);
+        folder.write("p/s.json", R"({"time": {"end": 0.35}})");
+        ASSERT_EQ(shell(folder, "$BEAMCAM test p/b.json --update fall").code, 7);
+        ASSERT_EQ(shell(folder, command).code, 0) << what;
+        folder.write("p/s.json", R"({"time": {"end": 0.35}, "title": "another"})");
+        const auto before = contents(folder / "victim");
+        shell(folder, "$BEAMCAM test p/b.json");
+        const Finished updated = shell(folder, "$BEAMCAM test p/b.json --update fall");
+        EXPECT_EQ(updated.code, 6) << what << updated.out << updated.err;
+        EXPECT_EQ(contents(folder / "victim"), before) << what;
+    }
+}
+
+// A folder that asks for the completion of an update of an older version.
+TEST(References, NothingInAFolderMakesATestWrite) {
+    const Folder folder;
+    fs::create_directories(folder / "p/b/.beamcam-update");
+    fs::create_directories(folder / "victim");
+    folder.write("p/b.json", kBaselines);
+    folder.write("p/s.json", R"({"time": {"end": 0.35}})");
+    folder.write("victim/.profile", "mine");
+    folder.write("p/b/.beamcam-update/tasks", "- 0 ../../victim/.profile\n- 0 ../../victim/.new\n");
+    folder.write("p/b/.beamcam-update/.beamcam.0123abcd.journal", "{\"temporary\": \".x.01234567.part\"}\n");
+    folder.write("p/b/.beamcam-update/baselines.json", "{}");
+    const auto before = contents(folder.path());
+    EXPECT_EQ(shell(folder, "$BEAMCAM test p/b.json -q").code, 7);
+    EXPECT_EQ(contents(folder.path()), before);
+}
+
+TEST(References, DamagedDigestsAreAnErrorAndAnUpdateReplacesThem) {
+    const Guarded folder;
+    folder.update();
+    const std::string right = slurp(folder / "b/fall/digests.json");
+    for (const char* text : {"", "[", "3", "<<<<<<< HEAD\n{}\n=======\n"}) {
+        folder.write("b/fall/digests.json", text);
+        const Finished damaged = shell(folder, "$BEAMCAM test b.json --filter fall motion");
+        EXPECT_EQ(damaged.code, 6) << text;
+        EXPECT_THAT(damaged.out, AllOf(HasSubstr("not-run     fall"), HasSubstr("identical   motion")));
+        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fall").code, 7);
+        EXPECT_EQ(slurp(folder / "b/fall/digests.json"), right);
+    }
+}
 
 }  // namespace
 }  // namespace beamcam::scenes

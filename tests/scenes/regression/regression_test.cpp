@@ -25,30 +25,19 @@ TEST(Regression, UpdateEndsWithSevenAndThenAllIsIdentical) {
     const Guarded folder;
     const Finished updated = folder.update();
     EXPECT_EQ(updated.code, 7) << updated.err;
-    EXPECT_THAT(updated.out, HasSubstr("updated"));
-    const std::string text = slurp(folder / "b.json");
-    EXPECT_THAT(text, HasSubstr("// guarded since the beginning"));
-    EXPECT_THAT(text, HasSubstr("/* the first touch */"));
+    EXPECT_THAT(updated.err, HasSubstr("references were changed"));
     EXPECT_TRUE(std::filesystem::exists(folder / "b/hit/0001.png"));
     const Finished again = shell(folder, "$BEAMCAM test b.json --strict -j1");
     EXPECT_EQ(again.code, 0) << again.out << again.err;
     EXPECT_THAT(again.err, HasSubstr("4 entries: 4 identical"));
     EXPECT_THAT(again.err, HasSubstr("2 simulations, 4 pictures"));  // three entries share one motion
-    EXPECT_EQ(slurp(folder / "b.json"), text);
 }
 
 TEST(Regression, AnEntryAloneIsJudgedAsAmongOthers) {
     const Guarded folder;
     folder.update();
     for (const char* name : {"fall", "hit", "motion", "fast"})
-        EXPECT_EQ(shell(folder, std::string("$BEAMCAM test b.json --strict --only ") + name).code, 0) << name;
-}
-
-TEST(Regression, DigestsAreThoseOfTheReferencePictures) {
-    const Guarded folder;
-    folder.update();
-    const std::string digest = shell(folder, "$BEAMCAM hash b/fall/0000.png").out.substr(0, 64);
-    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(digest));
+        EXPECT_EQ(shell(folder, std::string("$BEAMCAM test b.json --strict --filter ") + name).code, 0) << name;
 }
 
 TEST(Regression, DistinguishesAPictureThatMovedFromAMotionThatMoved) {
@@ -83,7 +72,6 @@ TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
     EXPECT_THAT(again.out, HasSubstr("fall    picture identical | motion identical"));
     EXPECT_THAT(again.out, HasSubstr("sketch  picture identical\n"));
     EXPECT_THAT(again.err, HasSubstr("1 simulation, 3 pictures"));
-    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("font LiberationSans-Regular.ttf"));
     // The same pixels as the file that the command makes.
     ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json angle -o a.png --dpi 60 -q").code, 0);
     EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b/angle/0000.png").code, 0);
@@ -103,43 +91,17 @@ TEST(Regression, FiguresAreGuardedWithTheMotionBehindThem) {
 TEST(Regression, UpdateTouchesOnlyTheEntriesItNames) {
     const Guarded folder;
     folder.update();
-    const std::string before = slurp(folder / "b.json"), fast = slurp(folder / "b/fast/0000.png");
+    const std::string fast = slurp(folder / "b/fast/0000.png");
     folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
     const Finished finished = shell(folder, "$BEAMCAM test b.json --update fall");
     EXPECT_EQ(finished.code, 7);
     EXPECT_THAT(finished.out, HasSubstr("pixels"));
-    EXPECT_THAT(finished.out, HasSubstr("→"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fall fast motion").code, 0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only hit").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter fall fast motion").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter hit").code, 7);
     EXPECT_EQ(slurp(folder / "b/fast/0000.png"), fast);
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fal").code, 2);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fal").code, 2);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fall --only hit").code, 2);
-}
-
-// Another machine's pixels, accepted and kept: two levels off those of this one.
-TEST(Regression, WithinTheToleranceIsEquivalentAndItsDigestCanBeAdded) {
-    const Guarded folder;
-    folder.update();
-    const std::string own = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
-    ASSERT_EQ(
-        shell(
-            folder,
-            "ffmpeg -v error -i b/fast/0000.png -vf 'lutrgb=r=max(val-2\\,0)' -y b/x.png && mv b/x.png b/fast/0000.png")
-            .code,
-        0);
-    const std::string digest = shell(folder, "$BEAMCAM hash b/fast/0000.png").out.substr(0, 64);
-    folder.swap("b.json", own, digest);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast").code, 7);  // flat views are exact by default
-    const Finished equivalent = shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2");
-    EXPECT_EQ(equivalent.code, 0) << equivalent.out << equivalent.err;
-    EXPECT_THAT(equivalent.out, HasSubstr("equivalent  fast"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=1").code, 7);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=1,share=1").code, 0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --strict").code, 7);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fast --tolerance channel=2 --add-digest").code, 7);
-    for (const std::string& each : {own, digest}) EXPECT_THAT(slurp(folder / "b.json"), HasSubstr(each));
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter fal").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update fall --filter hit").code, 2);
 }
 
 TEST(Regression, ReadsOnlyAsFarAsTheEntryShows) {
@@ -148,29 +110,28 @@ TEST(Regression, ReadsOnlyAsFarAsTheEntryShows) {
         "b.json",
         R"({"entries": {"e": {"scene": {"time": {"end": 1000}}, "output": {"type": "still", "at": 0.05, "size": [64, 64], "view": {"style": "flat"}}}}})");
     EXPECT_EQ(shell(folder, "timeout 20 $BEAMCAM test b.json --update e").code, 7);
-    EXPECT_THAT(slurp(folder / "b.json"), HasSubstr("\"reproducible_until\": 0.05"));
+    EXPECT_THAT(slurp(folder / "b/e/impacts.json"), HasSubstr("\"reproducible_until\": 0.05"));
 }
 
 TEST(Regression, AnUpdateThatChangesNothingSaysSo) {
     const Guarded folder;
     folder.update();
     const auto written = [&](const char* file) { return std::filesystem::last_write_time(folder / file); };
-    const auto text = written("b.json"), picture = written("b/fall/0000.png");
+    const auto motion = written("b/motion/motion.csv"), picture = written("b/fall/0000.png");
     const Finished again = folder.update();
     EXPECT_EQ(again.code, 0) << again.err;
-    EXPECT_THAT(again.out, Not(HasSubstr("updated")));
-    EXPECT_THAT(again.err, Not(HasSubstr("was changed")));
-    EXPECT_EQ(written("b.json"), text);
+    EXPECT_THAT(again.out, Not(HasSubstr("wrote")));
+    EXPECT_THAT(again.err, Not(HasSubstr("changed")));
+    EXPECT_EQ(written("b/motion/motion.csv"), motion);
     EXPECT_EQ(written("b/fall/0000.png"), picture);
-    EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
 }
 
 TEST(Regression, EntriesAreMeantByPatterns) {
     const Guarded folder;
     EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update 'f*'").code, 7);
     EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --filter '*a*'").err, HasSubstr("2 entries: 2 identical"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --only hit 'm*'").err, HasSubstr("2 entries: 0 identical"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only 'x*'").code, 2);
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --filter hit 'm*'").err, HasSubstr("2 entries: 0 identical"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter 'x*'").code, 2);
     const Finished failed = shell(folder, "$BEAMCAM test b.json --update failed");
     EXPECT_EQ(failed.code, 7);
     EXPECT_THAT(failed.err, HasSubstr("2 entries"));
@@ -190,11 +151,35 @@ TEST(Regression, PicturesOfWhatIsNotReproducibleAreRejected) {
   "table": {"scene": {"time": {"end": 8}}, "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
     const Finished updated = shell(folder, "$BEAMCAM test b.json --update all");
     EXPECT_EQ(updated.code, 7);
-    EXPECT_THAT(updated.out,
-                AllOf(HasSubstr("not accepted: it shows the motion until 8 s"), HasSubstr(" s, not from ")));
+    EXPECT_THAT(updated.out, AllOf(HasSubstr("not accepted: it depends on the motion until 8 s"),
+                                   HasSubstr(" s, not from "), HasSubstr("choose an earlier instant")));
     EXPECT_FALSE(std::filesystem::exists(folder / "b/late"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only early table").code, 0);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only late").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter early table").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --filter late").code, 7);
+}
+
+// A still at an impact depends on the whole motion. What the message recommends works as written.
+TEST(Regression, TheRemedyOfARejectedStillWorks) {
+    const Folder folder;
+    for (const std::string set : {"", R"("set": ["cam.phase=0.1"], )"}) {
+        const auto write = [&](const std::string& changes) {
+            folder.write("b.json", R"({"entries": {"touch": {)" + changes + R"("scene": {"time": {"end": 8}},
+                "output": {"type": "still", "at": "impact:1", "size": [64, 64], "view": {"style": "flat"}}}}})");
+        };
+        write(set);
+        const Finished rejected = shell(folder, "$BEAMCAM test b.json --update touch");
+        EXPECT_EQ(rejected.code, 7);
+        EXPECT_THAT(rejected.out, HasSubstr("missing     touch"));
+        const std::size_t at = rejected.out.find("\"time.end=");
+        ASSERT_NE(at, std::string::npos) << rejected.out;
+        const std::string change = rejected.out.substr(at, rejected.out.find('"', at + 1) + 1 - at);
+        EXPECT_THAT(rejected.out, HasSubstr(set.empty() ? "add \"set\": [" + change + "] to the entry"
+                                                        : "add " + change + " to \"set\""));
+        write(set.empty() ? "\"set\": [" + change + "], " : R"("set": ["cam.phase=0.1", )" + change + "], ");
+        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update touch").code, 7);
+        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --strict").code, 0);
+        std::filesystem::remove_all(folder / "b");
+    }
 }
 
 TEST(Regression, MistakesInBaselinesAreReportedWithTheirPlaces) {
@@ -206,7 +191,7 @@ TEST(Regression, MistakesInBaselinesAreReportedWithTheirPlaces) {
     "a": {"scene": "s.json", "output": {"type": "still"}},
     "b": {"scene": "absent.json", "output": {"type": "still", "at": 0}},
     "c": {"scene": {"beam": {"lenght": 1}}, "output": {"type": "still", "at": 0}},
-    "d": {"scene": "s.json", "output": {"type": "video"}, "accepted": [{"sha256": ["xyz"]}]},
+    "d": {"scene": "s.json", "output": {"type": "video"}, "accepted": []},
     "../e": {},
     "f": 3,
     "g": {"scene": "s.json", "output": {"type": "page"}}
@@ -214,12 +199,12 @@ TEST(Regression, MistakesInBaselinesAreReportedWithTheirPlaces) {
 })");
     const Finished finished = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(finished.code, 3) << finished.err;
-    for (const char* part : {"b.json:2:17: unknown key \"chanel\"", "b.json:2:39: tolerance.share",
-                             "b.json:4:40: entries.a.output needs \"at\"", "b.json:5:20: entries.b.scene: absent.json",
-                             "b.json:6:30: unknown key \"lenght\"", "films are compared before they are encoded",
-                             "this type has no pictures", "64 digits", "b.json:8:5: \"../e\"", "b.json:9:10"})
+    for (const char* part :
+         {"b.json:2:17: unknown key \"chanel\"", "b.json:2:39: tolerance.share",
+          "b.json:4:40: entries.a.output needs \"at\"", "b.json:5:20: entries.b.scene: absent.json",
+          "b.json:6:30: unknown key \"lenght\"", "films are compared before they are encoded",
+          "this type has no pictures", "unknown key \"accepted\"", "b.json:8:5: \"../e\"", "b.json:9:10"})
         EXPECT_THAT(finished.err, HasSubstr(part));
-    EXPECT_THAT(finished.err, HasSubstr("accepted.0.sha256.0 must be a digest of 64 digits"));
     EXPECT_THAT(finished.err, Not(HasSubstr("entries.f needs")));
     for (const char* text : {"", "[]", "{}", "{\"entries\": {}}", "{\"entries\": 3}", "{\"entries\": {\"a\": {}",
                              "nonsense", "\xff\xfe"}) {
@@ -236,16 +221,16 @@ TEST(Regression, DamagedReferencesAreErrorsNotVerdicts) {
     folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
     const std::string png = slurp(folder / "b/fall/0000.png");
     folder.write("b/fall/0000.png", png.substr(0, png.size() / 2));
-    const Finished cut = shell(folder, "$BEAMCAM test b.json --only fall");
+    const Finished cut = shell(folder, "$BEAMCAM test b.json --filter fall");
     EXPECT_EQ(cut.code, 6);
     EXPECT_THAT(cut.out, HasSubstr("b/fall/0000.png"));
     folder.write("b/fall/0000.png", png);
     folder.write("b/fall/motion.csv", "t,theta\n0,zero\n");
-    const Finished table = shell(folder, "$BEAMCAM test b.json --only fall");
+    const Finished table = shell(folder, "$BEAMCAM test b.json --filter fall");
     EXPECT_EQ(table.code, 6);
     EXPECT_THAT(table.out, HasSubstr("motion.csv:2:3"));
     std::filesystem::remove(folder / "b/fall/motion.csv");
-    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --only fall").out, HasSubstr("motion missing"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM test b.json --filter fall").out, HasSubstr("motion missing"));
 }
 
 TEST(Regression, AnUpdateThatCannotBeWrittenLosesNothing) {
@@ -255,12 +240,10 @@ TEST(Regression, AnUpdateThatCannotBeWrittenLosesNothing) {
     const Guarded folder;
     folder.update();
     folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
-    const std::string text = slurp(folder / "b.json"), picture = slurp(folder / "b/fall/0000.png");
+    const std::string picture = slurp(folder / "b/fall/0000.png");
     const Finished finished = shell(folder, "ulimit -f 2; $BEAMCAM test b.json --update fall");
     EXPECT_EQ(finished.code, 6) << finished.out << finished.err;
-    EXPECT_EQ(slurp(folder / "b.json"), text);
     EXPECT_EQ(slurp(folder / "b/fall/0000.png"), picture);
-    EXPECT_FALSE(std::filesystem::exists(folder / "b/.beamcam-update"));
 }
 
 // ---- what must not pass ----------------------------------------------------------------------------
@@ -290,60 +273,94 @@ TEST(Regression, AMotionThatThePictureComparesIsJudgedAsTheScenesOwn) {
     EXPECT_THAT(shell(folder, "$BEAMCAM test b.json").out, HasSubstr("soft: there is no motion in b/"));
 }
 
-TEST(Regression, AReferenceWhoseDigestWasNotAcceptedFails) {
+// The picture that is compared is the reference: its digest alone never lets another one pass.
+TEST(Regression, APictureThatDiffersFromItsReferenceFailsWhateverTheDigests) {
     const Guarded folder;
     folder.update();
-    folder.write("s.json", R"({"time": {"end": 0.35}, "title": "another"})");
-    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --report r").code, 7);
-    const std::string right = slurp(folder / "b/fall/0000.png");
-    folder.write("b/fall/0000.png", slurp(folder / "r/fall/0000-actual.png"));
-    for (const char* title : {"another", ""}) {  // also where the picture itself is the accepted one
-        folder.write("s.json", std::string(R"({"time": {"end": 0.35}, "title": ")") + title + "\"}");
-        const Finished finished = shell(folder, "$BEAMCAM test b.json --only fall");
-        EXPECT_EQ(finished.code, 7) << title;
-        EXPECT_THAT(finished.out, HasSubstr("b/fall/0000.png is not the picture that was accepted"));
-    }
-    folder.write("b/fall/0000.png", right);
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --only fall --strict").code, 0);
+    shell(folder, "ffmpeg -v error -i b/fall/0000.png -vf negate -y x.png && mv x.png b/fall/0000.png");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --filter fall");
+    EXPECT_EQ(finished.code, 7);
+    EXPECT_THAT(finished.out, HasSubstr("picture different: "));
 }
 
-TEST(Regression, AMotionThatUpdateDidNotAcceptFails) {
+TEST(Regression, AMotionThatIsNotTheReferenceFails) {
     const Guarded folder;
     folder.update();
-    folder.write("s.json", R"({"time": {"end": 0.35}, "contact": {"stiffness": 1.01e8}})");
+    folder.write("x.json", R"({"time": {"end": 0.35}, "contact": {"stiffness": 1.01e8}})");
     ASSERT_EQ(shell(folder,
-                    "$BEAMCAM simulate s.json --trajectory b/motion/motion.csv --channels theta --rate 50 "
+                    "$BEAMCAM simulate x.json --trajectory b/motion/motion.csv --channels theta --rate 50 "
                     "--impacts b/motion/impacts.json --force -q")
                   .code,
               0);
-    const Finished finished = shell(folder, "$BEAMCAM test b.json --only motion");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json --filter motion");
     EXPECT_EQ(finished.code, 7);
-    EXPECT_THAT(finished.out, HasSubstr("b/motion/motion.csv was changed after beamcam made it"));
+    EXPECT_THAT(finished.out, HasSubstr("motion different: impact 1 of 1"));
 }
 
-// ---- what an update must not touch -------------------------------------------------------------------
+// ---- the own numbers of outputs ------------------------------------------------------------------------
 
-TEST(Regression, UpdateRejectsAFolderThatIsNotItsOwn) {
-    for (const char* references : {"scenes", ".", "..", "ABSOLUTE"}) {
+// The references of an output are changed by 1 %, and nothing else.
+TEST(Regression, TheNumbersOfEveryOutputAreCompared) {
+    const std::pair<const char*, const char*> cases[] = {
+        {R"({"type": "summary"})", "energy_scale"},
+        {R"({"type": "impacts"})", "impacts.0.force_peak"},
+        {R"({"type": "impacts", "file": "i.csv"})", "force_peak"},
+        {R"({"type": "shapes", "rate": 50})", "v differs"},
+        {R"({"type": "shapes", "rate": 50, "file": "s.npz"})", "v differs"}};
+    for (const auto& [output, where] : cases) {
         const Folder folder;
-        std::filesystem::create_directories(folder / "scenes/fall");
-        std::filesystem::create_directories(folder / "x/fall");
-        std::filesystem::create_directories(folder / "fall");
-        for (const char* each : {"scenes/fall/notes.txt", "x/fall/notes.txt", "fall/notes.txt"})
-            folder.write(each, "two weeks of work");
-        std::string named = references;
-        if (named == "ABSOLUTE") named = (folder / "scenes").string();
-        const std::string at = std::string(references) == ".." ? "x/b.json" : "b.json";
-        folder.write(at, R"({"references": ")" + named + R"(", "entries": {"fall": {"scene": {"time": {"end": 0.1}},
-            "output": {"type": "still", "at": 0.1, "size": [96, 96], "view": {"style": "flat"}}}}})");
-        const Finished finished = shell(folder, "$BEAMCAM test " + at + " --update fall");
-        EXPECT_EQ(finished.code, 6) << references << finished.err;
-        EXPECT_THAT(finished.err, HasSubstr("fall is not a folder of references"));
-        for (const char* each : {"scenes/fall/notes.txt", "x/fall/notes.txt", "fall/notes.txt"})
-            EXPECT_EQ(slurp(folder / each), "two weeks of work") << references;
-        EXPECT_EQ(shell(folder, "$BEAMCAM test " + at + " --update fall --force").code, 7);
-        EXPECT_EQ(slurp(folder / "scenes/fall/notes.txt"), "two weeks of work") << references;
+        folder.write("b.json", R"({"entries": {"e": {"scene": {"time": {"end": 0.3}}, "output": )" +
+                                   std::string(output) + "}}}");
+        EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update").code, 7) << output;
+        const Finished same = shell(folder, "$BEAMCAM test b.json --strict");
+        EXPECT_EQ(same.code, 0) << output << same.out << same.err;
+        folder.write("change.py", R"(
+import csv, json, os
+if os.path.exists("b/e/output.json"):
+    data = json.load(open("b/e/output.json"))
+    owner, key = (data["impacts"][0], "force_peak") if "units" not in data else (data, "energy_scale")
+    owner[key] *= 1.01
+    json.dump(data, open("b/e/output.json", "w"))
+else:
+    rows = list(csv.reader(open("b/e/output.csv")))
+    column = rows[0].index("force_peak" if "force_peak" in rows[0] else "v")
+    rows[-1][column] = repr(1.01 * float(rows[-1][column]))
+    csv.writer(open("b/e/output.csv", "w")).writerows(rows)
+)");
+        ASSERT_EQ(shell(folder, "/usr/bin/python3 change.py").code, 0) << output;
+        const Finished changed = shell(folder, "$BEAMCAM test b.json");
+        EXPECT_EQ(changed.code, 7) << output;
+        EXPECT_THAT(changed.out, HasSubstr(where)) << output;
     }
+}
+
+TEST(Regression, ASummaryWhoseDensityIsTwiceAsLargeIsDifferent) {
+    const Folder folder;
+    const std::string text = R"({"cam": null, "gravity": 0, "beam": {"model": "rigid"}, "initial": {"angle": 0},
+        "hub": {"drive": {"type": "prescribed", "law": "spin-up", "speed": 4, "duration": 1}}, "time": {"end": 1}})";
+    folder.write("f.json", text);
+    folder.write("t.json", R"({"entries": {"sum": {"scene": "f.json", "output": {"type": "summary"}},
+        "traj": {"scene": "f.json", "output": {"type": "trajectory", "rate": 10}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test t.json --update").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test t.json --strict").code, 0);
+    folder.swap("f.json", R"("model": "rigid")", R"("model": "rigid", "density": 5533.4)");
+    const Finished heavier = shell(folder, "$BEAMCAM test t.json");
+    EXPECT_EQ(heavier.code, 7);
+    EXPECT_THAT(heavier.out,
+                AllOf(HasSubstr("different   sum"), HasSubstr("work_drive"), HasSubstr("different   traj")));
+}
+
+// Another tolerance of the solver changes its steps, and numbers by less than the tolerance.
+TEST(Regression, TheWorkOfTheSolverIsNotCompared) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.6}})");
+    folder.write("b.json", R"({"entries": {"s": {"scene": "s.json", "output": {"type": "summary"}},
+        "i": {"scene": "s.json", "output": {"type": "impacts"}}}})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM test b.json --update").code, 7);
+    folder.write("s.json", R"({"time": {"end": 0.6}, "solver": {"rtol": 1e-9}})");
+    const Finished finished = shell(folder, "$BEAMCAM test b.json");
+    EXPECT_EQ(finished.code, 0) << finished.out;
+    EXPECT_THAT(finished.out, AllOf(HasSubstr("equivalent  s"), HasSubstr("equivalent  i")));
 }
 
 // ---- one entry's misfortune --------------------------------------------------------------------------
@@ -357,8 +374,7 @@ TEST(Regression, WhatIsWrongWithOneEntryCostsNoOther) {
     EXPECT_EQ(damaged.code, 6) << damaged.out;
     for (const char* line : {"identical   fall", "identical   fast", "not-run     hit", "b/hit/motion.csv:2:3"})
         EXPECT_THAT(damaged.out, HasSubstr(line));
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit").code, 6);  // it was changed by hand
-    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit --force").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM test b.json --update hit").code, 7);  // replaces it
     folder.swap("b.json", R"("motion": {"scene": "s.json")", R"("motion": {"scene": "gone.json")");
     const Finished gone = shell(folder, "$BEAMCAM test b.json");
     EXPECT_EQ(gone.code, 3) << gone.out;

@@ -1,4 +1,4 @@
-// `beamcam hash` and `beamcam diff` as people and scripts meet them.
+// `beamcam diff` as people and scripts meet it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -14,31 +14,28 @@ constexpr const char* kFramesAndTable =
     R"({"outputs": [{"type": "frames", "file": "f-##.png", "size": [192, 108], "fps": 20, "from": 0.1, "to": 0.3, "view": {"style": "flat"}},
                     {"type": "trajectory", "file": "t.csv", "rate": 50, "channels": ["theta"]}], "time": {"end": 0.3}})";
 
-TEST(Hash, PrintsOneDigestAPictureThatFFmpegPrintsToo) {
-    const Folder folder;
-    folder.write("s.json", kFramesAndTable);
-    ASSERT_EQ(shell(folder, "$BEAMCAM run -q s.json").code, 0);
-    const Finished all = shell(folder, "$BEAMCAM hash .");
-    EXPECT_EQ(all.code, 0) << all.err;
-    EXPECT_EQ(std::count(all.out.begin(), all.out.end(), '\n'), 4);
-    EXPECT_THAT(all.out, HasSubstr("  ./f-02.png\n"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM hash f-##.png -j1").out, shell(folder, "$BEAMCAM hash f-0*.png -j3").out);
-    const Finished ffmpeg = shell(folder,
-                                  "ffmpeg -v error -start_number 2 -i f-%02d.png -pix_fmt rgba -f hash -hash sha256 - "
-                                  "| sed s/SHA256=//; $BEAMCAM hash --whole . | cut -c1-64");
-    EXPECT_EQ(ffmpeg.out.substr(0, 64), ffmpeg.out.substr(65, 64)) << ffmpeg.err;
-}
-
-TEST(Hash, RejectsWhatIsNoPictureWithSix) {
+TEST(Diff, RejectsWhatIsNoPictureWithSix) {
     const Folder folder;
     folder.write("empty.png", "");
     folder.write("text.png", "no picture");
-    for (const char* file : {"empty.png", "text.png", "absent.png", ".", "$'\\xff\\xfe.png'"}) {
-        const Finished finished = shell(folder, std::string("$BEAMCAM hash ") + file);
+    folder.write("film.mp4", "no picture");
+    for (const char* file : {"empty.png", "text.png", "film.mp4", "absent.png", ".", "$'\\xff\\xfe.png'"}) {
+        const Finished finished = shell(folder, std::string("$BEAMCAM diff ") + file + " " + file);
         EXPECT_EQ(finished.code, 6) << file << finished.err;
         EXPECT_THAT(finished.err, StartsWith("beamcam: ")) << file;
         EXPECT_EQ(finished.out, "") << file;
     }
+}
+
+TEST(Diff, MeasuresDifferencesBySimilarityToo) {
+    const Folder folder;
+    shell(folder,
+          "ffmpeg -v error -f lavfi -i testsrc=size=64x48:duration=1 -frames:v 1 a.png; "
+          "ffmpeg -v error -i a.png -vf 'lutrgb=r=min(val+3\\,255)' b.png");
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png --ssim 0.9").code, 0);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png --ssim 1").code, 7);
+    EXPECT_EQ(shell(folder, "$BEAMCAM diff a.png b.png --ssim 2").code, 2);
 }
 
 TEST(Diff, EndsWithZeroForTheSameAndSevenForOthers) {
