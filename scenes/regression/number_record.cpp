@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr double kSmallestShare = 0.01;  // of the largest value beside a number: least reference of its difference
+constexpr double kLeastShare = 0.01;  // of the largest value beside a number: least reference of its difference
 
 // These keys tell of the work of the solver or of its errors; the instants of extrema jump between equal ones.
 constexpr std::string_view kNotOfTheMotion[] = {
@@ -104,7 +104,7 @@ class NodeComparer {
 
     void compare_numbers(double a, double b, const std::string& path, double largest) {
         if (a == b) return;
-        const double scale = std::max(std::fabs(a), kSmallestShare * largest);
+        const double scale = std::max(std::fabs(a), kLeastShare * largest);
         const double share = scale > 0 ? std::fabs(b - a) / scale : INFINITY;
         add(share / tolerance_, path, fmt::format("{:.9g} became {:.9g} ({:+.2g} %)", a, b, 100 * (b - a) / scale));
     }

@@ -14,22 +14,22 @@ namespace {
 
 namespace fs = std::filesystem;
 
-bool is_number(std::string_view text) {
+bool is_digits(std::string_view text) {
     return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
 }
 
 bool is_picture(std::string_view name) {
-    return name.size() >= 8 && name.ends_with(".png") && is_number(name.substr(0, name.size() - 4));
+    return name.size() >= 8 && name.ends_with(".png") && is_digits(name.substr(0, name.size() - 4));
 }
 
 // "motion.csv" and "motion-12.csv" for "motion" and ".csv".
 bool is_of_series(std::string_view name, std::string_view begin, std::string_view end) {
     if (!name.starts_with(begin) || !name.ends_with(end) || name.size() < begin.size() + end.size()) return false;
     name = name.substr(begin.size(), name.size() - begin.size() - end.size());
-    return name.empty() || (name.starts_with('-') && is_number(name.substr(1)));
+    return name.empty() || (name.starts_with('-') && is_digits(name.substr(1)));
 }
 
-bool is_reference(std::string_view name) {
+bool is_reference_name(std::string_view name) {
     return is_picture(name) || is_of_series(name, "motion", ".csv") || is_of_series(name, "impacts", ".json") ||
            name == "output.json" || name == "output.csv" || name == "sweep.csv" || name == kDigestsFile;
 }
@@ -40,7 +40,8 @@ std::vector<std::string> references_in(const fs::path& folder) {
     std::error_code failed;  // no folder, no references
     for (fs::directory_iterator at(folder, failed), end; !failed && at != end; at.increment(failed))
         if (std::error_code gone; fs::is_regular_file(at->symlink_status(gone)))
-            if (std::string name = at->path().filename().string(); is_reference(name)) names.push_back(std::move(name));
+            if (std::string name = at->path().filename().string(); is_reference_name(name))
+                names.push_back(std::move(name));
     std::ranges::sort(names);
     return names;
 }
