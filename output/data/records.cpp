@@ -147,31 +147,14 @@ ColumnTable impacts_table(const sim::Result& result) {
     return table;
 }
 
-void add_part(const Agreement::Part& part, Node& out) {
-    add(out, "rows", part.rows);
-    if (part.rows == 0) return;
-    add(out, "rms", part.rms), add(out, "largest", part.largest), add(out, "t_largest", part.t_largest);
-    add(out, "highest", part.highest);
-}
-
 // Differences are measured minus computed, in the channel's unit.
 Node agreement_node(const Agreement& each, const char* unit) {
-    Node out =
-        object_node({{"label", each.label}, {"file", each.file}, {"channel", sim::name(each.channel)}, {"unit", unit}});
-    add_part(each.whole, out);
-    add(out, "collisions", array_node(each.collisions, [](const Agreement::AfterCollision& after) {
-            Node part = object_node({{"collision", after.collision}, {"t_start", after.t_start}});
-            add_part(after, part);
-            return part;
-        }));
-    if (!each.beyond) return out;
-    const auto both = [](const Agreement::Statistics& s) {
-        return object_node({{"mean", s.mean}, {"deviation", s.deviation}});
-    };
-    add(out, "not_reproducible",
-        object_node({{"rows", each.beyond->rows},
-                     {"measured", both(each.beyond->measured)},
-                     {"computed", both(each.beyond->computed)}}));
+    Node out = object_node({{"label", each.label},
+                            {"file", each.file},
+                            {"channel", sim::name(each.channel)},
+                            {"unit", unit},
+                            {"rows", each.rows}});
+    if (each.rows > 0) add(out, "rms", each.rms), add(out, "largest", each.largest);
     return out;
 }
 

@@ -120,9 +120,164 @@ class PanelRows {
     std::string name_;
 };
 
+// ---- one column a curve ------------------------------------------------------------------------
+
+// Points of a curve in the order of a key, which is x or t.
+struct CurveColumn {
+    std::string name;
+    std::vector<std::pair<double, double>> points;  // key, value
+
+    // Sorts, and removes repetitions and gaps beside values of the same key.
+    void finish() {
+        constexpr double kRounding = 1e-12;  // of the value
+        std::erase_if(points, [](const auto& point) { return std::isnan(point.first); });
+        std::ranges::stable_sort(points, {}, &std::pair<double, double>::first);
+        std::vector<std::pair<double, double>> kept;
+        for (const auto& [key, value] : points) {
+            const bool again = !kept.empty() && kept.back().first == key;
+            const double before = again ? kept.back().second : NAN;
+            if (again && (std::isnan(value) || std::abs(before - value) <= kRounding * std::abs(value))) continue;
+            if (again && std::isnan(before)) kept.pop_back();
+            kept.emplace_back(key, value);
+        }
+        points = std::move(kept);
+    }
+};
+
+class CurveTable {
+  public:
+    // The label of the key; empty: the figure is no table of curves.
+    static std::string key_of(const Figure& figure) {
+        bool timed = true, ascending = true, same_x = true, any = false;
+        for (const Panel& panel : figure.panels) {
+            if (!panel.cells.empty() || !panel.clouds.empty() || !panel.shapes.empty() || !panel.dots.empty())
+                return "";
+            same_x = same_x && panel.x.label == figure.panels.front().x.label;
+            for (const Series& curve : panel.series) {
+                any = true;
+                timed = timed && curve.t.size() == curve.x.size();
+                ascending = ascending && std::ranges::is_sorted(curve.x);
+            }
+        }
+        if (!any) return "";
+        const std::string x = to_plain(figure.panels.front().x.label);
+        if (same_x && ascending) return x;
+        return timed ? kTime : "";
+    }
+
+    CurveTable(const Figure& figure, const std::string& key) : key_(key) {
+        for (const Panel& panel : figure.panels) {
+            by_x_ = to_plain(panel.x.label) == key;
+            add(panel);
+        }
+        for (CurveColumn& column : columns_) column.finish();
+    }
+
+    std::string csv() const {
+        std::string out = cell_text(key_);
+        for (const CurveColumn& column : columns_) out += "," + cell_text(column.name);
+        out += "\n";
+        std::vector<std::size_t> next(columns_.size(), 0);
+        for (double key = first_key(next); std::isfinite(key); key = first_key(next)) add_rows(out, next, key);
+        return out;
+    }
+
+  private:
+    static constexpr const char* kTime = "t / s";
+
+    void add(const Panel& panel) {
+        const Series* faded = nullptr;  // a part of the next curve
+        std::size_t begun = 0;
+        for (const Series& curve : panel.series) {
+            const bool goes_on = faded && faded->look == curve.look && faded->right == curve.right;
+            if (!goes_on) {
+                begun = columns_.size();
+                if (!by_x_) columns_.push_back({name_of(panel, panel.x, curve), {}});
+                columns_.push_back({name_of(panel, curve.right && panel.right ? *panel.right : panel.y, curve), {}});
+                if (!curve.value.empty() && panel.color_bar)
+                    columns_.push_back({name_of(panel, Axis{.label = panel.color_bar->label}, curve), {}});
+            } else if (!curve.label.empty()) {  // the part that is reproducible has the name
+                CurveColumn& column = columns_[begun + (by_x_ ? 0 : 1)];
+                column.name.clear();
+                column.name = name_of(panel, curve.right && panel.right ? *panel.right : panel.y, curve);
+            }
+            add_points(curve, begun);
+            faded = curve.faded ? &curve : nullptr;
+        }
+        for (const Band& band : panel.bands)
+            for (const auto& [end, values] : {std::pair{"low", &band.low}, std::pair{"high", &band.high}})
+                if (by_x_) {
+                    columns_.push_back(
+                        {fmt::format("{} ({})", name_of(panel, panel.y, {.label = band.label}), end), {}});
+                    for (std::size_t i = 0; i < std::min(band.x.size(), values->size()); ++i)
+                        columns_.back().points.emplace_back(band.x[i], (*values)[i]);
+                }
+    }
+
+    void add_points(const Series& curve, std::size_t column) {
+        const std::vector<double>& keys = by_x_ ? curve.x : curve.t;
+        const auto fill = [&](const std::vector<double>& values) {
+            for (std::size_t i = 0; i < std::min(keys.size(), values.size()); ++i)
+                columns_[column].points.emplace_back(keys[i], values[i]);
+            ++column;
+        };
+        if (!by_x_) fill(curve.x);
+        fill(curve.y);
+        if (column < columns_.size() && !curve.value.empty()) fill(curve.value);
+    }
+
+    // "θ / rad", after the name of the curve if the panel has several, and with a number if it is taken.
+    std::string name_of(const Panel& panel, const Axis& axis, const Series& curve) const {
+        const std::string own = !curve.name.empty() ? curve.name : curve.label, quantity = to_plain(axis.label);
+        const bool alone = own.empty() || quantity.starts_with(to_plain(own) + " / ");
+        std::string name = alone ? quantity : to_plain(own) + ": " + quantity;
+        const auto taken = [&](const std::string& other) {
+            return other == key_ || std::ranges::find(columns_, other, &CurveColumn::name) != columns_.end();
+        };
+        if (taken(name) && !panel.letter.empty()) name = panel.letter + ": " + name;
+        const std::string base = name;
+        for (int number = 2; taken(name); ++number) name = fmt::format("{} ({})", base, number);
+        return name;
+    }
+
+    double first_key(const std::vector<std::size_t>& next) const {
+        double least = INFINITY;
+        for (std::size_t c = 0; c < columns_.size(); ++c)
+            if (next[c] < columns_[c].points.size()) least = std::min(least, columns_[c].points[next[c]].first);
+        return least;
+    }
+
+    // The rows of a key; a curve with one point there has it in all of them.
+    void add_rows(std::string& out, std::vector<std::size_t>& next, double key) const {
+        std::size_t rows = 1;
+        std::vector<std::size_t> counts;
+        for (std::size_t c = 0; c < columns_.size(); ++c) {
+            const auto& points = columns_[c].points;
+            std::size_t count = 0;
+            while (next[c] + count < points.size() && points[next[c] + count].first == key) ++count;
+            counts.push_back(count);
+            rows = std::max(rows, count);
+        }
+        for (std::size_t row = 0; row < rows; ++row) {
+            append(out, key);
+            for (std::size_t c = 0; c < columns_.size(); ++c) {
+                out += ',';
+                if (counts[c] > 0) append(out, columns_[c].points[next[c] + std::min(row, counts[c] - 1)].second);
+            }
+            out += '\n';
+        }
+        for (std::size_t c = 0; c < columns_.size(); ++c) next[c] += counts[c];
+    }
+
+    std::string key_;
+    bool by_x_ = true;  // of the panel
+    std::vector<CurveColumn> columns_;
+};
+
 }  // namespace
 
 std::string data_csv(const Figure& figure) {
+    if (const std::string key = CurveTable::key_of(figure); !key.empty()) return CurveTable(figure, key).csv();
     std::string out = "panel,series,x_quantity,x,y_quantity,y,value\n";
     int number = 0;
     for (const Panel& panel : figure.panels) {

@@ -28,6 +28,7 @@ struct Series {
     double weight = 1;                // of the line
     std::optional<Color> color = {};  // instead of the look's
     std::vector<double> value = {};   // colours the curve by the panel's colour bar; same length as x
+    std::vector<double> t = {};       // of a motion, if x is not the time: instants of the points [s], for the data
     // Of films: the area below it is filled; colour in the future; dashes [design px]; intervals of x, ascending, in
     // which the past has the colour `pale`.
     bool filled = false;
@@ -180,7 +181,9 @@ Page page_of(const Figure& figure, const Column& column, std::optional<double> w
 // Throws PictureError when a panel has nothing to show, FontError for missing glyphs.
 void draw(const Figure& figure, const Page& page, PageCanvas& sheet);
 
-// The plotted numbers: panel, series, names and values, a line a point; 17 significant digits; empty where undefined.
+// The plotted numbers with 17 significant digits; a cell is empty where a curve has no point. Curves over the same x, or
+// of motions, are columns after one with x or the time t, in whose order the rows are; where a curve jumps, an instant
+// has two rows. Figures with cells, clouds of points or shapes have a line a point: panel, series, names and values.
 std::string data_csv(const Figure& figure);
 
 // True when some text of the figure needs the Chinese face.

@@ -54,7 +54,8 @@ std::pair<double, double> SeriesAbscissa::drawn(const sim::Problem& problem) con
 void SeriesAbscissa::fold(Series& curve) const {
     if (!is_phase()) return;
     const Series whole = curve;
-    curve.x.clear(), curve.y.clear();
+    const bool timed = whole.t.size() == whole.x.size();
+    curve.x.clear(), curve.y.clear(), curve.t.clear();
     const auto turns = [&](std::size_t i) { return whole.x[i] / (2 * std::numbers::pi); };
     for (std::size_t i = 0; i < whole.x.size(); ++i) {
         const double now = turns(i), before = i > 0 ? turns(i - 1) : now;
@@ -64,8 +65,12 @@ void SeriesAbscissa::fold(Series& curve) const {
             const double y = whole.y[i - 1] + (whole.y[i] - whole.y[i - 1]) * (edge - before) / (now - before);
             const bool forward = now > before;
             curve.add(forward, y), curve.add(std::nan(""), std::nan("")), curve.add(!forward, y);
+            if (timed)
+                curve.t.resize(curve.x.size(),
+                               whole.t[i - 1] + (whole.t[i] - whole.t[i - 1]) * (edge - before) / (now - before));
         }
         curve.add(now - std::floor(now), whole.y[i]);
+        if (timed) curve.t.push_back(whole.t[i]);
     }
 }
 

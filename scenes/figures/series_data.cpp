@@ -25,17 +25,17 @@ std::vector<Lost> unreliable(const sim::Result& result, double end) {
 std::vector<Series> by_reliability(const Series& whole, const std::vector<double>& times,
                                    const std::vector<Lost>& intervals) {
     std::vector<Series> parts{whole, whole};
-    for (Series& part : parts) part.x.clear(), part.y.clear();
+    for (Series& part : parts) part.x.clear(), part.y.clear(), part.t.clear();
     parts[0].faded = true;
     std::optional<bool> before;
     for (std::size_t i = 0; i < whole.x.size(); ++i) {
         const bool unsure = std::ranges::any_of(intervals, [&](const Lost& v) { return v.holds(times[i]); });
         Series& part = parts[unsure ? 0 : 1];
         if (before && *before != unsure) {
-            if (!part.x.empty()) part.add(whole.x[i - 1], std::nan(""));
-            part.add(whole.x[i - 1], whole.y[i - 1]);
+            if (!part.x.empty()) part.add(whole.x[i - 1], std::nan("")), part.t.push_back(times[i - 1]);
+            part.add(whole.x[i - 1], whole.y[i - 1]), part.t.push_back(times[i - 1]);
         }
-        part.add(whole.x[i], whole.y[i]);
+        part.add(whole.x[i], whole.y[i]), part.t.push_back(times[i]);
         before = unsure;
     }
     std::erase_if(parts, [](const Series& part) { return part.x.empty(); });
@@ -95,25 +95,13 @@ std::string agreement_text(const std::vector<Measured>& all, const sim::Result& 
         for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {
             const std::string symbol = render::print_symbol(a.channel);
             const Measure shown = measure_in(units, sim::unit(a.channel, problem));
-            const auto text_of = [&](double v, int digits) {
-                return with_unit(number(shown.factor * v, digits), shown.unit);
-            };
-            if (a.whole.rows == 0 && !a.beyond)
-                text += phrase(lang, "Data “{}”: at no instant {} has both a measured and a computed value. ",
-                               "{}：没有任何时刻同时具有 {} 的测量值与计算值。", each.data.label, symbol);
-            if (a.whole.rows > 0)
-                text += phrase(
-                    lang, "Data “{}”: at {} instants {} differs by {} (root mean square), at most by {} at {} s. ",
-                    "{}，{} 个时刻：{} 的均方根差为 {}，最大差 {}（{} s）。", each.data.label, a.whole.rows, symbol,
-                    text_of(a.whole.rms, 2), text_of(a.whole.largest, 2), number(a.whole.t_largest, 4));
-            if (!a.beyond) continue;
-            const auto& [rows, m, c] = *a.beyond;
-            text += phrase(lang,
-                           "Data “{}”: at {} instants $θ$ is not reproducible, so that only statistics compare: "
-                           "mean {} and standard deviation {}, computed {} and {}. ",
-                           "{}，{} 个时刻 $θ$ 不可重现，仅比较统计量：均值 {}、标准差 {}，计算值为 {}、{}。",
-                           each.data.label, rows, text_of(m.mean, 3), text_of(m.deviation, 3), text_of(c.mean, 3),
-                           text_of(c.deviation, 3));
+            text += a.rows == 0
+                        ? phrase(lang,
+                                 "Data “{}”: at no reproducible instant {} has both a measured and a computed value. ",
+                                 "{}：没有任何可重现时刻同时具有 {} 的测量值与计算值。", each.data.label, symbol)
+                        : phrase(lang, "Data “{}”: at {} instants {} differs by {} (root mean square). ",
+                                 "{}，{} 个时刻：{} 的均方根差为 {}。", each.data.label, a.rows, symbol,
+                                 with_unit(number(shown.factor * a.rms, 2), shown.unit));
         }
     return text;
 }

@@ -149,6 +149,7 @@ class SeriesPanelMaker {
                      .look = total ? kBlack : curves_++,
                      .solid = total,
                      .weight = total ? 1 : weight_};
+        curve.t = side.rows[i].values[0];
         plan_.abscissa.fold(curve);
         panel_.series.push_back(std::move(curve));
     }
@@ -205,6 +206,7 @@ class SeriesPanelMaker {
         if (!along) return;
         Series points = measured_series(data, *along, scaled(*data.find(channel), side.measure.factor), curves_++);
         points.right = side.right;
+        points.t = data.times;
         plan_.abscissa.fold(points);
         if (plan_.keys.residuals && !side.right) add_difference(measured, channel, points);
         panel_.series.insert(panel_.series.begin(), std::move(points));

@@ -237,7 +237,7 @@ TEST(Figure, NoRuleCrossesTheLabelOfAnother) {
     const Box box = std::ranges::find(drawn.written, label, &PageCanvas::Written::markup)->box;
     ASSERT_GT(box.w, 20);  // [pt], of several rules
     const auto pixel = [](double at) { return static_cast<std::size_t>(at * kDpi / kPointsPerInch); };
-    for (std::size_t y = pixel(box.y); y < pixel(box.bottom()); ++y)  // rules are dashed
+    for (std::size_t y = pixel(box.y); y < pixel(box.bottom()); ++y)                             // rules are dashed
         for (std::size_t x = pixel(box.x + 0.15 * box.w); x < pixel(box.x + 0.85 * box.w); ++x)  // between the letters
             EXPECT_EQ(drawn.image.pixels[y * static_cast<std::size_t>(drawn.image.width) + x], 0xFFFFFFFFU);
 }
@@ -502,26 +502,53 @@ TEST(Figure, LabelsAreBrokenBeforeTheUnit) {
     }
 }
 
-TEST(Figure, DataIsATidyTableOfWhatIsPlotted) {
+TEST(FigureData, HasAColumnForEachCurve) {
     Figure figure = plot({0, 1}, {0.1, std::nan("")});
     figure.panels[0].series[0].label = "a, b";
-    EXPECT_EQ(data_csv(figure),
-              "panel,series,x_quantity,x,y_quantity,y,value\n1,\"a, b\",t / s,0,θ / rad,0.10000000000000001,\n1,\"a, "
-              "b\",t / s,1,θ / rad,,\n");
+    EXPECT_EQ(data_csv(figure), "t / s,\"a, b: θ / rad\"\n0,0.10000000000000001\n1,\n");
     figure.panels[0].series[0].label.clear();
-    EXPECT_THAT(data_csv(figure), HasSubstr("\n1,θ,t / s,0,"));  // the quantity of its axis
+    EXPECT_THAT(data_csv(figure), HasSubstr("t / s,θ / rad\n"));  // the quantity of its axis
     figure.panels[0].series[0].name = "mean";
-    EXPECT_THAT(data_csv(figure), HasSubstr("\n1,mean,t / s,0,"));
+    EXPECT_THAT(data_csv(figure), HasSubstr("t / s,mean: θ / rad\n"));
+}
+
+// The pale part of a curve, which is drawn first, is later in time; another curve has other instants.
+TEST(FigureData, RowsAreInTheOrderOfTime) {
+    Figure figure = plot({2, 3}, {5, 6});
+    Series& pale = figure.panels[0].series[0];
+    pale.faded = true;
+    figure.panels[0].series.push_back(
+        {.label = "θ", .x = {0, 1, 2, 2}, .y = {3, 4, 5, std::nan("")}, .look = pale.look});
+    figure.panels[0].series.push_back({.label = "data", .x = {1.5, 3}, .y = {7, 8}, .look = 1, .line = false});
+    figure.panels[0].rules.push_back({.at = 0.5, .vertical = true});
+    EXPECT_EQ(data_csv(figure), "t / s,θ / rad,data: θ / rad\n0,3,\n1,4,\n1.5,,7\n2,5,\n3,6,8\n");
+}
+
+// A curve that is no function of x has the time before x and y.
+TEST(FigureData, RowsOfAPhasePortraitAreInTheOrderOfTime) {
+    Figure figure = plot({1, 0, 2}, {4, 5, 6});
+    figure.panels[0].x.label = "x / m";
+    figure.panels[0].series[0].t = {0.1, 0.2, 0.3};
+    EXPECT_EQ(data_csv(figure),
+              "t / s,x / m,θ / rad\n0.10000000000000001,1,4\n0.20000000000000001,0,5\n0.29999999999999999,2,6\n");
+}
+
+TEST(FigureData, CloudsHaveALineAPoint) {
+    Figure figure = plot({0}, {1});
+    figure.panels[0].clouds.push_back({.label = "samples", .x = {2}, .y = {3}});
+    EXPECT_EQ(data_csv(figure),
+              "panel,series,x_quantity,x,y_quantity,y,value\n1,θ,t / s,0,θ / rad,1,\n1,samples,t / s,2,θ / rad,3,\n");
 }
 
 TEST(FigureData, ACurveHasEachInstantOnceUnlessItJumpsThere) {
     Figure figure;
     figure.panels.emplace_back();
+    figure.panels[0].x.label = "t / s";
     figure.panels[0].series = {{.x = {0, 1, 1, 2, 2}, .y = {5, 6, 6 * (1 + 1e-15), 7, 8}},
                                {.x = {1, 1}, .y = {3, 3}, .name = "points", .line = false}};
     const std::string csv = data_csv(figure);
-    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4 + 2) << csv;
-    EXPECT_THAT(csv, ::testing::AllOf(HasSubstr(",2,,7,\n"), HasSubstr(",2,,8,\n")));
+    EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4) << csv;
+    EXPECT_THAT(csv, HasSubstr("\n1,6,3\n2,7,\n2,8,\n"));
 }
 
 }  // namespace
