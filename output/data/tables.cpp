@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <functional>
-#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "output/data/netcdf_library.hpp"
 #include "output/data/npz.hpp"
-#include "output/data/sweep_data.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/numbers.hpp"
 
@@ -80,24 +78,25 @@ void write_columns(const Target& file, const Columns& table) {
 
 }  // namespace
 
-const std::vector<double>* ColumnTable::find(std::string_view name) const {
+const TableColumn* ColumnTable::column(std::string_view name) const {
     const auto found = std::ranges::find(columns, name, &TableColumn::name);
-    return found == columns.end() ? nullptr : &found->values;
+    return found == columns.end() ? nullptr : &*found;
+}
+
+const std::vector<double>* ColumnTable::find(std::string_view name) const {
+    const TableColumn* found = column(name);
+    if (found && !found->problem.empty()) throw IoError(found->problem);
+    return found ? &found->values : nullptr;
+}
+
+std::string ColumnTable::row_name(std::size_t row) const {
+    return row < lines.size() ? "line " + std::to_string(lines[row]) : "row " + std::to_string(row + 1);
 }
 
 std::vector<std::string> ColumnTable::names() const {
     std::vector<std::string> all;
     for (const TableColumn& column : columns) all.push_back(column.name);
     return all;
-}
-
-ColumnTable read_table(const std::filesystem::path& file, Texts texts) {
-    const std::string name = file.string();
-    if (file.extension() == ".csv") return parse_csv(read_file(file), name, texts);
-    if (file.extension() == ".npz") return parse_npz(read_file(file), name);
-    if (file.extension() != ".nc") throw IoError("cannot read " + name + ": tables end in .csv, .npz or .nc");
-    const std::optional<ColumnTable> table = netcdf_library().read_table(file);
-    return table ? *table : table_of(netcdf_library().open(file));
 }
 
 std::function<void(const std::string&)> to_stream(std::ostream& out) {

@@ -1,8 +1,7 @@
-// Tables of numbers: reading of CSV with a header line, and of NPZ with an array for each column, from beamcam, numpy
-// or other programs; writing of CSV for people and spreadsheets, NPZ for numpy, NetCDF-4 with units and meanings.
+// Tables of numbers, and their writing: CSV for people and spreadsheets, NPZ for numpy, NetCDF-4 with units and
+// meanings. table_reader.hpp reads them.
 #pragma once
 
-#include <filesystem>
 #include <functional>
 #include <ostream>
 #include <string>
@@ -20,29 +19,22 @@ struct TableColumn {
     std::string name, unit = {}, meaning = {};  // unit and meaning may be unknown
     std::vector<double> values = {};            // of equal length in all columns; NaN: no value, or a text
     std::vector<std::string> texts = {};        // by row, up to the last text; empty where there is none
+    std::string problem = {};                   // why it is no column of numbers, with the place; empty: it is one
     std::string_view text(std::size_t row) const { return row < texts.size() ? texts[row] : std::string_view(); }
 };
 struct ColumnTable {
     std::vector<TableColumn> columns;
     std::vector<std::pair<std::string, std::string>> attributes = {};  // of a NetCDF file
+    std::vector<std::size_t> lines = {};                               // of the rows in a CSV file that was read
+    std::vector<std::string> notes = {};                               // how a file was read: "separated by tabs"
 
     std::size_t rows() const { return columns.empty() ? 0 : columns.front().values.size(); }
     std::vector<std::string> names() const;
+    const TableColumn* column(std::string_view name) const;  // nullptr: there is none
+    // The numbers of a column, nullptr if there is none. Throws IoError if it has a `problem`.
     const std::vector<double>* find(std::string_view name) const;
+    std::string row_name(std::size_t row) const;  // "line 17" of CSV, else "row 15"
 };
-
-// ---- reading -------------------------------------------------------------------------------------
-
-enum class Texts { rejected, kept };  // cells of .csv files that are not numbers
-
-// The ending decides: .csv, .npz or .nc (a table or sweep of beamcam). A sweep gives the same rows from each; the names
-// of its classes of motion in .csv become numbers as in .npz. Throws IoError with the line and column of the error
-// (CSV), or the name of the array (NPZ); render::MissingPart without the NetCDF library.
-ColumnTable read_table(const std::filesystem::path& file, Texts texts = Texts::rejected);
-
-// Also CSV of spreadsheets (byte order mark, "\r\n") and of numpy.savetxt with a header.
-ColumnTable parse_csv(std::string_view text, const std::string& file_name, Texts texts = Texts::rejected);
-ColumnTable parse_npz(std::string_view bytes, const std::string& file_name);
 
 // ---- writing -------------------------------------------------------------------------------------
 

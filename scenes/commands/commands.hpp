@@ -86,6 +86,8 @@ void run_or_plan(std::span<const Scene> scenes, const RunOptions& options, const
 
 // The value of an option, with a unit or as a plain number in SI units; throws UsageError.
 double signed_argument(const std::string& option, const std::string& text, const Dimension& dimension);
+// Requires the values of a range or list to have a unit each, or none; 0 needs none. Throws UsageError.
+void require_units(const std::string& option, const std::vector<std::string>& values);
 // The same, not negative.
 double quantity_argument(const char* option, const std::string& text, const Dimension& dimension);
 // The same, positive.

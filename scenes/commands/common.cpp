@@ -61,7 +61,8 @@ void add_column(Command& app, std::string& column) {
 void add_lang(Command& app, Lang& lang) { app.choice("--lang", lang, kLanguages, "LANG", "Language of the figure"); }
 
 void add_work(Command& app, Common& common) {
-    app.flag("-v,--verbose", common.verbose, "Print where the time was spent, and counts of the work");
+    app.flag("-v,--verbose", common.verbose,
+             "Print where the time was spent, counts of the work, and how measured data were read");
     add_jobs(app, common, "Largest number of threads");
     add_progress(app, common);
     app.flag("--force", common.force,
@@ -84,6 +85,9 @@ Scene load_scene(const std::string& path, const Common& common) {
     Reading reading = read_scene(load_source(path), common.overrides);
     if (!reading.scene) throw SceneError(reading.report());
     if (!common.quiet && !reading.messages.empty()) output::print_message("{}", reading.report());
+    if (common.verbose && !common.quiet)
+        for (const Measurement& data : reading.scene->data)
+            for (const std::string& note : data.notes) output::print_message("{}\n", output::one_line(note));
     return std::move(*reading.scene);
 }
 
@@ -101,8 +105,7 @@ LoadedScenes load_scenes(const std::vector<std::string>& paths, const Common& co
 void add_shard(Command& app, std::optional<std::string>& shard) {
     app.option("--shard", &shard, "I/N",
                "Make part I of N of every film and sequence: 2/3 writes NAME.2of3.mp4. Its pictures are those of the "
-               "whole before encoding. Part 1 makes the other outputs. auto: the part of this array task of Slurm, "
-               "Grid Engine or PBS");
+               "whole before encoding. Part 1 makes the other outputs. auto: the part of this array task of Slurm");
 }
 
 Selection shard_argument(const std::string& text) { return {{}, shard_of(text, std::getenv)}; }
@@ -167,6 +170,18 @@ double signed_argument(const std::string& option, const std::string& text, const
     if (!plain && !same(read.quantity->dimension, dimension))
         throw UsageError(fmt::format("{} {}: its unit is {}", option, text, si_unit(dimension)));
     return read.quantity->value;
+}
+
+void require_units(const std::string& option, const std::vector<std::string>& values) {
+    const auto is_plain = [](const std::string& text) {
+        return text.find_last_not_of(" 0123456789.eE+-") == std::string::npos;
+    };
+    const auto lacks_unit = [&](const std::string& text) { return is_plain(text) && text != "0"; };
+    if (std::ranges::any_of(values, lacks_unit) && !std::ranges::all_of(values, is_plain))
+        throw UsageError(
+            fmt::format("{}: some of its numbers have a unit; write it with each of them, as in 100rpm:900rpm:9 for 9 "
+                        "values, or 100rpm:900rpm:50rpm for steps",
+                        option));
 }
 
 sim::CamSpan span_argument(const char* option, const std::string& text) {

@@ -6,7 +6,7 @@
 #include <optional>
 
 #include "output/data/file_list.hpp"
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "output/files/digest.hpp"
 #include "output/image/picture_files.hpp"
 #include "output/image/png.hpp"
@@ -112,8 +112,7 @@ Comparison compare_tables(const DiffArguments& args) {
     if (args.ssim) throw UsageError("--ssim is for pictures; tables are compared by their numbers");
     if (args.tolerance && *args.tolerance < 0) throw UsageError("--tolerance must not be negative");
     Comparison all{args.a, args.b, Verdict::identical, {}, 0, 0, {}};
-    all.table = output::difference(output::read_table(args.a, output::Texts::kept),
-                                   output::read_table(args.b, output::Texts::kept));
+    all.table = output::difference(output::read_table(args.a), output::read_table(args.b));
     all.verdict = all.table->identical()                           ? Verdict::identical
                   : all.table->within(args.tolerance.value_or(-1)) ? Verdict::equivalent
                                                                    : Verdict::different;
@@ -135,7 +134,7 @@ void add_diff(Grammar& grammar) {
     const auto [app, args] = grammar.command<DiffArguments>(
         "diff", "Compare two pictures, sequences of pictures, or tables; exit code 7 if they differ", act);
     app.examples = {"diff old.png new.png -o difference.png", "diff a.csv b.csv --tolerance 1e-6"};
-    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), .csv, .npz or .nc table").required();
+    app.positional("A", &args.a, "PNG file, directory or sequence (name-####.png), .csv or .npz table").required();
     app.positional("B", &args.b, "The same kind of file").required();
     app.option("-o,--output", &args.picture, "FILE",
                "Difference picture, .png; with #### in its name, one for each pair of pictures that differs");

@@ -6,7 +6,7 @@
 #include <map>
 
 #include "output/data/file_list.hpp"
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "output/files/errors.hpp"
 #include "output/files/text_safety.hpp"
 #include "output/film/video_reader.hpp"
@@ -101,21 +101,11 @@ void read_file_list(const std::string& file, Provenance& p) {
 
 void read_table(const std::string& file, Provenance& p) {
     read_file_list(file, p);
-    const output::ColumnTable table = output::read_table(file, output::Texts::kept);
+    const output::ColumnTable table = output::read_table(file);
     const bool texts = std::ranges::any_of(table.columns, [](const auto& column) { return !column.texts.empty(); });
     p.kind = texts ? "table with texts" : "table";  // texts: such as the data of a figure
     p.facts["rows"] = std::to_string(table.rows());
     p.facts["columns"] = std::to_string(table.columns.size());
-}
-
-// Without rows and columns where the library is missing, or for a file that is no table.
-void read_netcdf(const std::string& file, Provenance& p) {
-    try {
-        read_table(file, p);
-    } catch (const output::IoError&) {
-    } catch (const render::MissingPart&) {
-    }
-    p.kind = "NetCDF table";
 }
 
 Provenance provenance_of(const std::string& file) {
@@ -135,11 +125,10 @@ Provenance provenance_of(const std::string& file) {
         read_document(output::read_pdf_metadata(file), p);
     } else if (ending == ".csv" || ending == ".npz") {
         read_table(file, p);
-    } else if (ending == ".nc") {
-        read_netcdf(file, p);
     } else if (const char* kind = kind_without_scene(ending); kind && ending != ".gif" && ending != ".apng") {
         p.kind = kind;  // also an animated .webp, which FFmpeg does not read
         read_file_list(file, p);
+        if (ending == ".nc") p.facts["content"] = "not read: beamcam writes NetCDF files only";
     } else {
         read_film(file, p);
     }

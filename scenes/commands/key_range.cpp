@@ -22,9 +22,10 @@ KeyRange range_argument(const std::string& over, const sim::Problem& problem, re
                         "continuously; give sweep --over {} a list of them",
                         option, path, path));
     const std::string from = over.substr(equals + 1, colon - equals - 1);
+    const std::string to = over.substr(colon + 1);
+    require_units(option, {from, to});
     adopt_unit(from, key->dimension, units);
-    KeyRange range{*key, signed_argument(option, from, key->dimension),
-                   signed_argument(option, over.substr(colon + 1), key->dimension)};
+    KeyRange range{*key, signed_argument(option, from, key->dimension), signed_argument(option, to, key->dimension)};
     if (!(range.from < range.to)) throw UsageError(fmt::format("{}: the range must ascend", option));
     return range;
 }

@@ -2,12 +2,14 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <tuple>
 
 #include "output/files/numbers.hpp"
 #include "scenes/commands/commands.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/format/file_column.hpp"
 #include "scenes/format/sweep_keys.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/scene/files.hpp"
@@ -18,8 +20,6 @@
 namespace beamcam::scenes {
 namespace {
 
-constexpr int kDefaultParts = 16;
-
 struct SweepArguments {
     Common common;
     std::string scene, file;
@@ -28,8 +28,7 @@ struct SweepArguments {
     std::optional<std::string> diagram, figure, value, caption, film;
     std::string column = "elsevier";
     Lang lang = Lang::en;
-    std::optional<std::string> shard, emit;
-    int parts = 0;  // 0: kDefaultParts
+    std::optional<std::string> shard;
 };
 
 // "601" and "601n" are a number of values; "0.02", "2.0" and "2 rad/s" are a step. "1" is a step, too: a range has more
@@ -42,10 +41,11 @@ bool is_count(const std::string& text) {
 // FIRST, LAST, and COUNT or STEP.
 void set_range(SweptKey& over, const std::string& option, const std::vector<std::string>& parts,
                const Dimension& dimension) {
-    over.from = signed_argument(option, parts[0], dimension);
-    over.to = signed_argument(option, parts[1], dimension);
     std::string third = parts[2];
     const bool counted = is_count(third) || over.logarithmic;
+    require_units(option, counted ? std::vector{parts[0], parts[1]} : std::vector{parts[0], parts[1], third});
+    over.from = signed_argument(option, parts[0], dimension);
+    over.to = signed_argument(option, parts[1], dimension);
     if (third.ends_with('n')) third.pop_back();
     const double step = counted ? 0 : signed_argument(option, third, dimension);
     const double count = counted ? output::number_in<int>(third).value_or(0)
@@ -73,17 +73,19 @@ SweptKey over_argument(const std::string& text, const sim::Problem& problem, ren
     const auto key = sim::number_key(problem, over.key);
     const Dimension dimension = key ? key->dimension : dimension::kNone;  // unknown keys are rejected later
     if (value.starts_with('@')) {
-        const std::size_t colon = value.rfind(':');
-        if (colon == std::string::npos) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
-        over.file = value.substr(1, colon - 1);
-        over.column = value.substr(colon + 1);
+        const auto column = file_column_in(value);
+        if (!column) throw UsageError(option + ": write KEY=@FILE.csv:COLUMN");
+        std::tie(over.file, over.column) = *column;
+        if (const std::string wrong = read_column(over, "", problem); !wrong.empty())
+            throw UsageError(fmt::format("{}: {}", option, wrong));
         return over;
     }
     adopt_unit(value.substr(0, value.find_first_of(":,")), dimension, units);
     const std::vector<std::string> parts = split(value, ':');
     if (parts.size() == 1) {
-        for (const std::string& each : split(value, ','))
-            over.values.push_back(signed_argument(option, each, dimension));
+        const std::vector<std::string> values = split(value, ',');
+        require_units(option, values);
+        for (const std::string& each : values) over.values.push_back(signed_argument(option, each, dimension));
         return over;
     }
     if (parts.size() == 4 && (parts[3] == "log" || parts[3] == "linear")) over.logarithmic = parts[3] == "log";
@@ -165,43 +167,16 @@ std::vector<Output> outputs_of(const SweepArguments& args, const Scene& scene) {
     return outputs;
 }
 
-std::string shell_word(const std::string& word) {
-    const bool plain =
-        word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789._-/:=,@+") ==
-        std::string::npos;
-    if (plain && !word.empty()) return word;
-    std::string text = "'";
-    for (const char c : word) text += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    return text + "'";
-}
-
-// The command line without -o.
-std::string command_of(const SweepArguments& args) {
-    std::string text = "beamcam sweep " + shell_word(args.scene);
-    for (const std::string& each : args.common.overrides) text += " --set " + shell_word(each);
-    for (const std::string& each : args.over) text += " --over " + shell_word(each);
-    for (const auto& [option, value] : {std::pair{"--sample", &args.sample}, std::pair{"--transient", &args.transient},
-                                        std::pair{"--keep", &args.keep}, std::pair{"--seed", &args.seed}})
-        if (*value) text += fmt::format(" {} {}", option, shell_word(**value));
-    return text;
-}
-
-// Parts of a sweep are NetCDF files, which `collect` can join.
+// `collect` makes the files of a whole sweep from its parts.
 void check_parts(const SweepArguments& args) {
-    if (!args.shard && !args.emit) return;
-    if (args.file.empty()) throw UsageError("parts of a sweep are NetCDF files; name one with -o FILE.nc");
-    require_ending("-o", args.file, {".nc"});
+    if (!args.shard) return;
+    if (args.file.empty() || is_stdout(args.file))
+        throw UsageError("--shard: name the table of the whole sweep with -o; a part of r.csv is r.2of3.points");
     if (args.diagram || args.film)
         throw UsageError("--diagram, --film: a part has no diagram or film; collect the parts first");
-    if (args.emit && args.shard) throw UsageError("--emit and --shard exclude each other: the script makes all parts");
-    if (args.emit && args.scene == "-") throw UsageError("--emit: the scene must be in a file, which the script names");
-    if (args.emit && shell_word(args.file) != args.file)
-        throw UsageError(
-            fmt::format("--emit: -o {}: use letters, digits and ._-/ only in names for scripts", args.file));
 }
 
 void reject_unused_options(const SweepArguments& args) {
-    if (args.parts > 0 && !args.emit) throw UsageError("--parts belongs to --emit");
     if (args.diagram) return;
     if (args.caption) throw UsageError("--caption belongs to --diagram");
     if (args.figure) throw UsageError("--figure belongs to --diagram");
@@ -227,18 +202,11 @@ void act(const SweepArguments& args) {
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
     if (args.shard) options.selection = shard_argument(*args.shard);
-    if (!args.emit && !args.common.dry_run) {
-        run(scene, options);
-        return;
-    }
-    const SweepGrid grid(scene);
-    if (args.emit)
-        print_text(engine_script(
-            *args.emit, command_of(args), args.file,
-            static_cast<int>(std::min<std::uint64_t>(args.parts > 0 ? args.parts : kDefaultParts, grid.tasks()))));
+    if (args.common.dry_run)
+        print_text(sweep_plan(SweepGrid(scene), planned_files(plan(scene, options.selection)),
+                              thread_count(options.threads), args.common.json));
     else
-        print_text(sweep_plan(grid, planned_files(plan(scene, options.selection)), thread_count(options.threads),
-                              args.common.json));
+        run(scene, options);
 }
 
 }  // namespace
@@ -246,15 +214,16 @@ void act(const SweepArguments& args) {
 void add_sweep(Grammar& grammar) {
     const auto [app, args] = grammar.command<SweepArguments>(
         "sweep", "Simulate many motions over one or two keys: samples, classes, diagrams", act);
-    app.examples = {"sweep pressed.json --over cam.speed=40:60:601 -o sweep.nc --diagram bifurcation.pdf",
-                    "sweep pressed.json --over cam.speed=40:60:601 -o sweep.nc --shard 2/8"};
+    app.examples = {"sweep pressed.json --over cam.speed=40:60:601 -o sweep.csv --diagram bifurcation.pdf",
+                    "sweep pressed.json --over cam.speed=40:60:601 -o sweep.csv --shard 2/8"};
     app.footer = "`beamcam init --from pressed` writes the scene of the examples.";
     add_scene(app, args.scene, args.common);
     app.option(
         "--over", &args.over, "KEY=VALUES",
         "The key to vary and its values: KEY=FIRST:LAST:COUNT (both ends included; add :log for logarithmic spacing), "
-        "KEY=FIRST:LAST:STEP, KEY=v,v,... or KEY=@FILE.csv:COLUMN. Digits only, from 2, are a COUNT; other numbers, as "
-        "0.02, 2.0 or 1, are a STEP. Twice for a grid");
+        "KEY=FIRST:LAST:STEP, KEY=v,v,... or KEY=@FILE.csv:COLUMN. A third number of digits only, 2 or more, is a "
+        "COUNT; "
+        "0.02, 2.0 and 1 are a STEP. A unit belongs to each number: 300rpm:600rpm:7. Twice for a grid");
     app.option("--sample", &args.sample, "WHAT",
                "When to take samples: impacts, apexes, section:cam_angle=A, section:CHANNEL=VALUE[:falling] (default: "
                "impacts)");
@@ -277,11 +246,8 @@ void add_sweep(Grammar& grammar) {
     add_lang(app, args.lang);
     app.option("--caption", &args.caption, "FILE", "Write the caption of the figure, too: .txt, .md or .tex");
     app.option("--shard", &args.shard, "I/N",
-               "Compute part I of N into a separate file: 2/3 writes NAME.2of3.nc; `beamcam collect` joins the parts. "
-               "auto: the part of this array task of Slurm, Grid Engine or PBS");
-    app.option("--emit", &args.emit, "ENGINE", "Print a script that computes all parts")
-        .one_of({"slurm", "parallel", "snakemake"});
-    app.option("--parts", &args.parts, "N", "Number of parts of --emit (default: 16)").range(1, 1000);
+               "Compute part I of N into a separate file: 2/3 writes NAME.2of3.points; `beamcam collect` joins the "
+               "parts. auto: the part of this array task of Slurm");
     add_work(app, args.common);
 }
 

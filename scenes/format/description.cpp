@@ -77,7 +77,7 @@ class Describer final : public SceneVisitor {
         DescribedKey& d = add_key(key,
                                   length.or_one_number ? "number or numbers"
                                   : fixed              ? fmt::format("{} numbers", length.min)
-                                                       : "numbers",
+                                                       : "numbers, or @FILE.csv:COLUMN",
                                   meaning);
         d.unit = symbol(unit);
         d.range = range;
@@ -85,6 +85,7 @@ class Describer final : public SceneVisitor {
         if (length.min > 0) add(list, "minItems", length.min);
         if (fixed) add(list, "maxItems", length.max);
         add(list, "items", item);
+        if (!fixed) list = one_of("anyOf", {std::move(list), node_of(R"({"type": "string", "pattern": "^@.+:.+$"})")});
         d.schema = length.or_one_number ? one_of("anyOf", {bounded(range), with_text(unit), std::move(list)})
                                         : std::move(list);
         if (!values.empty()) d.value = values;

@@ -10,6 +10,7 @@
 #include <regex>
 
 #include "scenes/format/absent.hpp"
+#include "scenes/format/file_column.hpp"
 #include "scenes/format/suggest.hpp"
 
 namespace beamcam::scenes {
@@ -97,13 +98,17 @@ void ObjectReader::numbers(const Key& key, std::vector<double>& values, const Un
                            const sim::Length& length, const char*) {
     const Node* node = take(key);
     if (!node) return;
+    const bool fixed = length.min == length.max;
+    if (const auto column = file_column_in(node->text); column && !fixed && node->kind == Node::Kind::string) {
+        if (const auto read = column_value(*node, key.name, *column, unit, range)) values = *read;
+        return;
+    }
     if (length.or_one_number && node->kind != Node::Kind::array) {
         if (const auto one = ranged_value(*node, key.name, unit, range)) values = {*one};
         return;
     }
     const auto read = numbers_value(*node, key.name, unit.resolved());
     if (!read) return;
-    const bool fixed = length.min == length.max;
     if (fixed && read->size() != length.min)
         return reject(key.name, " must have {} numbers, not {}", length.min, read->size());
     if (check_ranges_ && read->size() < length.min) return reject(key.name, " is empty; write at least one number");

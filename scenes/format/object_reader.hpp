@@ -118,6 +118,11 @@ class ObjectReader final : public SceneVisitor {
     std::optional<std::vector<double>> numbers_value(const Node& node, std::string_view key,
                                                      const sim::Dimension& dimension);
 
+    // A column of a file beside the scene.
+    std::optional<std::vector<double>> column_value(const Node& node, std::string_view key,
+                                                    const std::pair<std::string, std::string>& column,
+                                                    const sim::Unit& unit, const sim::Range& range);
+
     // ---- visited keys ----
     using SceneVisitor::number, SceneVisitor::numbers, SceneVisitor::object, SceneVisitor::integer;
     void number(const Key& key, std::optional<double>& value, const sim::Unit& unit, const sim::Range& range,

@@ -4,10 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 #include "scenes/format/absent.hpp"
+#include "scenes/format/file_column.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
+#include "scenes/format/wrapped_angles.hpp"
 #include "sim/base/counted.hpp"
 
 namespace beamcam::scenes {
@@ -94,6 +97,29 @@ std::optional<std::vector<double>> ObjectReader::numbers_value(const Node& node,
         else if (const auto value = number_value(item, fmt::format("{}.{}", key, i), dimension))
             values.push_back(*value);
     return values.size() == node.items.size() ? std::optional(values) : std::nullopt;
+}
+
+std::optional<std::vector<double>> ObjectReader::column_value(const Node& node, std::string_view key,
+                                                              const std::pair<std::string, std::string>& column,
+                                                              const sim::Unit& unit, const sim::Range& range) {
+    const std::filesystem::path folder =
+        context_ ? std::filesystem::path(context_->source.name).parent_path() : std::filesystem::path();
+    FileColumn read = read_file_column(folder / column.first, column.second, unit.resolved(), false);
+    if (same(unit.resolved(), dimension::kAngle) && first_wrap(read.values, kFullTurn)) {
+        unwrap(read.values, kFullTurn);
+        warn(key,
+             ": the column {} jumps by more than half a turn; it is read as an angle that begins again after "
+             "360 deg",
+             in_quotes(column.second));
+    }
+    const auto outside = std::ranges::find_if(read.values, [&](double value) { return !range.contains(value); });
+    if (check_ranges_ && outside != read.values.end())
+        read.problem =
+            fmt::format("{:.10g} {}", *outside,
+                        range.message ? range.message : fmt::format("is outside {:g} … {:g}", range.min, range.max));
+    if (read.problem.empty()) return std::move(read.values);
+    reject_value(node, key, ": {}", read.problem);
+    return std::nullopt;
 }
 
 // For a quantity of the dimension `given` in place of `unit`.

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "output/files/numbers.hpp"
+#include "scenes/format/file_column.hpp"
 #include "scenes/format/keys.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/suggest.hpp"
@@ -48,11 +49,17 @@ static void visit(SceneVisitor& v, SweptKey& over) {
     v.choice("spacing", over.logarithmic, {{false, "linear"}, {true, "log"}},
              "Spacing of the values between the ends.");
     v.value("values", quantities_format(over.values, dimension_of(over.key), 1), "A list of values.");
-    v.text(sim::written_if(!over.file.empty(), "file"), over.file, "A .csv or .npz file with the values.");
+    v.text(sim::written_if(!over.file.empty(), "file"), over.file,
+           "A .csv or .npz file with the values; its path is relative to the scene's folder.");
     v.text(sim::written_if(!over.column.empty(), "column"), over.column, "The column of the file.");
     v.exclusive("from", "values");
     v.exclusive("from", "file");
     v.exclusive("values", "file");
+    v.check([&over](ObjectReader& r) {
+        if (over.file.empty() || over.column.empty() || r.diagnostics().failed(r.path("file"))) return;
+        const std::filesystem::path folder = std::filesystem::path(r.context().source.name).parent_path();
+        r.reject_if("file", read_column(over, folder, r.context().scene.problem));
+    });
 }
 
 namespace {
@@ -214,6 +221,15 @@ std::string parse_seeds(std::string_view text, SweepSeeds& seeds) {
     }
     seeds = std::move(read);
     return "";
+}
+
+std::string read_column(SweptKey& over, const std::filesystem::path& folder, const sim::Problem& problem) {
+    const auto key = sim::number_key(problem, over.key);
+    FileColumn read = read_file_column(folder / over.file, over.column, key ? key->dimension : dim::kNone, true);
+    over.values = std::move(read.values);
+    over.file.clear();
+    over.column.clear();
+    return read.problem;
 }
 
 std::string problem_with_number_key(const sim::Problem& problem, const std::string& key) {

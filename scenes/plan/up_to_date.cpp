@@ -123,10 +123,7 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
     if (!shown.title) inputs.title.clear();
     if (!shown.units) inputs.units = {};
     if (!shown.data) inputs.data.clear();
-    if (of_sweep)
-        resolve_tables(*inputs.sweep);
-    else
-        inputs.sweep.reset();
+    if (!of_sweep) inputs.sweep.reset();
     const Extent extent = std::visit([](const auto& o) { return o.extent(); }, one);
     if (extent != Extent::scene || of_sweep) inputs.end_time = extent == Extent::run ? until : 0;
     std::string other = part;

@@ -10,7 +10,7 @@
 #include <sstream>
 
 #include "output/data/records.hpp"
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/json/tree.hpp"
 #include "sim/base/counted.hpp"

@@ -1,14 +1,23 @@
 // Measured data of the scene's motion: columns of a file that correspond to channels.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "output/data/agreement.hpp"
+#include "sim/problem/dimension.hpp"
 #include "sim/observe/request.hpp"
 
 namespace beamcam::scenes {
+
+// A number for a column of a file. `dimension`: of its unit; absent for a plain number, which is in SI units.
+struct ColumnNumber {
+    std::string column;
+    double value = 0;
+    std::optional<sim::Dimension> dimension = {};
+};
 
 struct Measurement {
     enum class Drawn { automatic, points, line };
@@ -16,7 +25,10 @@ struct Measurement {
     std::string file, label;
     std::string time_column = "t";
     std::vector<std::pair<sim::Channel, std::string>> columns;  // names in the file
-    std::vector<std::pair<std::string, std::string>> units;     // of columns: "deg"; default: SI units
+    std::vector<std::pair<std::string, std::string>> units;     // of columns: "deg"; default: those of the file, or SI
+    // By column, in SI units: the channel is sign · (value − zero), after angles that wrap were joined at their jumps.
+    // `wraps`: after how much an angle begins again; 0: it does not. The name "" means all columns with angles.
+    std::vector<ColumnNumber> wraps, signs, zeros;
     double offset = 0;                                          // time of the motion at time 0 of the file [s]
     Drawn drawn = Drawn::automatic;
 
@@ -24,6 +36,7 @@ struct Measurement {
     std::vector<double> times;
     std::vector<std::vector<double>> values;
     std::string digest;
+    std::vector<std::string> notes;  // how the file was read, for `--verbose`
 
     const std::vector<double>* find(sim::Channel channel) const;      // nullptr: not measured
     Measurement of(const std::vector<sim::Channel>& channels) const;  // only these columns

@@ -18,7 +18,7 @@ struct SweptKey {
     std::optional<int> count;
     bool logarithmic = false;
     std::vector<double> values;
-    std::string file, column;
+    std::string file, column;  // as written, until the values are read
     bool operator==(const SweptKey&) const = default;
 };
 
@@ -60,8 +60,6 @@ struct Sweep {
 std::vector<RandomKey> random_keys(const Sweep& sweep, const sim::Problem& problem);
 // The starts at one value of the keys, in the order of their points.
 std::vector<SeedKind> starts_of(const SweepSeeds& seeds);
-// Replaces references to tables by their values. Throws SceneError for a missing column, UnreadableFile, IoError.
-void resolve_tables(Sweep& sweep);
 std::string text_of_sample(const sim::Sampling& sampling);  // in the notation of the key "sample"
 
 }  // namespace beamcam::scenes

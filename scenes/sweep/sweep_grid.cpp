@@ -43,8 +43,8 @@ SweepGrid::SweepGrid(const Scene& scene) : scene_(scene) {
     scene_.outputs.clear();
     scene_.output_places.clear();
     scene_.title.clear();
+    scene_.data.clear();
     scene_.end_time = Scene{}.end_time;
-    resolve_tables(*scene_.sweep);
     const Sweep& sweep = *scene_.sweep;
     for (const SweptKey& over : sweep.over) {
         axes_.push_back({over.key, si_unit(sim::number_key(scene_.problem, over.key)->dimension), values_of(over)});

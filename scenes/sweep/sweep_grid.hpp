@@ -12,8 +12,7 @@ namespace beamcam::scenes {
 
 class SweepGrid {
   public:
-    // Reads the tables of the sweep. Throws SceneError for an impossible problem at one of the values and for too many
-    // points; what resolve_tables throws.
+    // Throws SceneError for an impossible problem at one of the values and for too many points.
     explicit SweepGrid(const Scene& scene);
 
     // Motions in sequence: a row of carried starts, or a single motion.
@@ -32,7 +31,7 @@ class SweepGrid {
     const sim::Sampling& sampling() const { return scene_.sweep->sampling; }
     const Sweep& sweep() const { return *scene_.sweep; }
 
-    // The scene reduced to what determines the points, with the values of tables.
+    // The scene reduced to what determines the points.
     const Scene& scene() const { return scene_; }
     std::string digest() const;    // of scene()
     std::string identity() const;  // of scene() and this program

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "output/data/file_list.hpp"
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/format/reader.hpp"
 #include "scenes/motions/identity.hpp"

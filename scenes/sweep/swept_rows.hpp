@@ -13,7 +13,7 @@ namespace beamcam::scenes {
 // may be.
 sim::Problem problem_with(sim::Problem problem, const std::string& key, double value, bool any_start = false);
 
-// The impacts in a .csv, .npz or .nc table of `sweep --sample impacts` with the key between two values. Throws
+// The impacts in a .csv or .npz table of `sweep --sample impacts` with the key between two values. Throws
 // UsageError for a missing column.
 SweptImpacts swept_impacts(const std::string& file, const std::string& key, double from, double to);
 

@@ -1,8 +1,8 @@
-// The reader of NPZ archives: columns of one length, or what is wrong. Check sums are mended first, as a fuzzer would
+// The reader of NPZ archives: columns of numbers, or what is wrong. Check sums are mended first, as a fuzzer would
 // hardly ever guess one.
 #include <libdeflate.h>
 
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "tests/fuzz/support.hpp"
 
 namespace {
@@ -33,9 +33,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::string bytes(fuzz::text_of(data, size));
     mend_check_sums(bytes);
     try {
-        const output::ColumnTable table = output::parse_npz(bytes, "fuzz.npz");
+        const output::ColumnTable table = output::parse_npz(bytes, "fuzz.npz", [](const std::string&) { return true; });
         for (const auto& column : table.columns)
-            fuzz::claim(column.values.size() == table.rows(), "columns are of one length");
+            fuzz::claim(column.values.size() <= bytes.size() * 1100, "a column is no longer than its bytes allow");
     } catch (const output::IoError& error) {
         fuzz::claim(error.what()[0] != 0, "a refusal says why");
     }

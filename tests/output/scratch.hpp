@@ -16,6 +16,7 @@
 #include <string>
 #include <vector>
 
+#include "output/files/errors.hpp"
 #include "output/image/raster.hpp"
 #include "render/draw/dirty_tiles.hpp"
 #include "render/draw/image.hpp"
@@ -104,6 +105,20 @@ inline std::string output_of(const std::string& command) {
     const int status = pclose(pipe);
     EXPECT_EQ(status, 0) << command << "\n" << text;
     return text;
+}
+
+inline std::string in_shell(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
+
+// The message of the IoError that `body` ends with.
+template <typename Body>
+std::string io_error_of(Body body) {
+    try {
+        body();
+    } catch (const IoError& error) {
+        return error.what();
+    }
+    ADD_FAILURE() << "no IoError";
+    return {};
 }
 
 // What ffprobe says of the file.

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "output/data/tables.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/files/inflate.hpp"
 #include "output/film/picture_source.hpp"
@@ -18,8 +17,6 @@
 
 namespace beamcam::output {
 namespace {
-
-std::string in_shell(const std::filesystem::path& path) { return "'" + path.string() + "'"; }
 
 // One digest a picture, as FFmpeg's own program takes them.
 std::vector<std::string> framehash(const std::filesystem::path& file, const std::string& decoder = "") {
@@ -40,18 +37,6 @@ std::vector<std::string> own_digests(const std::filesystem::path& file) {
     std::string name;
     while (source.next(picture, name)) digests.push_back(digest(picture));
     return digests;
-}
-
-// The message of the IoError that `body` ends with.
-template <typename Body>
-std::string io_error_of(Body body) {
-    try {
-        body();
-    } catch (const IoError& error) {
-        return error.what();
-    }
-    ADD_FAILURE() << "no IoError";
-    return {};
 }
 
 void make_film(const std::filesystem::path& file, Codec codec = Codec::h264) {
@@ -248,25 +233,6 @@ TEST(Inflater, GivesOutNoMoreThanItsBudget) {
     EXPECT_EQ(Inflater(100000).deflate(packed, 99999999), std::nullopt);
 }
 
-TEST(TableReader, ArraysThatShareTheirBytesAreRefused) {
-    Scratch scratch;
-    const std::string command =
-        "cd '" + scratch.path().string() +
-        "' && /usr/bin/python3 -c \"import numpy; numpy.savez_compressed('a.npz', t=numpy.zeros(3))\"";
-    output_of(command);
-    const std::string whole = read_file(scratch / "a.npz");
-    ASSERT_EQ(read_table(scratch / "a.npz").rows(), 3U);
-    const std::size_t end = whole.rfind("PK\5\6"), begin = whole.rfind("PK\1\2");
-    std::string shared = whole.substr(0, end), second = whole.substr(begin, end - begin), tail = whole.substr(end);
-    for (char name = 'a'; name < 'k'; ++name) {
-        second[46] = name;
-        shared += second;
-    }
-    tail[8] = tail[10] = 11;
-    write_file(scratch / "b.npz", shared + tail);
-    EXPECT_NE(io_error_of([&] { read_table(scratch / "b.npz"); }).find("damaged"), std::string::npos);
-}
-
 TEST(PictureFiles, AreThoseOfADirectoryOrSequenceInTheOrderOfTheirNumbers) {
     Scratch scratch;
     std::vector<std::filesystem::path> expected;
@@ -280,95 +246,6 @@ TEST(PictureFiles, AreThoseOfADirectoryOrSequenceInTheOrderOfTheirNumbers) {
     EXPECT_EQ(picture_files(expected[1]), std::vector{expected[1]});
     for (const char* none : {"g-#.png", "absent.png", "notes.txt"})
         EXPECT_NE(io_error_of([&] { picture_files(scratch / none); }).find(none), std::string::npos);
-}
-
-// ---- tables --------------------------------------------------------------------------------------
-
-sim::Table small_table() {
-    using sim::ChannelKind;
-    return {{{ChannelKind::t, 0}, {ChannelKind::theta, 0}, {ChannelKind::gap, 0}},
-            {{0, 0.1, 1.0 / 3}, {1, -2e-300, 3}, {NAN, 5e-324, 1.7976931348623157e308}}};
-}
-
-TEST(TableReader, BothFormatsGiveTheSameBitsBack) {
-    Scratch scratch;
-    const sim::Table table = small_table();
-    for (const char* name : {"a.csv", "a.npz"}) {
-        write_table(scratch / name, table);
-        const ColumnTable read = read_table(scratch / name);
-        EXPECT_EQ(read.names(), (std::vector<std::string>{"t", "theta", "gap"}));
-        for (std::size_t c = 0; c < 3; ++c)
-            for (std::size_t r = 0; r < 3; ++r)
-                if (std::isnan(table.values[c][r]))
-                    EXPECT_TRUE(std::isnan(read.columns[c].values[r]));
-                else
-                    EXPECT_EQ(read.columns[c].values[r], table.values[c][r]) << name << " " << c << " " << r;
-    }
-}
-
-TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
-    Scratch scratch;
-    output_of(
-        "cd " + in_shell(scratch.path()) +
-        " && /usr/bin/python3 -c \"import numpy as n; n.savez_compressed('a.npz', t=n.arange(3.), k=n.arange(3)); "
-        "n.savetxt('a.csv', n.ones((2, 2)), header='t,x', delimiter=',')\"");
-    const ColumnTable npz = read_table(scratch / "a.npz"), csv = read_table(scratch / "a.csv");
-    EXPECT_EQ(*npz.find("k"), (std::vector<double>{0, 1, 2}));
-    EXPECT_EQ(*csv.find("x"), (std::vector<double>{1, 1}));
-    // Quotes carry no meaning (RFC 4180), but for commas and line breaks within them; lines of the file are counted.
-    const ColumnTable quoted = parse_csv("a,note\n\"2\",\"one\ntwo, \"\"three\"\"\"\n3,4\n", "q.csv", Texts::kept);
-    EXPECT_EQ(quoted.columns[0].values, (std::vector<double>{2, 3}));
-    EXPECT_EQ(quoted.columns[1].text(0), "one\ntwo, \"three\"");
-    EXPECT_THAT(io_error_of([] { parse_csv("a,b\n1,\"2\n\"\nx,1\n", "q.csv", Texts::rejected); }),
-                ::testing::StartsWith("q.csv:2:3: "));
-    EXPECT_THAT(io_error_of([] { parse_csv("a,\"b\nc\"\nx,1\n", "q.csv"); }), ::testing::StartsWith("q.csv:3:1: "));
-    EXPECT_THAT(io_error_of([] { parse_csv("a,\"b\nc\",5\n1,2,3\n", "q.csv"); }), ::testing::StartsWith("q.csv:2:4: "));
-    EXPECT_THAT(io_error_of([] { parse_csv("a,note,b\n1,\"one\ntwo\",inf\n", "q.csv", Texts::kept); }),
-                ::testing::StartsWith("q.csv:3:6: "));
-    const ColumnTable excel = parse_csv("\xEF\xBB\xBF\"t\", x\r\n1,+2\r\n3,\r\n", "e.csv");
-    EXPECT_EQ(*excel.find("t"), (std::vector<double>{1, 3}));
-    EXPECT_EQ(excel.find("x")->front(), 2);
-    EXPECT_TRUE(std::isnan(excel.find("x")->back()));
-}
-
-// A class by its number, and an exponent of −∞.
-TEST(TableReader, ReadsTheTablesOfSweeps) {
-    const ColumnTable table =
-        parse_csv("cam.speed,class,exponent\n1,following,-inf\n2,periodic,-3\n3,rest,\n", "r.csv");
-    EXPECT_EQ(*table.find("class"), (std::vector<double>{1, 2, 0}));
-    EXPECT_EQ((*table.find("exponent"))[0], -std::numeric_limits<double>::infinity());
-    EXPECT_TRUE(std::isnan((*table.find("exponent"))[2]));
-}
-
-TEST(TableReader, SaysWhereACsvIsWrong) {
-    const auto error = [](const std::string& text) { return io_error_of([&] { parse_csv(text, "a.csv"); }); };
-    EXPECT_EQ(error("t,x\n1,2\n3,abc\n"), "a.csv:3:3: \"abc\" is not a number");
-    EXPECT_NE(error("t,x\n1,2\n3\n").find("a.csv:3:1: 1 cells"), std::string::npos);
-    EXPECT_NE(error("t,x\n1,2\n3, -inf\n").find("a.csv:3:3: \"-inf\" is not a finite number"), std::string::npos);
-    EXPECT_NE(error("").find("empty"), std::string::npos);
-    EXPECT_NE(error("t,t\n").find("twice"), std::string::npos);
-    EXPECT_NE(error("1,2\n").find("name"), std::string::npos);
-    EXPECT_NE(error("t;x\n0,5;2\n").find("a.csv:1:2: columns are separated by semicolons"), std::string::npos);
-    EXPECT_NE(error("t\tx\n1\t2\n").find("by tabs"), std::string::npos);
-}
-
-TEST(TableReader, EveryCutOfAnArchiveIsRefused) {
-    Scratch scratch;
-    write_table(scratch / "a.npz", small_table());
-    const std::string whole = read_file(scratch / "a.npz");
-    for (std::size_t size = 0; size < whole.size(); size += 5) {
-        write_file(scratch / "cut.npz", whole.substr(0, size), Durability::buffered);
-        EXPECT_NE(io_error_of([&] { read_table(scratch / "cut.npz"); }).find("cut.npz"), std::string::npos) << size;
-    }
-    for (std::size_t at = 0; at < whole.size(); at += 3) {  // never a crash; an unread byte may change nothing
-        std::string damaged = whole;
-        damaged[at] = static_cast<char>(damaged[at] ^ 0xff);
-        write_file(scratch / "bad.npz", damaged, Durability::buffered);
-        try {
-            EXPECT_EQ(read_table(scratch / "bad.npz").rows(), 3u) << at;
-        } catch (const IoError&) {
-        }
-    }
 }
 
 }  // namespace

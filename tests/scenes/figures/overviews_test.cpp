@@ -8,7 +8,7 @@
 #include <map>
 #include <sstream>
 
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "render/draw/fonts.hpp"
 #include "render/plot/figure.hpp"
 #include "render/plot/ticks.hpp"

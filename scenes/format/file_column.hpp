@@ -1,0 +1,27 @@
+// A column of a .csv or .npz file in place of a list of numbers: "@rig.csv:angle".
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "sim/problem/dimension.hpp"
+
+namespace beamcam::scenes {
+
+// The file and the column; nothing if the text does not begin with @ or has no colon.
+std::optional<std::pair<std::string, std::string>> file_column_in(std::string_view text);
+
+// The numbers of a column, without its empty cells, or the reason why there are none.
+struct FileColumn {
+    std::vector<double> values;
+    std::string problem;
+};
+// In SI units if the file states a unit of this dimension. `gaps`: whether cells may be empty.
+FileColumn read_file_column(const std::filesystem::path& file, const std::string& column,
+                            const sim::Dimension& dimension, bool gaps);
+
+}  // namespace beamcam::scenes

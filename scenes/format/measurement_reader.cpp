@@ -1,0 +1,270 @@
+#include "scenes/format/measurement_reader.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "output/data/table_reader.hpp"
+#include "output/files/digest.hpp"
+#include "render/draw/markup.hpp"
+#include "scenes/format/checks.hpp"
+#include "scenes/format/suggest.hpp"
+#include "scenes/format/wrapped_angles.hpp"
+#include "sim/beam/drive.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+namespace fs = std::filesystem;
+
+class MeasurementReader {
+  public:
+    MeasurementReader(ObjectReader& r, Measurement& m) : r_(r), m_(m) {}
+
+    void read() {
+        const fs::path path = fs::path(r_.context().source.name).parent_path() / m_.file;
+        if (std::error_code error; !fs::is_regular_file(path, error))
+            return fail("file", error ? error.message() : "it is not a regular file");
+        try {
+            table_ = output::read_columns(path, [this](const std::string& name) { return is_wanted(name); });
+            m_.digest = output::sha256_of_file(path);
+        } catch (const output::IoError& error) {
+            return fail("file", error.what());
+        }
+        if (!table_.notes.empty())
+            m_.notes.push_back(fmt::format("{}: {}", path.string(), fmt::join(table_.notes, ", ")));
+        if (m_.label.empty()) m_.label = render::escaped(path.stem().string());
+        check_markup(r_, "label", m_.label);
+        find_columns();
+        check_names();
+        if (!failed_) read_values();
+        if (!failed_) check_values();
+        if (!failed_) check_times();
+    }
+
+  private:
+    void fail(const std::string& key, const std::string& why) {
+        failed_ = true;
+        r_.reject_value(r_.place(key), key, ": {}", why);
+    }
+
+    bool is_wanted(const std::string& name) const {
+        if (name == m_.time_column) return true;
+        const auto is_column = [&](const auto& column) { return column.second == name; };
+        const auto is_channel = [&](const auto& channel) { return channel.first == name; };
+        return m_.columns.empty() ? std::ranges::any_of(measurable_channels(), is_channel)
+                                  : std::ranges::any_of(m_.columns, is_column);
+    }
+
+    void find_columns() {
+        if (m_.columns.empty())
+            for (const auto& [known, channel] : measurable_channels())
+                if (table_.column(known)) m_.columns.emplace_back(channel, known);
+        if (m_.columns.empty())
+            fail("file", fmt::format("no column is named like a channel; name the columns, for example \"theta\": {}",
+                                     in_quotes(table_.columns.empty() ? "angle" : table_.columns.back().name)));
+    }
+
+    void check_names() {
+        const auto check = [&](const char* key, const std::string& column) {
+            if (!column.empty() && !table_.column(column))
+                fail(key, fmt::format("the file has no column {}{}", in_quotes(column),
+                                      suggestion_or_list(column, table_.names())));
+        };
+        for (const auto& [column, unit] : m_.units) check("units", column);
+        for (const auto& [key, all] :
+             {std::pair{"wrap", &m_.wraps}, std::pair{"sign", &m_.signs}, std::pair{"zero", &m_.zeros}})
+            for (const ColumnNumber& each : *all) check(key, each.column);
+        for (const auto& [channel, from] : m_.columns)
+            if (sim::traits(channel.kind).needs_cam && !r_.context().scene.problem.cam)
+                fail(r_.has(name(channel)) ? name(channel) : "file",
+                     fmt::format("{} is a channel of the contact, but the scene has no cam", name(channel)));
+    }
+
+    void read_values() {
+        m_.times = column("t", m_.time_column, "s");
+        for (double& t : m_.times) t += m_.offset;
+        for (const auto& [channel, from] : m_.columns) {
+            std::vector<double> values = column(name(channel), from, si_unit_of(channel));
+            if (!failed_ && values.size() != m_.times.size())
+                fail("file", fmt::format("the column {} has {} rows, but the time has {}", in_quotes(from),
+                                         values.size(), m_.times.size()));
+            if (!failed_) adjust(channel, from, values);
+            m_.values.push_back(std::move(values));
+        }
+        if (!failed_) leave_out_rows_without_time();
+    }
+
+    std::string si_unit_of(const sim::Channel& channel) const { return unit(channel, r_.context().scene.problem); }
+
+    // A column in SI units.
+    std::vector<double> column(const std::string& key, const std::string& from, const std::string& si) {
+        const std::string at = r_.has(key) ? key : "file";
+        try {
+            if (const std::vector<double>* found = table_.find(from)) {
+                std::vector<double> out = *found;
+                const double factor = factor_of(key, *table_.column(from), si);
+                if (factor != 1)
+                    for (double& value : out) value *= factor;
+                return out;
+            }
+            fail(at,
+                 fmt::format("the file has no column {}{}", in_quotes(from), suggestion_or_list(from, table_.names())));
+        } catch (const output::IoError& error) {
+            fail(at, error.what());
+        }
+        return {};
+    }
+
+    // From the unit of a column, which the scene or else the file names, to the SI unit.
+    double factor_of(const std::string& key, const output::TableColumn& column, const std::string& si) {
+        const auto named = std::ranges::find(m_.units, column.name, &std::pair<std::string, std::string>::first);
+        const bool by_scene = named != m_.units.end();
+        const std::string unit = by_scene ? named->second : column.unit;
+        if (unit.empty()) return 1;
+        const QuantityText given = parse_quantity("1 " + unit), required = parse_quantity("1 " + si);
+        const bool fits =
+            given.quantity && required.quantity && same(given.quantity->dimension, required.quantity->dimension);
+        if (!fits && by_scene)
+            fail("units", fmt::format("{} is not a unit of {}, which is measured in {}{}", in_quotes(unit), key, si,
+                                      given.quantity ? "" : ": " + given.problem));
+        if (!fits && !by_scene)
+            r_.warn("file",
+                    ": the file states {} for the column {}, which is not a unit of {}; it is read in {} unless "
+                    "\"units\" names another",
+                    in_quotes(unit), in_quotes(column.name), key, si.empty() ? "plain numbers" : si);
+        if (fits && !by_scene)
+            m_.notes.push_back(fmt::format("{}: the column {} is in {}", m_.file, in_quotes(column.name), unit));
+        return fits ? given.quantity->value : 1;
+    }
+
+    // ---- wrap, sign and zero -------------------------------------------------------------------
+
+    const ColumnNumber* number_for(const std::vector<ColumnNumber>& all, const std::string& column) const {
+        const auto found = std::ranges::find(all, column, &ColumnNumber::column);
+        return found == all.end() ? nullptr : &*found;
+    }
+    double number_for(const char* key, const std::vector<ColumnNumber>& all, const std::string& column,
+                      const std::string& si, double otherwise) {
+        const ColumnNumber* found = number_for(all, column);
+        if (!found) return otherwise;
+        const QuantityText required = parse_quantity("1 " + si);
+        if (found->dimension && required.quantity && !same(*found->dimension, required.quantity->dimension))
+            fail(key, fmt::format("the number for {} must be in {}", in_quotes(column), si.empty() ? "no unit" : si));
+        return found->value;
+    }
+
+    void adjust(const sim::Channel& channel, const std::string& from, std::vector<double>& values) {
+        const std::string si = si_unit_of(channel);
+        const double sign = number_for("sign", m_.signs, from, "", 1), zero = number_for("zero", m_.zeros, from, si, 0);
+        if (sign != 1 && sign != -1) fail("sign", fmt::format("the sign of {} must be 1 or -1", in_quotes(from)));
+        const double turn = si == "rad" ? turn_of(channel, from, values) : 0;
+        if (failed_) return;
+        if (turn > 0) unwrap(values, turn);
+        for (double& value : values) value = sign * (value - zero);
+        if (turn > 0) start_near_motion(channel, turn, values);
+    }
+
+    // After how much the column begins again; 0: it does not.
+    double turn_of(const sim::Channel& channel, const std::string& from, const std::vector<double>& values) {
+        const bool own = number_for(m_.wraps, from) != nullptr;
+        if (own || number_for(m_.wraps, "")) {
+            const double turn = number_for("wrap", m_.wraps, own ? from : "", "rad", 0);
+            if (!(turn >= 0)) fail("wrap", "must not be negative");
+            return turn;
+        }
+        const auto jump = first_wrap(values, kFullTurn);
+        if (!jump) return 0;
+        r_.warn(r_.has(name(channel)) ? name(channel) : "file",
+                ": the column {} jumps by {:.4g} deg in {}; it is read as an angle that begins again after 360 deg; "
+                "\"wrap\": \"360 deg\" says so, \"wrap\": 0 keeps the jumps",
+                in_quotes(from), (values[*jump] - values[*jump - 1]) * 360 / kFullTurn, table_.row_name(*jump));
+        return kFullTurn;
+    }
+
+    // An angle within a turn leaves whole turns open: its first row is within half a turn of the motion's.
+    void start_near_motion(const sim::Channel& channel, double turn, std::vector<double>& values) const {
+        const sim::Problem& problem = r_.context().scene.problem;
+        for (std::size_t i = 0; i < values.size(); ++i) {
+            if (!std::isfinite(values[i]) || !std::isfinite(m_.times[i])) continue;
+            std::optional<double> there;
+            if (channel.kind == sim::ChannelKind::cam_angle && problem.cam)
+                there = problem.cam->phase - problem.cam->speed * m_.times[i];
+            if (channel.kind == sim::ChannelKind::theta) there = hub_angle(problem, m_.times[i]);
+            if (!there) return;
+            const double turns = turn * std::round((*there - values[i]) / turn);
+            for (double& value : values) value += turns;
+            return;
+        }
+    }
+    // A free hub begins at its initial angle.
+    static double hub_angle(const sim::Problem& problem, double t) {
+        const bool valid = std::ranges::none_of(sim::validate(problem), &sim::Issue::fatal);
+        const double start = problem.initial.angle;
+        if (!valid) return start;
+        const sim::DriveLaw drive(problem.hub.drive, start);
+        return drive.prescribed() ? drive.motion(t).angle : start;
+    }
+
+    // ---- checks --------------------------------------------------------------------------------
+
+    void leave_out_rows_without_time() {
+        std::size_t kept = 0;
+        for (std::size_t i = 0; i < m_.times.size(); ++i) {
+            if (!std::isfinite(m_.times[i])) continue;
+            rows_.push_back(i);
+            m_.times[kept] = m_.times[i];
+            for (std::vector<double>& values : m_.values) values[kept] = values[i];
+            ++kept;
+        }
+        if (const std::size_t left_out = m_.times.size() - kept; left_out > 0)
+            m_.notes.push_back(fmt::format("{}: {} rows without a time are left out", m_.file, left_out));
+        m_.times.resize(kept);
+        for (std::vector<double>& values : m_.values) values.resize(kept);
+    }
+
+    void check_values() {
+        if (m_.times.empty()) return fail("file", "the file has no rows below the names of the columns");
+        for (std::size_t i = 0; i < m_.values.size() && !failed_; ++i)
+            if (std::ranges::none_of(m_.values[i], [](double value) { return std::isfinite(value); }))
+                fail("file", fmt::format("the column {} contains no number", in_quotes(m_.columns[i].second)));
+    }
+
+    void check_times() {
+        for (std::size_t i = 1; i < m_.times.size(); ++i)
+            if (!(m_.times[i] > m_.times[i - 1]))
+                return fail("file",
+                            fmt::format("{}: the time does not increase; sort the rows, and keep each instant once",
+                                        table_.row_name(rows_[i])));
+        const double end = r_.context().scene.end_time;
+        if (m_.times.back() < 0 || m_.times.front() > end)
+            fail("file",
+                 fmt::format("no row lies between 0 and {:g} s; check \"offset\" and the unit of the time", end));
+    }
+
+    ObjectReader& r_;
+    Measurement& m_;
+    output::ColumnTable table_;
+    std::vector<std::size_t> rows_;  // of the file, by row of the measurement
+    bool failed_ = false;
+};
+
+}  // namespace
+
+const std::vector<std::pair<std::string, sim::Channel>>& measurable_channels() {
+    static const auto kAll = [] {
+        std::vector<std::pair<std::string, sim::Channel>> all;
+        for (const sim::Channel& channel : sim::all_channels({}))
+            if (channel.kind != sim::ChannelKind::t && channel.kind != sim::ChannelKind::q)
+                all.emplace_back(name(channel), channel);
+        return all;
+    }();
+    return kAll;
+}
+
+void read_measurement(ObjectReader& r, Measurement& m) { MeasurementReader(r, m).read(); }
+
+}  // namespace beamcam::scenes
