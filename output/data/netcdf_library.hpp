@@ -1,5 +1,6 @@
 // Interface of the module that links libnetcdf (beamcam_netcdf.so, from output/data/netcdf/): sweeps and tables as
-// NetCDF-4 files. The module is loaded at its first use, because its libraries would add milliseconds to every start.
+// NetCDF-4 files, which are written only. The module is loaded at its first use, because its libraries would add
+// milliseconds to every start.
 //
 // A sweep has the dimensions second swept key, first swept key, "seed" and "sample"; fill values follow the last sample
 // of a point, and chunks contain whole points. A table has a variable for each column over the dimension "row". The
@@ -7,7 +8,6 @@
 #pragma once
 
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "output/data/sweep_data.hpp"
@@ -23,10 +23,6 @@ class NetcdfLibrary {
                        const SweepData& data) const = 0;
     virtual void write(const std::filesystem::path& file, const std::filesystem::path& named,
                        const ColumnTable& table) const = 0;
-    // Nothing if the file is a sweep. Throws IoError.
-    virtual std::optional<ColumnTable> read_table(const std::filesystem::path& file) const = 0;
-    // The file stays open while the data exist; points are read on demand. Throws IoError.
-    virtual SweepData open(const std::filesystem::path& file) const = 0;
     virtual std::string version() const = 0;
 };
 

@@ -3,46 +3,163 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <system_error>
 
 #include "output/files/digest.hpp"
+#include "output/files/numbers.hpp"
 
 namespace beamcam::output {
 namespace {
 
-constexpr std::string_view kMagic = "beamcam points 1\n";
-constexpr std::uint64_t kLongestHead = 1024;  // with the identity, a digest
+constexpr std::string_view kMagic = "beamcam points 2 ";
+constexpr std::uint64_t kLongestLine = 1024;  // the first, with the identity
 
 // The header of a point in the file.
-struct Head {
+struct Header {
     std::uint64_t point, samples, state, failure;  // counts of numbers, of bytes
     std::int64_t kind, period;
     double impacts_per_period, exponent, exponent_error;
     std::uint64_t checksum;  // of all of it with 0 here
 };
 
-std::string text_of(const StoredPoint& p) {
-    Head head{p.point,  p.samples.size(),     p.state.size(), p.failure.size(), p.kind,
-              p.period, p.impacts_per_period, p.exponent,     p.exponent_error, 0};
-    std::string text(reinterpret_cast<const char*>(&head), sizeof head);
-    text.append(bytes_of(p.samples)).append(bytes_of(p.state)).append(p.failure);
-    head.checksum = crc32(0, text.data(), text.size());
-    std::memcpy(text.data(), &head, sizeof head);
-    return text;
+std::uint64_t rest_of(const Header& header) {
+    return (header.samples + header.state) * sizeof(double) + header.failure;
 }
 
-std::uint64_t rest_of(const Head& head) { return (head.samples + head.state) * sizeof(double) + head.failure; }
+// Whether a sweep of this shape can have this point, in `size` bytes at most.
+bool is_possible(const Header& header, const PointShape& shape, std::uint64_t size) {
+    const std::uint64_t most =
+        std::min<std::uint64_t>(size / sizeof(double), std::numeric_limits<std::uint32_t>::max());
+    return header.point < shape.points && header.samples <= most && header.state <= most && header.failure <= size &&
+           rest_of(header) <= size && header.samples % shape.columns == 0 && header.kind >= 0 &&
+           header.kind < shape.classes && header.period >= 0 && header.period <= std::numeric_limits<int>::max();
+}
 
 }  // namespace
 
-PointStore::PointStore(std::filesystem::path file, std::uint64_t points, const std::string& identity, bool replace)
-    : path_(std::move(file)), file_(path_, O_RDWR | O_CREAT), places_(points, 0), numbers_(points, 0) {
+std::string text_of(const PointHead& head) {
+    return std::string(kMagic) + head.identity + " " + std::to_string(head.description.size()) + "\n" +
+           head.description;
+}
+
+std::string text_of(const StoredPoint& p) {
+    Header header{p.point,  p.samples.size(),     p.state.size(), p.failure.size(), p.kind,
+                  p.period, p.impacts_per_period, p.exponent,     p.exponent_error, 0};
+    std::string text(reinterpret_cast<const char*>(&header), sizeof header);
+    text.append(bytes_of(p.samples)).append(bytes_of(p.state)).append(p.failure);
+    header.checksum = crc32(0, text.data(), text.size());
+    std::memcpy(text.data(), &header, sizeof header);
+    return text;
+}
+
+// ---- reading -----------------------------------------------------------------------------------
+
+PointFile::PointFile(std::filesystem::path file, int flags) : path_(std::move(file)), file_(path_, flags) {}
+
+PointFile::PointFile(std::filesystem::path file) : PointFile(std::move(file), O_RDONLY | O_NONBLOCK) {
+    if (!file_) throw read_error(path_, errno);
+    if (std::error_code error; !std::filesystem::is_regular_file(path_, error) || !read_head())
+        throw IoError(path_.string() + ": not a part of a sweep; `beamcam sweep --shard I/N` writes parts");
+}
+
+bool PointFile::read_head() {
+    const std::uint64_t size = file_.size();
+    const std::string text = text_at(0, std::min(size, kLongestLine));
+    const std::size_t end = text.find('\n'), space = text.find(' ', kMagic.size());
+    if (!text.starts_with(kMagic) || end == text.npos || space == text.npos || space > end) return false;
+    const auto described = number_in<std::uint64_t>(std::string_view(text).substr(space + 1, end - space - 1));
+    if (!described || *described > size - (end + 1)) return false;
+    head_ = {text.substr(kMagic.size(), space - kMagic.size()), text_at(end + 1, *described)};
+    end_ = end + 1 + *described;
+    return true;
+}
+
+void PointFile::find_points(const PointShape& shape) {
+    index_points(shape);
+    if (end_ < file_.size())
+        throw IoError(path_.string() + ": this part is damaged or cut off; compute it again with --force");
+}
+
+void PointFile::index_points(const PointShape& shape) {
+    places_.assign(shape.points, 0);
+    numbers_.assign(shape.points, 0);
+    for (const std::uint64_t size = file_.size(); end_ + sizeof(Header) <= size;) {
+        std::string text = text_at(end_, sizeof(Header));
+        Header found;
+        std::memcpy(&found, text.data(), sizeof found);
+        if (!is_possible(found, shape, size - end_ - sizeof(Header))) return;
+        text = text_at(end_, sizeof(Header) + rest_of(found));
+        Header zeroed = found;
+        zeroed.checksum = 0;
+        std::memcpy(text.data(), &zeroed, sizeof zeroed);
+        if (crc32(0, text.data(), text.size()) != found.checksum) return;
+        place(found.point, found.samples, text.size());
+    }
+}
+
+// The point is at the end of the file, which grows by its size.
+void PointFile::place(std::uint64_t point, std::uint64_t samples, std::uint64_t size) {
+    if (!has(point)) ++count_;
+    places_[point] = end_;
+    numbers_[point] = static_cast<std::uint32_t>(samples);
+    end_ += size;
+}
+
+std::string PointFile::text_at(std::uint64_t at, std::size_t size) const {
+    std::string text(size, '\0');
+    if (file_.read_at(at, text.data(), size) != static_cast<std::ptrdiff_t>(size)) throw read_error(path_, errno);
+    return text;
+}
+
+StoredPoint PointFile::read(std::uint64_t point) const {
+    const std::uint64_t at = places_[point];
+    Header header;
+    std::memcpy(&header, text_at(at, sizeof header).data(), sizeof header);
+    // The file may have changed since it was indexed.
+    if (header.point != point || header.samples != numbers_[point] || rest_of(header) > file_.size())
+        throw IoError(path_.string() + ": another program changed the points");
+    const std::string rest = text_at(at + sizeof header, rest_of(header));
+    StoredPoint out{header.point,
+                    static_cast<int>(header.kind),
+                    static_cast<int>(header.period),
+                    header.impacts_per_period,
+                    header.exponent,
+                    header.exponent_error,
+                    {},
+                    {},
+                    {}};
+    const char* from = rest.data();
+    for (const auto& [count, numbers] :
+         {std::pair{header.samples, &out.samples}, std::pair{header.state, &out.state}}) {
+        numbers->resize(count);
+        if (count > 0) std::memcpy(numbers->data(), from, count * sizeof(double));
+        from += count * sizeof(double);
+    }
+    out.failure.assign(from, header.failure);
+    return out;
+}
+
+// ---- growing -----------------------------------------------------------------------------------
+
+PointStore::PointStore(std::filesystem::path file, const PointShape& shape, const PointHead& head, bool replace)
+    : PointFile(std::move(file), O_RDWR | O_CREAT | O_NOFOLLOW) {
     if (!file_) throw write_error(path_, errno);
     if (!file_.try_lock() && errno == EWOULDBLOCK)
         throw IoError(path_.string() + ": another beamcam is making these points");
-    open_again(std::string(kMagic) + identity + "\n", replace);
+    const std::uint64_t size = file_.size();
+    const bool whole = read_head();
+    if (!whole && !std::string_view(text_of(head)).starts_with(text_at(0, std::min(size, kLongestLine))))
+        throw IoError(path_.string() + ": points would be kept here, but this file is not beamcam's; move it away");
+    if (whole && head_.identity != head.identity && size > end_ && !replace)
+        throw IoError(path_.string() +
+                      ": has points of another sweep, or of another version of beamcam; --force discards them");
+    if (!whole || head_.identity != head.identity) begin(head);
+    index_points(shape);
+    if (end_ < file_.size() && ftruncate(file_.number(), static_cast<off_t>(end_)) != 0)
+        throw write_error(path_, errno);
 }
 
 PointStore::~PointStore() {
@@ -50,77 +167,15 @@ PointStore::~PointStore() {
     if (count_ == 0 && file_) std::filesystem::remove(path_, ignored);
 }
 
-void PointStore::open_again(const std::string& head, bool replace) {
-    const std::uint64_t size = file_.size();
-    const bool same = size >= head.size() && text_at(0, head.size()) == head;
-    end_ = head.size();
-    if (!same) {
-        const std::string other = text_at(0, std::min<std::uint64_t>(size, kLongestHead));
-        if (!kMagic.starts_with(other.substr(0, kMagic.size())))
-            throw IoError(path_.string() + ": points would be kept here, but this file is not beamcam's; move it away");
-        const std::size_t end = other.find('\n', kMagic.size());
-        if (end != other.npos && size > end + 1 && !replace)
-            throw IoError(path_.string() +
-                          ": has points of another sweep, or of another version of beamcam; --force discards them");
-        if (ftruncate(file_.number(), 0) == 0 && file_.write_at(0, head)) return;
-        const IoError error = write_error(path_, errno);
-        remove();
-        throw error;
-    }
-    while (end_ + sizeof(Head) <= size) {
-        std::string text = text_at(end_, sizeof(Head));
-        Head found;
-        std::memcpy(&found, text.data(), sizeof found);
-        const std::uint64_t most = (size - end_) / sizeof(double) + 1;
-        if (found.point >= places_.size() || found.samples > most || found.state > most || found.failure > size) break;
-        const std::uint64_t whole = sizeof(Head) + rest_of(found);
-        if (end_ + whole > size) break;
-        text = text_at(end_, whole);
-        Head zeroed = found;
-        zeroed.checksum = 0;
-        std::memcpy(text.data(), &zeroed, sizeof zeroed);
-        if (crc32(0, text.data(), text.size()) != found.checksum) break;
-        place(found.point, found.samples, whole);
-    }
-    if (end_ < size && ftruncate(file_.number(), static_cast<off_t>(end_)) != 0) throw write_error(path_, errno);
-}
-
-// The point is at the end of the file, which grows by its size.
-void PointStore::place(std::uint64_t point, std::uint64_t samples, std::uint64_t size) {
-    if (!has(point)) ++count_;
-    places_[point] = end_;
-    numbers_[point] = static_cast<std::uint32_t>(samples);
-    end_ += size;
-}
-
-std::string PointStore::text_at(std::uint64_t at, std::size_t size) const {
-    std::string text(size, '\0');
-    if (file_.read_at(at, text.data(), size) != static_cast<std::ptrdiff_t>(size)) throw read_error(path_, errno);
-    return text;
-}
-
-StoredPoint PointStore::read(std::uint64_t point) const {
-    const std::uint64_t at = places_[point];
-    Head head;
-    std::memcpy(&head, text_at(at, sizeof head).data(), sizeof head);
-    const std::string rest = text_at(at + sizeof head, rest_of(head));
-    StoredPoint out{head.point,
-                    static_cast<int>(head.kind),
-                    static_cast<int>(head.period),
-                    head.impacts_per_period,
-                    head.exponent,
-                    head.exponent_error,
-                    {},
-                    {},
-                    {}};
-    const char* from = rest.data();
-    for (const auto& [count, numbers] : {std::pair{head.samples, &out.samples}, std::pair{head.state, &out.state}}) {
-        numbers->resize(count);
-        if (count > 0) std::memcpy(numbers->data(), from, count * sizeof(double));
-        from += count * sizeof(double);
-    }
-    out.failure.assign(from, head.failure);
-    return out;
+// Discards what the file holds.
+void PointStore::begin(const PointHead& head) {
+    head_ = head;
+    const std::string text = text_of(head);
+    end_ = text.size();
+    if (ftruncate(file_.number(), 0) == 0 && file_.write_at(0, text)) return;
+    const IoError error = write_error(path_, errno);
+    remove();
+    throw error;
 }
 
 void PointStore::add(const StoredPoint& point) {

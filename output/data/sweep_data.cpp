@@ -89,6 +89,12 @@ void csv(const SweepData& data, const std::function<void(const std::string&)>& w
     write(text);
 }
 
+// In the order of their numbers, so that the bytes do not depend on the order in which the points were made.
+void points(const SweepData& data, const std::function<void(const std::string&)>& write) {
+    write(text_of(data.head));
+    each_point(data, [&](const StoredPoint& p) { write(text_of(p)); });
+}
+
 void npz(const Target& file, const SweepData& data) {
     std::vector<NpzArray> arrays;
     const std::uint64_t rows = data.rows_in_all();
@@ -116,11 +122,6 @@ ColumnTable table_of(const SweepData& data) {
     return table;
 }
 
-const std::string* SweepData::attribute(const std::string& name) const {
-    const auto found = std::ranges::find(attributes, name, &std::pair<std::string, std::string>::first);
-    return found == attributes.end() ? nullptr : &found->second;
-}
-
 void write_sweep(const Target& file, const SweepData& data) {
     const std::string ending = file.path.extension().string();
     if (ending == ".npz") return npz(file, data);
@@ -130,10 +131,13 @@ void write_sweep(const Target& file, const SweepData& data) {
         atomic.commit();
         return;
     }
-    if (ending != ".csv")
+    if (ending != ".csv" && ending != kPartEnding)
         throw UnsupportedOption("cannot write " + file.path.string() + ": tables of sweeps end in .csv, .npz or .nc");
     AtomicFile atomic(file);
-    csv(data, [&atomic](const std::string& text) { atomic.write(text); });
+    if (ending == ".csv")
+        csv(data, [&atomic](const std::string& text) { atomic.write(text); });
+    else
+        points(data, [&atomic](const std::string& text) { atomic.write(text); });
     atomic.commit();
 }
 

@@ -1,5 +1,5 @@
-// Sweeps as files: CSV and NPZ with a row for each sample, NetCDF-4 as a grid. Points are read one by one, so that the
-// memory does not grow with their number.
+// Sweeps as files: CSV and NPZ with a row for each sample, NetCDF-4 as a grid; a part of a sweep as a file of points.
+// Points are read one by one, so that few of their numbers are in memory.
 #pragma once
 
 #include <algorithm>
@@ -27,6 +27,7 @@ struct SweepData {
     std::vector<TableColumn> columns;                             // of the samples
     std::vector<std::string> classes;                             // names, by number
     std::vector<std::pair<std::string, std::string>> attributes;  // of a NetCDF file
+    PointHead head;                                               // of a part, and of the store of unfinished points
     std::function<bool(std::uint64_t)> has;                       // whether this file contains the point
     std::function<std::uint64_t(std::uint64_t)> rows;             // samples of the point
     std::function<StoredPoint(std::uint64_t)> read;
@@ -35,7 +36,6 @@ struct SweepData {
     std::uint64_t rows_in_all() const;                     // of CSV and NPZ; a point without samples has one
     std::uint64_t most_rows() const;                       // samples of one point
     std::vector<double> place(std::uint64_t point) const;  // values of the axes
-    const std::string* attribute(const std::string& name) const;
 };
 
 // Inline, because the NetCDF module uses them, too.
@@ -69,7 +69,10 @@ inline std::vector<double> SweepData::place(std::uint64_t point) const {
     return values;
 }
 
-// The ending decides: .csv, .npz or .nc. Throws IoError, UnsupportedOption, render::MissingPart.
+// The ending of a file of points, which holds a part of a sweep.
+inline constexpr const char* kPartEnding = ".points";
+
+// The ending decides: .csv, .npz, .nc or .points. Throws IoError, UnsupportedOption, render::MissingPart.
 void write_sweep(const Target& file, const SweepData& data);
 void write_sweep_csv(std::ostream& out, const SweepData& data);
 // The rows of .csv and .npz.

@@ -18,7 +18,7 @@ struct CollectArguments {
 };
 
 void act(const CollectArguments& args) {
-    require_ending("-o", args.file, {".nc", ".csv", ".npz"});
+    require_ending("-o", args.file, {".csv", ".npz", ".nc"});
     output::FileList file_list(args.common.force);
     file_list.require_replaceable(args.file);
     CollectedSweep all = collect({args.parts.begin(), args.parts.end()});
@@ -34,9 +34,9 @@ void act(const CollectArguments& args) {
 void add_collect(Grammar& grammar) {
     const auto [app, args] =
         grammar.command<CollectArguments>("collect", "Join the parts of a sweep, made with `sweep --shard`", act);
-    app.examples = {"collect sweep.*of8.nc -o sweep.nc"};
-    app.positional("PART", &args.parts, "The parts, .nc files, in any order").required();
-    app.option("-o,--output", &args.file, "FILE", "Table to make: .nc, .csv or .npz").required();
+    app.examples = {"collect sweep.*of8.points -o sweep.csv"};
+    app.positional("PART", &args.parts, "The parts, .points files, in any order").required();
+    app.option("-o,--output", &args.file, "FILE", "Table to make: .csv, .npz or .nc").required();
     add_force(app, args.common);
     add_quiet(app, args.common);
 }

@@ -327,7 +327,7 @@ void add_orbits(Grammar& grammar) {
                "Largest number of points of a branch in each direction (default: 2000)")
         .range(1, 1000000);
     app.option("--sweep", &args.sweep_file, "FILE",
-               "Draw the impacts of a sweep over the same key (.csv, .npz or .nc) below the branches");
+               "Draw the impacts of a sweep over the same key (.csv or .npz) below the branches");
     app.option("--row", &args.row, "K",
                "Start from row K of the table of --sweep: its state and the values of its swept keys")
         .range(1, 1000000000);

@@ -158,9 +158,7 @@ void SweepOutput::visit(SceneVisitor& v) {
 void SweepOutput::plan(Planner& planner, std::size_t output) const {
     DataFile data{output, file, "sweep", {}};
     if (const Shard& shard = planner.selection().shard; !shard.whole()) {
-        if (!file.ends_with(".nc"))
-            return planner.skip(file, "parts of a sweep must be .nc files, which `beamcam collect` joins");
-        data.file = shard_file(file, shard);
+        data.file = part_file(file, shard);
         data.part = shard.text();
     }
     for (const SweptKey& over : planner.scene().sweep->over)

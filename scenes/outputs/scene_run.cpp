@@ -108,10 +108,6 @@ void SceneRun::compute_sweep() {
         const fs::path store = files_.path_of(plan_.sweep).string() + ".part";
         sweep_ = std::make_unique<SweepRun>(scene_, context_.options.selection.shard, store, context_.options.force);
     }
-    for (const Output& output : scene_.outputs)
-        if (const auto* finished = std::get_if<SweepOutput>(&output);
-            finished && !is_stdout(finished->file) && !context_.options.force && !plan_.sweep_end_states)
-            sweep_->reuse_points_of(files_.path_of(finished->file));
     const std::uint64_t found = sweep_->points_there();
     if (found > 0) context_.print("found {} of an earlier run\n", counted(found, "point"));
     try {

@@ -266,7 +266,6 @@ void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
         return counted(SweepFilm(how, scene, *from.sweep).write(*from.file, from.progress), "frame");
     };
     planner.require_sweep(file);
-    planner.require_sweep_end_states();
     planner.add(std::move(film));
 }
 

@@ -139,8 +139,6 @@ struct Plan {
     bool all_events = false;         // false: the first run may end at the last event that outputs name
     std::vector<Simulation> others;  // of motions that pictures and figures compare with the scene's or each other
     std::string sweep;               // the first file that needs the points of the scene's sweep; empty: none
-    bool sweep_end_states =
-        false;  // a film continues the motions from their end states, which a NetCDF file does not contain
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;

@@ -27,7 +27,6 @@ class Planner {
     void require_sweep(const std::string& file) {
         if (plan_.sweep.empty()) plan_.sweep = file;
     }
-    void require_sweep_end_states() { plan_.sweep_end_states = true; }
     void skip(std::string what, std::string why) { plan_.skipped.push_back({std::move(what), std::move(why)}); }
     void require_horizon() { simulation_.request.horizon = simulation_.horizon = true; }
 

@@ -35,6 +35,8 @@ struct Shard {
 };
 // "fall.mp4" as the second of three parts: "fall.2of3.mp4".
 std::string shard_file(const std::string& file, const Shard& shard);
+// The file of a part of a sweep: "r.csv" as the second of three parts is "r.2of3.points".
+std::string part_file(const std::string& file, const Shard& shard);
 
 // Finds owners that would write the same path, or a file where another needs a directory. The time is almost linear in
 // the number of names.

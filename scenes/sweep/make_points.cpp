@@ -3,9 +3,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <mutex>
 #include <optional>
 
+#include "output/json/tree.hpp"
 #include "scenes/motions/fan_out.hpp"
 #include "scenes/motions/identity.hpp"
 #include "scenes/scene/version.hpp"
@@ -99,8 +101,12 @@ std::vector<std::uint64_t> tasks_of(const SweepGrid& grid, const Shard& shard) {
 }  // namespace
 
 std::optional<sim::InitialState> end_of(const output::StoredPoint& point) {
+    constexpr std::size_t kFewest = 7;                 // angle and rate after the phase
     const std::vector<double>& numbers = point.state;  // as numbers_of
-    if (numbers.size() < 6) return std::nullopt;
+    if (numbers.size() < kFewest || std::ranges::any_of(numbers, [](double each) { return !std::isfinite(each); }))
+        return std::nullopt;
+    constexpr auto kLastFriction = static_cast<int>(sim::FrictionState::slide_minus);
+    if (!(numbers[3] >= 0 && numbers[3] <= kLastFriction)) return std::nullopt;
     sim::InitialState s;
     s.phase = {numbers[0] != 0, numbers[1] != 0, numbers[2],
                static_cast<sim::FrictionState>(static_cast<int>(numbers[3])), numbers[4]};
@@ -156,7 +162,18 @@ SweepCost cost_of(const SweepGrid& grid) {
     return {cost.seconds * scale, cost.rows * scale};
 }
 
-output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const Shard& shard) {
+output::PointHead head_of(const SweepGrid& grid, const Shard& shard) {
+    return {grid.identity(), to_text(object_node({{"part", shard.text()},
+                                                  {"program", program_identity()},
+                                                  {"sweep", grid.digest()},
+                                                  {"scene", to_json(grid.scene())}}))};
+}
+
+output::PointShape shape_of(const SweepGrid& grid) {
+    return {grid.points(), kept_columns(grid.sampling()).size(), static_cast<int>(names(sim::AttractorClass{}).size())};
+}
+
+output::SweepData data_of(const SweepGrid& grid, const Shard& shard) {
     output::SweepData data;
     data.axes = grid.axes();
     data.seeds = grid.seeds();
@@ -186,7 +203,12 @@ output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store
         {"beamcam_scene", to_json(grid.scene())},
         {"beamcam_program", program_identity()},
         {"beamcam_sweep", grid.digest()}};
-    if (!shard.whole()) data.attributes.emplace_back("beamcam_part", shard.text());
+    data.head = head_of(grid, shard);
+    return data;
+}
+
+output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const Shard& shard) {
+    output::SweepData data = data_of(grid, shard);
     data.has = [mine = points_of(grid, shard)](std::uint64_t k) { return bool(mine[k]); };
     const std::size_t width = data.columns.size();
     data.rows = [&store, width](std::uint64_t k) { return store.numbers(k) / width; };

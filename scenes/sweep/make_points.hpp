@@ -19,8 +19,8 @@ std::vector<bool> points_of(const SweepGrid& grid, const Shard& shard);
 // Interrupted, IoError.
 void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progress& progress, output::PointStore& store);
 
-// The end state of the point's motion; nullopt if the beam went over the top, the motion failed, or the point is from a
-// NetCDF file.
+// The end state of the point's motion; nullopt if the beam went over the top, the motion failed, or the numbers are no
+// state of a beam.
 std::optional<sim::InitialState> end_of(const output::StoredPoint& point);
 
 // The estimated cost of all points, from a few short motions.
@@ -30,7 +30,15 @@ struct SweepCost {
 };
 SweepCost cost_of(const SweepGrid& grid);
 
-// The content of a sweep's files.
+// What the points of a sweep have in common.
+output::PointShape shape_of(const SweepGrid& grid);
+
+// The head of a file with the points of a part; its description is JSON: "part" ("2/3"), "program", "sweep" (the digest
+// of the grid) and "scene", whose text is that of a scene.
+output::PointHead head_of(const SweepGrid& grid, const Shard& shard);
+
+// The content of a sweep's files, without its points; and with those of a store.
+output::SweepData data_of(const SweepGrid& grid, const Shard& shard);
 output::SweepData data_of(const SweepGrid& grid, const output::PointStore& store, const Shard& shard);
 
 }  // namespace beamcam::scenes

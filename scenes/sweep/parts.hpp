@@ -11,20 +11,16 @@
 
 namespace beamcam::scenes {
 
-// "2/3"; "auto" or "auto/3": from the variables of an array task of Slurm, Grid Engine or PBS. `variable` is
-// std::getenv. Throws UsageError.
+// "2/3"; "auto" or "auto/3": from the variables of an array task of Slurm. `variable` is std::getenv. Throws
+// UsageError.
 Shard shard_of(const std::string& text, const std::function<const char*(const char*)>& variable);
 
-// Joins the parts of a sweep. Throws IoError, with the name of the file, for missing, repeated, unfinished or foreign
-// parts.
+// Joins the parts of a sweep. Throws IoError, with the name of the file, for missing, repeated, unfinished, damaged or
+// foreign parts; SceneError.
 struct CollectedSweep {
     Scene scene;
     output::SweepData data;
 };
 CollectedSweep collect(const std::vector<std::filesystem::path>& files);
-
-// A script that runs the parts by "slurm", "parallel" or "snakemake". `command` is beamcam sweep with its options,
-// without -o.
-std::string engine_script(const std::string& engine, const std::string& command, const std::string& file, int parts);
 
 }  // namespace beamcam::scenes

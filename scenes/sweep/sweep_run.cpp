@@ -5,7 +5,7 @@
 
 #include <map>
 
-#include "output/data/netcdf_library.hpp"
+#include "output/files/text_safety.hpp"
 #include "sim/base/clock.hpp"
 #include "sim/base/counted.hpp"
 #include "sim/sweep/attractor.hpp"
@@ -28,22 +28,10 @@ std::filesystem::path temporary_store() {
 SweepRun::SweepRun(const Scene& scene, const Shard& shard, std::filesystem::path store, bool replace)
     : grid_(scene),
       shard_(shard),
-      store_(std::move(store), grid_.points(), grid_.identity(), replace),
+      store_(std::move(store), shape_of(grid_), head_of(grid_, shard_), replace),
       data_(data_of(grid_, store_, shard_)) {}
 
 SweepRun::SweepRun(const Scene& scene) : SweepRun(scene, Shard(), temporary_store(), false) { store_.remove(); }
-
-void SweepRun::reuse_points_of(const std::filesystem::path& file) try {
-    if (file.extension() != ".nc" || !std::filesystem::is_regular_file(file)) return;
-    const output::SweepData there = output::netcdf_library().open(file);
-    for (const char* name : {"beamcam_sweep", "beamcam_program"}) {
-        const std::string *one = data_.attribute(name), *other = there.attribute(name);
-        if (!other || *one != *other) return;
-    }
-    for (std::uint64_t k = 0; k < there.points(); ++k)
-        if (!store_.has(k) && there.has(k)) store_.add(there.read(k));
-} catch (const output::IoError&) {  // points that cannot be read are computed again
-}
 
 void SweepRun::make(int threads, Progress& progress) {
     const auto started = Clock::now();
@@ -66,7 +54,7 @@ std::string SweepRun::summary() const {
     for (const auto& [kind, n] : kinds)
         text += fmt::format("{} {} {}", kind == kinds.begin()->first ? "" : ",", n,
                             name(static_cast<sim::AttractorClass>(kind)));
-    if (failed > 0) text += fmt::format("\n{} failed; the first: {}", failed, why);
+    if (failed > 0) text += fmt::format("\n{} failed; the first: {}", failed, output::one_line(why));
     return text;
 }
 

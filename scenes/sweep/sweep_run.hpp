@@ -18,8 +18,6 @@ class SweepRun {
     explicit SweepRun(const Scene& scene);
 
     std::uint64_t points_there() const { return store_.count(); }
-    // Reuses the points of a finished .nc file of the same sweep and program; ignores other and damaged files.
-    void reuse_points_of(const std::filesystem::path& file);
     void make(int threads, Progress& progress);  // see make_points
     const SweepGrid& grid() const { return grid_; }
     const output::SweepData& data() const { return data_; }   // valid during the lifetime of this

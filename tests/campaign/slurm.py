@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Runs the script of `beamcam sweep --emit slurm` on a Slurm cluster of one node, which this program starts and stops.
+"""Runs the script of scenes/SWEEPS.md for Slurm on a Slurm cluster of one node, which this program starts and stops.
 
 slurm.py PROGRAM
 
@@ -142,8 +142,8 @@ class Sweep:
         (bin_folder / "beamcam").symlink_to(program)
         self.environment = dict(environment, PATH=f"{bin_folder}:{os.environ['PATH']}")
         (folder / "s.json").write_text(SCENE)
-        self.run("beamcam sweep s.json -q -o whole.nc")
-        self.run(f"beamcam sweep s.json -o r.nc --parts {PARTS} --emit slurm > run.sh")
+        self.run("beamcam sweep s.json --seed same -q -o whole.csv")
+        (self.folder / "run.sh").write_text(recipe())
 
     def run(self, command):
         done = subprocess.run(command, shell=True, cwd=self.folder, env=self.environment, capture_output=True,
@@ -160,15 +160,15 @@ class Sweep:
         wait_until(lambda: not self.run("squeue --noheader --array").strip(), 300, f"job {job} does not end")
 
     def require_whole(self):
-        self.run(f"beamcam collect r.*of{PARTS}.nc -o r.nc --force -q")
-        require((self.folder / "r.nc").read_bytes() == (self.folder / "whole.nc").read_bytes(), "other bytes")
+        self.run(f"beamcam collect r.*of{PARTS}.points -o r.csv --force -q")
+        require((self.folder / "r.csv").read_bytes() == (self.folder / "whole.csv").read_bytes(), "other bytes")
 
     def is_made(self):
         self.wait_for(self.submit())
         self.require_whole()
 
     def goes_on_after_a_kill(self):
-        for part in self.folder.glob(f"r.*of{PARTS}.nc"):
+        for part in self.folder.glob(f"r.*of{PARTS}.points"):
             part.unlink()
         job = self.submit()
         killed = self.kill_one()
@@ -185,11 +185,19 @@ class Sweep:
                 number = store.name.split(".")[1].split("of")[0]
                 for process in pathlib.Path("/proc").glob("[0-9]*"):
                     with contextlib.suppress(OSError):
-                        if store.stat().st_size > 1000 and f"SLURM_ARRAY_TASK_ID={number}\0".encode() in \
+                        if store.stat().st_size > 10000 and f"SLURM_ARRAY_TASK_ID={number}\0".encode() in \
                                 (process / "environ").read_bytes() and (process / "comm").read_text() == "beamcam\n":
                             os.kill(int(process.name), signal.SIGKILL)
                             return store.name.removesuffix(".part")
         return None
+
+
+def recipe():
+    """The script in SWEEPS.md, for the scene and the number of parts here."""
+    text = (pathlib.Path(__file__).parents[2] / "scenes/SWEEPS.md").read_text(encoding="utf-8")
+    lines = text[text.index("    #!/bin/sh\n    #SBATCH"):].split("\n\n")[0].split("\n")
+    script = "\n".join(line[4:] for line in lines) + "\n"
+    return script.replace("scenes/bifurcation.json", "s.json").replace("16", str(PARTS))
 
 
 def main():

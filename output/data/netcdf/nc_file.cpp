@@ -9,17 +9,24 @@
 
 namespace beamcam::output {
 
+namespace {
+
+constexpr int kDeflate = 1;  // higher levels take three times as long for a few per cent
+
+// "rad s-1" of "rad/s".
+std::string udunits(const std::string& unit) {
+    if (unit == "rad/s") return "rad s-1";
+    if (unit == "m/s") return "m s-1";
+    return unit;
+}
+
+}  // namespace
+
 std::shared_ptr<NcFile> NcFile::create(const std::filesystem::path& file, const std::filesystem::path& named) {
     auto made = std::make_shared<NcFile>(named);
     errno = 0;
-    made->need_written(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &made->id));
+    made->need(nc_create(file.c_str(), NC_NETCDF4 | NC_CLOBBER, &made->id));
     return made;
-}
-
-std::shared_ptr<NcFile> NcFile::open(const std::filesystem::path& file) {
-    auto found = std::make_shared<NcFile>(file);
-    found->need(nc_open(file.c_str(), NC_NOWRITE, &found->id), "cannot be read");
-    return found;
 }
 
 NcFile::~NcFile() {
@@ -29,46 +36,38 @@ NcFile::~NcFile() {
 void NcFile::close() {
     const int closed = nc_close(id);
     id = -1;
-    need_written(closed);
+    need(closed);
 }
 
-void NcFile::need(int status, const char* what) const {
-    if (status != NC_NOERR) throw IoError(fmt::format("{}: {} ({})", named.string(), what, nc_strerror(status)));
-}
-
-void NcFile::need_written(int status) const {
+void NcFile::need(int status) const {
     if (status == NC_EHDFERR && errno != 0) throw write_error(named, errno);
-    need(status, "cannot be written");
+    if (status != NC_NOERR)
+        throw IoError(fmt::format("{}: cannot be written ({})", named.string(), nc_strerror(status)));
 }
 
-int NcFile::variable(const std::string& name) const {
-    int found = -1;
-    need(nc_inq_varid(id, name.c_str(), &found));
-    return found;
+int NcFile::define(const std::string& name, int type, const std::vector<int>& dimensions, const std::string& unit,
+                   const std::string& meaning) const {
+    int variable = 0;
+    need(nc_def_var(id, name.c_str(), type, static_cast<int>(dimensions.size()), dimensions.data(), &variable));
+    set(variable, "units", udunits(unit));
+    set(variable, "long_name", meaning);
+    return variable;
 }
 
-std::string NcFile::text(int variable, const char* attribute) const {
-    std::size_t size = 0;
-    if (nc_inq_attlen(id, variable, attribute, &size) != NC_NOERR) return "";
-    std::string out(size, '\0');
-    need(nc_get_att_text(id, variable, attribute, out.data()));
-    return out;
+int NcFile::define_filled(const std::string& name, int type, const std::vector<int>& dimensions,
+                          const std::string& unit, const std::string& meaning) const {
+    const int variable = define(name, type, dimensions, unit, meaning), number = kMissingPoint;
+    const signed char byte = kMissingPoint;
+    const void* fill = &kNoNumber;
+    if (type == NC_INT) fill = &number;
+    if (type == NC_BYTE) fill = &byte;
+    need(nc_def_var_fill(id, variable, NC_FILL, fill));
+    need(nc_def_var_deflate(id, variable, 1, 1, kDeflate));
+    return variable;
 }
 
 void NcFile::set(int variable, const char* attribute, const std::string& value) const {
-    need_written(nc_put_att_text(id, variable, attribute, value.size(), value.c_str()));
-}
-
-std::string udunits(const std::string& unit) {
-    if (unit == "rad/s") return "rad s-1";
-    if (unit == "m/s") return "m s-1";
-    return unit;
-}
-
-std::string from_udunits(const std::string& unit) {
-    for (const char* ours : {"rad/s", "m/s"})
-        if (udunits(ours) == unit) return ours;
-    return unit;
+    if (!value.empty()) need(nc_put_att_text(id, variable, attribute, value.size(), value.c_str()));
 }
 
 }  // namespace beamcam::output

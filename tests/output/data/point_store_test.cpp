@@ -14,6 +14,8 @@
 namespace beamcam::output {
 namespace {
 
+PointShape shape(std::uint64_t points) { return {points, 3, 5}; }
+
 StoredPoint point(std::uint64_t index) {
     StoredPoint p;
     p.point = index;
@@ -38,11 +40,11 @@ TEST(PointStore, KeepsPointsOverItsEnd) {
     const Scratch scratch;
     const std::filesystem::path file = scratch / "a.part";
     {
-        PointStore store(file, 5, "sweep");
+        PointStore store(file, shape(5), {"sweep", "about it"});
         for (const std::uint64_t k : {3, 0, 2}) store.add(point(k));
         expect_same(store.read(2), point(2));
     }
-    PointStore store(file, 5, "sweep");
+    PointStore store(file, shape(5), {"sweep", "about it"});
     EXPECT_EQ(store.count(), 3u);
     EXPECT_FALSE(store.has(1));
     EXPECT_EQ(store.numbers(3), 9u);
@@ -56,7 +58,7 @@ TEST(PointStore, KeepsWhatIsWholeWhereverItIsCutOff) {
     const std::filesystem::path file = scratch / "a.part";
     std::vector<std::uintmax_t> sizes;
     {
-        PointStore store(file, 4, "sweep");
+        PointStore store(file, shape(4), {"sweep", "about it"});
         for (std::uint64_t k = 0; k < 4; ++k) {
             sizes.push_back(std::filesystem::file_size(file));
             store.add(point(k));
@@ -64,7 +66,7 @@ TEST(PointStore, KeepsWhatIsWholeWhereverItIsCutOff) {
     }
     for (std::uintmax_t size = std::filesystem::file_size(file) - 1; size > sizes[0]; size -= 5) {
         std::filesystem::resize_file(file, size);
-        PointStore store(file, 4, "sweep");
+        PointStore store(file, shape(4), {"sweep", "about it"});
         std::uint64_t whole = 0;
         while (whole + 1 < sizes.size() && sizes[whole + 1] <= size) ++whole;
         ASSERT_EQ(store.count(), whole) << size;
@@ -80,7 +82,7 @@ TEST(PointStore, DropsADamagedPointAndWhatFollows) {
     const std::filesystem::path file = scratch / "a.part";
     std::uintmax_t second = 0;
     {
-        PointStore store(file, 4, "sweep");
+        PointStore store(file, shape(4), {"sweep", "about it"});
         store.add(point(1));
         second = std::filesystem::file_size(file);
         store.add(point(2));
@@ -89,7 +91,7 @@ TEST(PointStore, DropsADamagedPointAndWhatFollows) {
     damage.seekp(static_cast<std::streamoff>(second) + 90);
     damage.put('\x55');
     damage.close();
-    const PointStore store(file, 4, "sweep");
+    const PointStore store(file, shape(4), {"sweep", "about it"});
     EXPECT_TRUE(store.has(1));
     EXPECT_FALSE(store.has(2));
 }
@@ -97,28 +99,28 @@ TEST(PointStore, DropsADamagedPointAndWhatFollows) {
 TEST(PointStore, ReplacesThePointsOfAnotherSweepOnlyWhenAsked) {
     const Scratch scratch;
     const std::filesystem::path file = scratch / "a.part";
-    PointStore(file, 4, "one").add(point(1));
-    EXPECT_THROW(PointStore(file, 4, "other"), IoError);
-    EXPECT_EQ(PointStore(file, 4, "one").count(), 1u);
-    EXPECT_EQ(PointStore(file, 4, "other", true).count(), 0u);
-    EXPECT_EQ(PointStore(file, 4, "one").count(), 0u);  // none are lost
+    PointStore(file, shape(4), {"one", "about it"}).add(point(1));
+    EXPECT_THROW(PointStore(file, shape(4), {"other", "about it"}), IoError);
+    EXPECT_EQ(PointStore(file, shape(4), {"one", "about it"}).count(), 1u);
+    EXPECT_EQ(PointStore(file, shape(4), {"other", "about it"}, true).count(), 0u);
+    EXPECT_EQ(PointStore(file, shape(4), {"one", "about it"}).count(), 0u);  // none are lost
 }
 
 TEST(PointStore, LeavesAloneAFileThatIsNoStore) {
     const Scratch scratch;
     for (const std::string text : {"a download", "beamcam points of mine", "beamcam points 2\n"}) {
         write_file(scratch / "a.part", text);
-        EXPECT_THROW(PointStore(scratch / "a.part", 4, "sweep"), IoError);
+        EXPECT_THROW(PointStore(scratch / "a.part", shape(4), {"sweep", "about it"}), IoError);
         EXPECT_EQ(read_file(scratch / "a.part"), text);
     }
     // The program was killed while it wrote the head.
     write_file(scratch / "a.part", "beamcam po");
-    EXPECT_EQ(PointStore(scratch / "a.part", 4, "sweep").count(), 0u);
+    EXPECT_EQ(PointStore(scratch / "a.part", shape(4), {"sweep", "about it"}).count(), 0u);
 }
 
 TEST(PointStore, LeavesAFileOnlyIfItHasPoints) {
     const Scratch scratch;
-    { const PointStore store(scratch / "a.part", 4, "sweep"); }
+    { const PointStore store(scratch / "a.part", shape(4), {"sweep", "about it"}); }
     EXPECT_FALSE(std::filesystem::exists(scratch / "a.part"));
 }
 
@@ -131,7 +133,7 @@ TEST(PointStore, KeepsThePointsThatAFullDiskHasRoomFor) {
             const rlimit limit = {room, room};
             setrlimit(RLIMIT_FSIZE, &limit);
             try {
-                PointStore store(scratch / "a.part", 400, "sweep");
+                PointStore store(scratch / "a.part", shape(400), {"sweep", "about it"});
                 for (std::uint64_t k = 0; k < 400; ++k) store.add(point(k));
             } catch (const IoError& full) {
                 return std::string(full.what()).find("a.part: File too large; ") != std::string::npos ? 0 : 1;
@@ -146,7 +148,7 @@ TEST(PointStore, KeepsThePointsThatAFullDiskHasRoomFor) {
 TEST(PointStore, TakesPointsOfManyThreads) {
     const Scratch scratch;
     constexpr std::uint64_t kEach = 200;
-    PointStore store(scratch / "a.part", 4 * kEach, "sweep");
+    PointStore store(scratch / "a.part", shape(4 * kEach), {"sweep", "about it"});
     std::vector<std::thread> threads;
     for (std::uint64_t thread = 0; thread < 4; ++thread)
         threads.emplace_back([&store, thread] {
@@ -159,7 +161,7 @@ TEST(PointStore, TakesPointsOfManyThreads) {
 
 TEST(PointStore, KeepsItsPointsWhenItsNameIsGone) {
     const Scratch scratch;
-    PointStore store(scratch / "a.part", 4, "sweep");
+    PointStore store(scratch / "a.part", shape(4), {"sweep", "about it"});
     store.remove();
     store.add(point(3));
     expect_same(store.read(3), point(3));
@@ -168,8 +170,8 @@ TEST(PointStore, KeepsItsPointsWhenItsNameIsGone) {
 
 TEST(PointStore, IsOfOneProgramAtATime) {
     const Scratch scratch;
-    const PointStore store(scratch / "a.part", 4, "sweep");
-    EXPECT_THROW(PointStore(scratch / "a.part", 4, "sweep"), IoError);
+    const PointStore store(scratch / "a.part", shape(4), {"sweep", "about it"});
+    EXPECT_THROW(PointStore(scratch / "a.part", shape(4), {"sweep", "about it"}), IoError);
 }
 
 }  // namespace

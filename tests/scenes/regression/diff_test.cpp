@@ -116,19 +116,14 @@ TEST(Diff, ComparesTextsOfTables) {
                 HasSubstr("a.csv: table with texts\n  columns        2\n  rows           3\n"));
 }
 
-TEST(Diff, ComparesNetcdfFilesOfTablesAndSweeps) {
+TEST(Diff, NetcdfFilesAreNotRead) {
     const Folder folder;
-    ASSERT_EQ(shell(folder,
-                    "$BEAMCAM init -q --from pressed; for e in nc csv; do "
-                    "$BEAMCAM sweep -q pressed.json --over cam.speed=45:46:3 --keep 5 -o s.$e && "
-                    "$BEAMCAM orbits -q pressed.json --over cam.speed=45:46 -o o.$e || exit 1; done")
-                  .code,
-              0);
-    for (const char* files : {"s.nc s.csv", "o.nc o.csv"}) {
-        const Finished same = shell(folder, std::string("$BEAMCAM diff ") + files);
-        EXPECT_EQ(same.code, 0) << same.out << same.err;
-    }
-    EXPECT_EQ(shell(folder, "$BEAMCAM diff s.nc o.nc").code, 7);
+    folder.write("a.nc", "CDF");
+    folder.write("a.csv", "t\n1\n");
+    const Finished done = shell(folder, "$BEAMCAM diff a.nc a.csv");
+    EXPECT_EQ(done.code, 6);
+    EXPECT_THAT(done.err, HasSubstr("a.nc: NetCDF files are written only; write .npz or .csv, too"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info a.nc").out, HasSubstr("not read: beamcam writes NetCDF files only"));
 }
 
 TEST(Diff, ATableWithAnEmptyTimeIsItself) {

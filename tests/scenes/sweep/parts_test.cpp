@@ -4,8 +4,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <cstring>
+#include <functional>
 #include <map>
+#include <sstream>
 
+#include "output/files/atomic_file.hpp"
 #include "scenes/scene/exit_code.hpp"
 #include "tests/scenes/support.hpp"
 
@@ -38,15 +43,10 @@ TEST(SweepParts, AreNumberedByTheUserOrTheEngine) {
                                          {"SLURM_ARRAY_TASK_STEP", "2"},
                                          {"SLURM_ARRAY_TASK_COUNT", "5"}}),
                    3, 5));
-    EXPECT_TRUE(
-        is(by_variables(
-               "auto",
-               {{"SGE_TASK_ID", "4"}, {"SGE_TASK_FIRST", "1"}, {"SGE_TASK_LAST", "8"}, {"SGE_TASK_STEPSIZE", "1"}}),
-           4, 8));
-    EXPECT_TRUE(is(by_variables("auto/9", {{"PBS_ARRAY_INDEX", "9"}}), 9, 9));
+    EXPECT_TRUE(is(by_variables("auto/9", {{"SLURM_ARRAY_TASK_ID", "9"}}), 9, 9));
     for (const char* text : {"auto", "0/3", "4/3", "x/3", "1", "1/0", "auto/x"})
         EXPECT_THROW(by_variables(text, {}), UsageError) << text;
-    EXPECT_THROW(by_variables("auto", {{"PBS_ARRAY_INDEX", "9"}}), UsageError);
+    EXPECT_THROW(by_variables("auto", {{"SLURM_ARRAY_TASK_ID", "9"}}), UsageError);  // of how many
     EXPECT_THROW(
         by_variables("auto",
                      {{"SLURM_ARRAY_TASK_ID", "2"}, {"SLURM_ARRAY_TASK_MIN", "3"}, {"SLURM_ARRAY_TASK_COUNT", "3"}}),
@@ -57,15 +57,19 @@ TEST(SweepParts, JoinToTheBytesOfTheWhole) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
     for (const char* seed : {"same", "carry-up,same"}) {
-        const std::string sweep = std::string("$BEAMCAM sweep s.json -q --force --seed ") + seed + " -o r.nc";
-        ASSERT_EQ(shell(folder, sweep + " && mv r.nc whole.nc").code, 0);
-        for (const int parts : {1, 2, 5}) {
-            const Finished joined = shell(
-                folder, "for i in $(seq " + std::to_string(parts) + "); do " + sweep + " --shard $i/" +
-                            std::to_string(parts) + " -j2 || exit 1; done; $BEAMCAM collect --force " +
-                            (parts > 1 ? "r.*of" + std::to_string(parts) + ".nc -o r.nc" : "-o r.nc r.nc || true"));
+        const std::string sweep = std::string("$BEAMCAM sweep s.json -q --force --seed ") + seed + " -o ";
+        ASSERT_EQ(shell(folder, sweep + "whole.csv && " + sweep + "whole.npz && " + sweep + "whole.nc").code, 0);
+        for (const int parts : {2, 5}) {
+            const std::string all = std::to_string(parts);
+            const Finished joined = shell(folder, "for i in $(seq " + all + "); do " + sweep + "r.csv --shard $i/" +
+                                                      all + " -j2 || exit 1; done; " +
+                                                      "for e in csv npz nc; do $BEAMCAM collect -q --force r.*of" +
+                                                      all + ".points -o r.$e || exit 1; done");
             ASSERT_EQ(joined.code, 0) << joined.err;
-            EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc")) << parts << " " << seed;
+            for (const char* ending : {"csv", "npz", "nc"})
+                EXPECT_EQ(slurp(folder / (std::string("r.") + ending)),
+                          slurp(folder / (std::string("whole.") + ending)))
+                    << parts << " " << seed << " " << ending;
         }
     }
 }
@@ -73,28 +77,87 @@ TEST(SweepParts, JoinToTheBytesOfTheWhole) {
 TEST(SweepParts, AreRejectedByName) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
-    ASSERT_EQ(shell(folder,
-                    "for i in 1 2 3; do $BEAMCAM sweep s.json -q -o r.nc --shard $i/3; done; cp r.2of3.nc copy.nc; "
-                    "$BEAMCAM sweep s.json -q -o other.nc --keep 13 --shard 2/3; "
-                    "$BEAMCAM sweep s.json -q -o r.nc --shard 1/2; $BEAMCAM sweep s.json -q -o whole.nc")
-                  .code,
-              0);
+    ASSERT_EQ(
+        shell(
+            folder,
+            "for i in 1 2 3; do $BEAMCAM sweep s.json -q -o r.csv --shard $i/3; done; cp r.2of3.points "
+            "copy.points; $BEAMCAM sweep s.json -q -o other.csv --keep 13 --shard 2/3; "
+            "$BEAMCAM sweep s.json -q -o r.csv --shard 1/2; head -c -9 r.2of3.points > cut.points; mkfifo pipe.points")
+            .code,
+        0);
     for (const auto& [parts, words] :
-         {std::pair{"r.1of3.nc r.3of3.nc", "missing: 2"},
-          std::pair{"r.1of3.nc r.2of3.nc copy.nc r.3of3.nc", "copy.nc: the same part as r.2of3.nc"},
-          std::pair{"r.1of3.nc other.2of3.nc r.3of3.nc", "other.2of3.nc: part of another sweep"},
-          std::pair{"r.1of3.nc r.1of2.nc", "r.1of2.nc: one of 2 parts"},
-          std::pair{"whole.nc", "whole.nc: a complete sweep"}, std::pair{"s.json", "s.json"},
-          std::pair{"none.nc", "none.nc"}}) {
-        const Finished done = shell(folder, std::string("$BEAMCAM collect -o x.nc ") + parts);
+         {std::pair{"r.1of3.points r.3of3.points", "missing: 2"},
+          std::pair{"r.1of3.points r.2of3.points copy.points r.3of3.points",
+                    "copy.points: the same part as r.2of3.points"},
+          std::pair{"r.1of3.points other.2of3.points r.3of3.points", "other.2of3.points: part of another sweep"},
+          std::pair{"r.1of3.points r.1of2.points", "r.1of2.points: one of 2 parts"},
+          std::pair{"r.1of3.points cut.points r.3of3.points", "cut.points: this part is damaged or cut off"},
+          std::pair{"pipe.points", "pipe.points: not a part"}, std::pair{"s.json", "s.json: not a part"},
+          std::pair{"none.points", "none.points"}}) {
+        const Finished done = shell(folder, std::string("$BEAMCAM collect -o x.csv ") + parts);
         EXPECT_EQ(done.code, 6) << parts;
         EXPECT_THAT(done.err, HasSubstr(words)) << parts;
-        EXPECT_FALSE(std::filesystem::exists(folder / "x.nc"));
+        EXPECT_FALSE(std::filesystem::exists(folder / "x.csv"));
     }
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o r.nc --shard 2/3").err,
-                HasSubstr("kept r.2of3.nc: up to date"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json -o r.csv --shard 1/2").code, 2);
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json -o r.csv --shard 2/3").err,
+                HasSubstr("kept r.2of3.points: up to date"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM info r.2of3.points").out, HasSubstr("part of a sweep"));
     EXPECT_EQ(shell(folder, "$BEAMCAM sweep s.json --shard 1/2").code, 2);
+}
+
+// A part that somebody else made: its points are of classes, rows and numbers that the sweep does not have.
+TEST(SweepParts, WithImpossiblePointsAreRejected) {
+    const Folder folder;
+    folder.write("s.json", kPartedScene);
+    ASSERT_EQ(shell(folder, "for i in 1 2; do $BEAMCAM sweep s.json -q -o r.csv --shard $i/2; done").code, 0);
+    const output::PointFile own(folder / "r.1of2.points");
+    const SweepGrid grid(*testing::read(kPartedScene).scene);
+    output::PointFile points(folder / "r.1of2.points");
+    points.find_points(shape_of(grid));
+    const std::size_t columns = shape_of(grid).columns;
+    const auto rejected = [&](const std::function<void(output::StoredPoint&)>& change) {
+        output::StoredPoint point = points.read(0);
+        change(point);
+        std::string bytes = output::text_of(own.head()) + output::text_of(point);
+        for (std::uint64_t k = 2; k < grid.points(); k += 2) bytes += output::text_of(points.read(k));
+        output::write_file(folder / "bad.points", bytes);
+        const Finished done = shell(folder, "$BEAMCAM collect -o x.csv --force bad.points r.2of2.points");
+        return done.code == 6 && done.err.find("bad.points: this part is damaged") != std::string::npos;
+    };
+    EXPECT_FALSE(rejected([](output::StoredPoint&) {}));
+    for (const int kind : {100, -1, 1 << 30}) EXPECT_TRUE(rejected([&](auto& point) { point.kind = kind; })) << kind;
+    EXPECT_TRUE(rejected([](auto& point) { point.period = -7; }));
+    EXPECT_TRUE(rejected([](auto& point) { point.point = 1'000'000'000'000; }));
+    EXPECT_TRUE(rejected([&](auto& point) { point.samples.resize(columns + 1); }));
+    // Another sweep than the head says.
+    std::string head = output::text_of({own.head().identity, "{\"part\": \"1/2\"}"});
+    output::write_file(folder / "bad.points", head);
+    EXPECT_EQ(shell(folder, "$BEAMCAM collect -o x.csv --force bad.points r.2of2.points").code, 6);
+}
+
+// What an attacker leaves beside a scene is read as the store of an interrupted sweep; the same attack there only costs
+// the points.
+TEST(SweepParts, WithImpossiblePointsAreComputedAgain) {
+    const Folder folder;
+    folder.write("s.json", kPartedScene);
+    ASSERT_EQ(shell(folder, "$BEAMCAM sweep s.json -q --seed carry-up -o whole.csv").code, 0);
+    Scene scene = *testing::read(kPartedScene).scene;
+    scene.sweep->seeds.kinds = {SeedKind::carry_up};
+    const SweepGrid grid(scene);
+    output::StoredPoint point;
+    for (const std::vector<double>& state :
+         {std::vector<double>{1}, {1, 0, 0, 99, 0, 0, 0}, {1, 0, 0, 0, 0, NAN, 0}, {1, 0, 0, -1e300, 0, 0.5, 0}}) {
+        point.state = state;
+        EXPECT_FALSE(end_of(point));
+    }
+    point.kind = 100;
+    output::write_file(folder / "r.csv.part", output::text_of(head_of(grid, Shard())) + output::text_of(point));
+    const Finished done = shell(folder, "$BEAMCAM sweep s.json -q --force --seed carry-up -o r.csv");
+    EXPECT_EQ(done.code, 0) << done.err;
+    EXPECT_EQ(slurp(folder / "r.csv"), slurp(folder / "whole.csv"));
+    ASSERT_EQ(shell(folder, "rm r.csv; touch victim; ln -s victim r.csv.part").code, 0);
+    EXPECT_NE(shell(folder, "$BEAMCAM sweep s.json -q --seed carry-up -o r.csv").code, 0);
+    EXPECT_EQ(slurp(folder / "victim"), "");
 }
 
 TEST(SweepParts, OfFilmsAreThoseOfAnArrayTaskToo) {
@@ -111,76 +174,80 @@ TEST(SweepParts, OfFilmsAreThoseOfAnArrayTaskToo) {
 TEST(SweepParts, EndWithTheSameBytesAfterTheyWereKilled) {
     const Folder folder;
     folder.write("s.json", kPartedScene);
-    const std::string part = "$BEAMCAM sweep s.json -q --transient 2000 -o r.nc --shard 2/2";
-    ASSERT_EQ(shell(folder, part + " && mv r.2of2.nc whole.nc").code, 0);
-    ASSERT_EQ(shell(folder, part + " --force & pid=$!; while [ ! -s r.2of2.nc.part ]; do :; done; kill -9 $pid; "
+    const std::string part = "$BEAMCAM sweep s.json -q --transient 2000 -o r.csv --shard 2/2";
+    ASSERT_EQ(shell(folder, part + " && mv r.2of2.points whole.points").code, 0);
+    ASSERT_EQ(shell(folder, part + " --force & pid=$!; while [ ! -s r.2of2.points.part ]; do :; done; kill -9 $pid; "
                                    "wait $pid; true")
                   .code,
               0);
     ASSERT_EQ(shell(folder, part).code, 0);
-    EXPECT_EQ(slurp(folder / "r.2of2.nc"), slurp(folder / "whole.nc"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json --transient 2000 -o r.nc --shard 2/2").err,
+    EXPECT_EQ(slurp(folder / "r.2of2.points"), slurp(folder / "whole.points"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM sweep s.json --transient 2000 -o r.csv --shard 2/2").err,
                 HasSubstr("up to date"));
 }
 
-// A sweep whose command needs every kind of quoting: spaces, braces, quotation marks, and a name of a scene with one.
-constexpr const char* kQuoted =
-    "'a scene.json' --set 'contact={\"model\": \"restitution\", \"restitution\": 0.6}' --over cam.speed=40:44:9n";
+// ---- the recipes of SWEEPS.md --------------------------------------------------------------------------
 
-std::string made_by(const char* engine) {
-    return "mkdir bin; ln -s \"$BEAMCAM\" bin/beamcam; PATH=\"$PWD/bin:$PATH\"; $BEAMCAM sweep " +
-           std::string(kQuoted) + " -q -o whole.nc && $BEAMCAM sweep " + kQuoted + " -o r.nc --parts 3 --emit " +
-           engine;
+// The block of code below the line with `name`, of three parts, for the scene s.json.
+std::string recipe(const std::string& name) {
+    std::istringstream lines(slurp(std::filesystem::path(BEAMCAM_TEST_DIR) / "../scenes/SWEEPS.md"));
+    std::string line, text;
+    while (std::getline(lines, line) && line.find("**" + name + "**") == std::string::npos) continue;
+    while (std::getline(lines, line) && !line.starts_with("    ")) continue;
+    for (; line.starts_with("    ") || line.empty(); std::getline(lines, line)) {
+        text += (line.empty() ? "" : line.substr(4)) + "\n";
+        if (!lines) break;
+    }
+    EXPECT_THAT(text, HasSubstr("beamcam")) << name;
+    for (const auto& [word, other] : {std::pair{"scenes/bifurcation.json", "s.json"}, std::pair{"16", "3"}})
+        for (std::size_t at = 0; (at = text.find(word, at)) != std::string::npos;)
+            text.replace(at, std::strlen(word), other);
+    return text;
 }
+constexpr const char* kProgram = "mkdir -p bin; ln -sf \"$BEAMCAM\" bin/beamcam; PATH=\"$PWD/bin:$PATH\"; ";
 
 TEST(SweepParts, AreAnArrayOfSlurm) {  // tests/campaign/slurm.py runs one
     const Folder folder;
-    folder.write("a scene.json", kPartedScene);
-    const std::string script = shell(folder, made_by("slurm")).out;
-    EXPECT_THAT(script, HasSubstr("#SBATCH --array=1-3\n"));
-    EXPECT_THAT(script, HasSubstr("--shard auto"));
+    folder.write("s.json", kPartedScene);
+    folder.write("run.sh", recipe("Slurm"));
+    EXPECT_THAT(slurp(folder / "run.sh"), HasSubstr("#SBATCH --array=1-3\n"));
     // The tasks of the array, one after the other.
-    const Finished done = shell(folder, made_by("slurm") +
-                                            " > run.sh; for i in 1 2 3; do SLURM_ARRAY_TASK_ID=$i "
-                                            "SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_COUNT=3 sh run.sh || exit; done; "
-                                            "$BEAMCAM collect r.*of3.nc -o r.nc");
+    const Finished done =
+        shell(folder, std::string(kProgram) +
+                          "beamcam sweep s.json --seed same -q -o whole.csv; for i in 1 2 3; do "
+                          "SLURM_ARRAY_TASK_ID=$i SLURM_ARRAY_TASK_MIN=1 SLURM_ARRAY_TASK_COUNT=3 sh run.sh || "
+                          "exit; done; beamcam collect r.*of3.points -o r.csv");
     ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+    EXPECT_EQ(slurp(folder / "r.csv"), slurp(folder / "whole.csv"));
 }
 
 TEST(SweepParts, AreMadeByGnuParallel) {
     if (std::system("parallel --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no GNU parallel";
     const Folder folder;
-    folder.write("a scene.json", kPartedScene);
-    const Finished done = shell(folder, made_by("parallel") + " > run.sh && sh run.sh");
+    folder.write("s.json", kPartedScene);
+    folder.write("run.sh", recipe("GNU parallel"));
+    const Finished done =
+        shell(folder, std::string(kProgram) + "sh run.sh && beamcam sweep s.json --seed same -q -o whole.csv");
     ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
-    // Another sweep of the same name: its parts are made again.
-    folder.write("a scene.json", std::string(kPartedScene) + "\n// changed\n");
-    const Finished again = shell(folder,
-                                 "PATH=\"$PWD/bin:$PATH\"; sed 's/40:44/41:45/' run.sh > again.sh && sh again.sh && "
-                                 "beamcam sweep 'a scene.json' -q -o other.nc --over cam.speed=41:45:9n --set "
-                                 "'contact={\"model\": \"restitution\", \"restitution\": 0.6}'");
-    ASSERT_EQ(again.code, 0) << again.err;
-    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "other.nc"));
-    EXPECT_NE(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+    EXPECT_EQ(slurp(folder / "r.csv"), slurp(folder / "whole.csv"));
 }
 
 TEST(SweepParts, AreMadeBySnakemake) {
     SKIP_UNDER_SANITIZERS();
     if (std::system("snakemake --version >/dev/null 2>&1") != 0) GTEST_SKIP() << "no Snakemake";
     const Folder folder;
-    folder.write("a scene.json", kPartedScene);
-    const std::string snakemake = "HOME=\"$PWD\" snakemake --cores 2 --quiet";
-    const Finished done = shell(folder, made_by("snakemake") + " > Snakefile && " + snakemake);
+    folder.write("s.json", kPartedScene);
+    folder.write("Snakefile", recipe("Snakemake"));
+    const std::string snakemake = std::string(kProgram) + "export HOME=\"$PWD\"; snakemake --cores 2 --quiet";
+    const Finished done = shell(folder, snakemake + " && beamcam sweep s.json --seed same -q -o whole.csv");
     ASSERT_EQ(done.code, 0) << done.err;
-    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+    EXPECT_EQ(slurp(folder / "r.csv"), slurp(folder / "whole.csv"));
     // A part that is lost is made again, and nothing else.
-    const Finished again = shell(folder, "PATH=\"$PWD/bin:$PATH\"; rm r.2of3.nc r.nc && touch mark && " + snakemake +
-                                             " && find . -name 'r.*' -newer mark");
+    const Finished again =
+        shell(folder, "rm r.2of3.points r.csv && touch mark && " + snakemake + " && find . -name 'r.*' -newer mark");
     ASSERT_EQ(again.code, 0) << again.err;
-    EXPECT_THAT(again.out, AllOf(HasSubstr("r.2of3.nc"), HasSubstr("r.nc"), Not(HasSubstr("r.1of3.nc"))));
-    EXPECT_EQ(slurp(folder / "r.nc"), slurp(folder / "whole.nc"));
+    EXPECT_THAT(again.out, AllOf(HasSubstr("r.2of3.points"), HasSubstr("r.csv"), Not(HasSubstr("r.1of3.points"))));
+    EXPECT_EQ(slurp(folder / "r.csv"), slurp(folder / "whole.csv"));
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "output/data/tables.hpp"
+#include "output/data/table_reader.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/sweep/make_points.hpp"
 #include "tests/scenes/support.hpp"
@@ -94,7 +94,7 @@ TEST(SweepCommand, DiscardsThePointsOfAnotherSweepOnlyWhenForced) {
     folder.write("s.json", kSweptScene);
     const std::string begun =
         "$BEAMCAM sweep s.json -q --transient 20000 -o a.csv & pid=$!; while [ ! -s a.csv.part ] || "
-        "[ $(stat -c %s a.csv.part) -lt 2000 ]; do :; done; kill -9 $pid; wait $pid; ";
+        "[ $(stat -c %s a.csv.part) -lt 8000 ]; do :; done; kill -9 $pid; wait $pid; ";
     const Finished other = shell(folder, begun + "cp a.csv.part kept; $BEAMCAM sweep s.json -o a.csv");
     EXPECT_EQ(other.code, 6);
     EXPECT_THAT(other.err, HasSubstr("a.csv.part: has points of another sweep"));
@@ -129,19 +129,6 @@ TEST(SweepCommand, LeavesNothingBehindWhenItsTableOnStandardOutputIsKilled) {
           "mkdir tmp; TMPDIR=$PWD/tmp $BEAMCAM sweep s.json -q --transient 200000 > out.csv & pid=$!; sleep 0.3; kill "
           "-9 $pid; wait $pid");
     EXPECT_TRUE(std::filesystem::is_empty(folder / "tmp"));
-}
-
-TEST(SweepCommand, TakesThePointsOfAFinishedFileForItsDiagram) {
-    Folder folder;
-    folder.write("s.json", kSweptScene);
-    const std::string sweep = "$BEAMCAM sweep s.json --seed carry-up,same ";
-    ASSERT_EQ(shell(folder, sweep + "-o a.nc -q && " + sweep + "--diagram fresh.svg -q").code, 0);
-    const Finished drawn = shell(folder, sweep + "-o a.nc --diagram d.svg");
-    EXPECT_THAT(drawn.err, AllOf(HasSubstr("found 62 points of an earlier run"), HasSubstr("kept a.nc: up to date")));
-    EXPECT_EQ(slurp(folder / "d.svg"), slurp(folder / "fresh.svg"));
-    // Not those of another sweep, nor with --force.
-    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg").err, Not(HasSubstr("exist already")));
-    EXPECT_THAT(shell(folder, sweep + "--keep 7 -o a.nc --diagram e.svg --force").err, Not(HasSubstr("exist already")));
 }
 
 TEST(SweepCommand, WritesTheSameNumbersForNumpy) {
@@ -220,6 +207,7 @@ TEST(SweepCommand, TakesRangesListsColumnsAndUnits) {
     EXPECT_THAT(first_column("cam.speed=50,40"), ElementsAre("50", "40"));
     EXPECT_THAT(first_column("cam.speed=@w.csv:w"), ElementsAre("40", "41.5"));
     EXPECT_EQ(first_column("cam.speed=300 rpm").at(0).substr(0, 6), "31.415");
+    EXPECT_EQ(first_column("cam.speed=0:600rpm:3"), first_column("cam.speed=0 rpm:600rpm:300 rpm"));
 }
 
 TEST(SweepCommand, RejectsWithAMessage) {
@@ -252,8 +240,12 @@ TEST(SweepCommand, RejectsWithAMessage) {
           {"--diagram d.pdf --value v_n", 2, "--value v_n: the samples of the sweep have no column \"v_n\""},
           {"--film f.mp4 --value class", 2, "no column \"class\""},
           {"--film f.mp4 --sample apexes --value duration", 2, "no column \"duration\""},
-          {"-o 'a b.nc' --emit slurm", 2, "letters, digits"},
-          {"-o a.nc --emit slurm --shard 1/2", 2, "exclude each other"},
+          {"--over 'cam.speed=100:900:9 rpm'", 2, "some of its numbers have a unit"},
+          {"--over 'cam.speed=100:900 rpm:9'", 2, "some of its numbers have a unit"},
+          {"--over 'cam.speed=100 rpm:900 rpm:0.5'", 2, "some of its numbers have a unit"},
+          {"--over 'cam.speed=300 rpm,400'", 2, "some of its numbers have a unit"},
+          {"-o - --shard 1/2", 2, "name the table of the whole sweep"},
+          {"-o a.csv --shard 1/2 --diagram d.pdf", 2, "collect the parts first"},
           {"--over cam.eccentricity=0:0.2:3n", 3, "sweep at cam.eccentricity = 0.1"},
           {"--over beam.modes=1:2:3n", 3, "whole number"}}) {
         const Finished done = shell(folder, std::string("$BEAMCAM sweep s.json ") + arguments);
