@@ -135,8 +135,7 @@ Node read_json(const fs::path& file) {
 }
 
 MotionVerdict compare_tables(const fs::path& expected, const fs::path& actual, double tolerance, double horizon) {
-    const output::ColumnTable a = output::read_table(expected, output::Texts::kept),
-                              b = output::read_table(actual, output::Texts::kept);
+    const output::ColumnTable a = output::read_table(expected), b = output::read_table(actual);
     const output::TableDifference whole = output::difference(a, b);
     if (whole.identical()) return {};
     std::vector<Finding> findings;
