@@ -8,6 +8,7 @@
 #include <map>
 
 #include "output/data/table_difference.hpp"
+#include "output/data/table_reader.hpp"
 #include "output/files/atomic_file.hpp"
 #include "output/json/tree.hpp"
 #include "sim/base/counted.hpp"
