@@ -6,8 +6,7 @@ namespace beamcam::output {
 struct Work {
     long integrations = 0;  // of equations of motion, except for sweeps; a horizon takes two
     long steps = 0, rhs_evaluations = 0, gap_evaluations = 0;
-    long sweep_points = 0;  // computed
-    long trajectories_from_cache = 0, trajectories_kept = 0;
+    long sweep_points = 0;                                                   // computed
     long font_sets = 0, gl_contexts = 0, encoder_modules = 0, encoders = 0;  // loaded or opened
     long frames_drawn = 0, figures_drawn = 0;
     long mechanisms_lit = 0;   // drawn by OpenGL; a frame whose mechanism is unchanged reuses the last one
@@ -26,8 +25,6 @@ void for_each_count(const Work& w, Visit visit) {
     visit("rhs_evaluations", w.rhs_evaluations);
     visit("gap_evaluations", w.gap_evaluations);
     visit("sweep_points", w.sweep_points);
-    visit("trajectories_from_cache", w.trajectories_from_cache);
-    visit("trajectories_kept", w.trajectories_kept);
     visit("font_sets", w.font_sets);
     visit("gl_contexts", w.gl_contexts);
     visit("encoder_modules", w.encoder_modules);

@@ -38,7 +38,7 @@ void reject_unknown_command(std::span<const char* const> words, const std::deque
     std::vector<std::string> known;
     for (const Command& command : commands) known.push_back(command.name);
     const auto found = std::ranges::find(commands, word, &Command::name);
-    if (found != commands.end()) return reject_unknown_command(words.subspan(1), found->subcommands);
+    if (found != commands.end()) return;
     if (word.ends_with(".json"))
         throw UsageError(fmt::format("there is no command before the scene; write beamcam run {}", word));
     const std::string remedy = absent_command(word);
@@ -144,10 +144,8 @@ void add_command(CLI::App& parent, const Command& command, Parsers& parsers) {
     for (const std::string& example : command.examples) footer += fmt::format("  beamcam {}\n", example);
     if (!command.footer.empty()) footer += fmt::format("{}{}\n", footer.empty() ? "" : "\n", command.footer);
     if (!footer.empty()) app->footer(fmt::format("{}\n{}", footer, exit_code_text()));  // else that of the program
-    if (!command.subcommands.empty()) app->require_subcommand(1);
     parsers.commands.emplace_back(app, &command);
     for (const Parameter& parameter : command.parameters) add_parameter(*app, parameter, parsers);
-    for (const Command& subcommand : command.subcommands) add_command(*app, subcommand, parsers);
 }
 
 int parse_and_run(int argc, const char* const* argv) {

@@ -67,7 +67,6 @@ void add_work(Command& app, Common& common) {
     add_progress(app, common);
     app.flag("--force", common.force,
              "Replace existing files, even those that beamcam did not make, and make files again that are up to date");
-    app.flag("--no-cache", common.no_cache, "Neither read nor store trajectories (see beamcam cache --help)");
     app.flag("-n,--dry-run", common.dry_run, "Print the plan and do nothing");
     app.flag("--json", common.json, "With -n: print the plan as JSON");
 }

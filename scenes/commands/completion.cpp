@@ -139,7 +139,6 @@ Candidates of_command(const Command& command, std::span<const std::string> befor
     }
     if (option) return values_of(*option, word);
     if (word.starts_with('-')) return options_of(command);
-    if (!command.subcommands.empty()) return place == 0 ? names_of(command.subcommands) : Candidates{};
     return places.empty() ? Candidates{} : values_of(*places[std::min(place, places.size() - 1)], word);
 }
 

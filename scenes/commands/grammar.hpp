@@ -63,8 +63,7 @@ struct Command {
     std::vector<std::string> examples;  // arguments after "beamcam", one command line each
     std::string footer;                 // notes after the options
     std::deque<Parameter> parameters;
-    std::deque<Command> subcommands;  // one of them is required if there are any
-    std::function<int()> action;      // returns the exit code
+    std::function<int()> action;  // returns the exit code
 
     // The targets must outlive the parsing.
     void flag(std::string names, bool& target, std::string meaning);
@@ -82,10 +81,6 @@ struct Command {
         return option(names, store, value, meaning).one_of(std::move(allowed));
     }
 
-    template <class Arguments, class Code>
-    BoundCommand<Arguments> subcommand(std::string word, std::string text, Code (*act)(const Arguments&)) {
-        return add_command(subcommands, std::move(word), std::move(text)).bind(act);
-    }
     // `act` returns the exit code, or nothing: then the code is 0.
     template <class Arguments, class Code>
     BoundCommand<Arguments> bind(Code (*act)(const Arguments&)) {
@@ -110,9 +105,6 @@ struct Grammar {
     template <class Arguments, class Code>
     BoundCommand<Arguments> command(std::string name, std::string summary, Code (*act)(const Arguments&)) {
         return add_command(commands, std::move(name), std::move(summary)).bind(act);
-    }
-    Command& command(std::string name, std::string summary) {  // with subcommands
-        return add_command(commands, std::move(name), std::move(summary));
     }
 };
 

@@ -35,21 +35,17 @@ std::string parameter_entry(const Parameter& p) {
     return fmt::format(".TP\n{}\n{}\n", head, escaped_for_roff(help_of(p)));
 }
 
-std::string command_section(const std::string& name, const Command& command) {
-    std::string text = fmt::format(".SS beamcam {}\n{}\n", escaped_for_roff(name), escaped_for_roff(command.summary));
+std::string command_section(const Command& command) {
+    std::string text =
+        fmt::format(".SS beamcam {}\n{}\n", escaped_for_roff(command.name), escaped_for_roff(command.summary));
     for (const Parameter& parameter : command.parameters) text += parameter_entry(parameter);
     for (const std::string& example : command.examples)
         text += fmt::format(".PP\n.RS\nbeamcam {}\n.RE\n", escaped_for_roff(example));
     if (!command.footer.empty()) text += fmt::format(".PP\n{}\n", escaped_for_roff(command.footer));
-    for (const Command& subcommand : command.subcommands)
-        text += command_section(fmt::format("{} {}", name, subcommand.name), subcommand);
     return text;
 }
 
 constexpr const char* kEnvironment = R"(.TP
-\fBBEAMCAM_CACHE_DIR\fR, \fBBEAMCAM_CACHE_SIZE\fR
-Directory of the stored trajectories, and its largest size in MiB (1024)
-.TP
 \fBBEAMCAM_GL\fR
 OpenGL of lit and solid views: osmesa or egl (default: the first that works)
 .TP
@@ -73,7 +69,7 @@ void act(const ManualArguments& args) {
     text += fmt::format(".SH DESCRIPTION\n{}\nEvery key of a scene is explained by \\fBbeamcam keys\\fR.\n",
                         escaped_for_roff(Grammar::kSummary));
     text += ".SH COMMANDS\n";
-    for (const Command& command : args.grammar->commands) text += command_section(command.name, command);
+    for (const Command& command : args.grammar->commands) text += command_section(command);
     text += ".SH EXIT STATUS\n";
     for (const auto& [code, meaning] : kExitCodes) text += fmt::format(".TP\n{}\n{}\n", int(code), meaning);
     text += fmt::format(".SH ENVIRONMENT\n{}.SH EXAMPLES\n{}", kEnvironment, kExamples);

@@ -140,14 +140,10 @@ void act(const PaperArguments& args) {
     PaperWriter writer(args);
     writer.prepare(files_of(args, jobs));
     Progress progress(resolve(options.progress));
-    const std::optional<Cache> cache = open_cache(options.no_cache);
-    MotionStore motions(cache ? &*cache : nullptr, nullptr, progress,
-                        {thread_count(options.threads), options.quiet, options.verbose});
+    MotionStore motions(progress, {thread_count(options.threads), options.quiet, options.verbose});
     prepare(
         jobs,
-        [&](const sim::Problem& problem, const sim::Request& request) {
-            return motions.find_events(problem, request, request.enough ? 0 : request.end_time);
-        },
+        [&](const sim::Problem& problem, const sim::Request& request) { return motions.find_events(problem, request); },
         studies);
     const auto findings = prepare_findings(studies);
     const std::vector<Study> all = studies.take();

@@ -1,6 +1,5 @@
 // `beamcam plan`: a dry run.
 #include "scenes/commands/commands.hpp"
-#include "scenes/motions/fan_out.hpp"
 #include "scenes/sweep/sweep_plan.hpp"
 
 namespace beamcam::scenes {
@@ -18,8 +17,7 @@ int act(const PlanArguments& args) {
     const RunOptions options = run_options(args.common, args.directory);
     print_plans(scenes, options, args.common.json);
     for (const Scene& scene : scenes)
-        if (scene.sweep && !args.common.json)
-            print_text("\n" + sweep_plan(SweepGrid(scene), {}, thread_count(options.threads), false));
+        if (scene.sweep && !args.common.json) print_text("\n" + sweep_plan(SweepGrid(scene), {}, false));
     return code;
 }
 
@@ -28,11 +26,10 @@ int act(const PlanArguments& args) {
 void add_plan(Grammar& grammar) {
     const auto [app, args] =
         grammar.command<PlanArguments>("plan", "Print what `run` would do, what it would skip, and why", act);
-    app.examples = {"plan fall.json", "plan fall.json --force --no-cache"};
+    app.examples = {"plan fall.json", "plan fall.json --force"};
     add_scenes(app, args.scenes, args.common);
     app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");
     app.flag("--force", args.common.force, "Plan as if no output existed");
-    app.flag("--no-cache", args.common.no_cache, "Plan as if the cache were empty");
     add_json(app, args.common);
 }
 

@@ -203,8 +203,7 @@ void act(const SweepArguments& args) {
     RunOptions options = run_options(args.common, "");
     if (args.shard) options.selection = shard_argument(*args.shard);
     if (args.common.dry_run)
-        print_text(sweep_plan(SweepGrid(scene), planned_files(plan(scene, options.selection)),
-                              thread_count(options.threads), args.common.json));
+        print_text(sweep_plan(SweepGrid(scene), planned_files(plan(scene, options.selection)), args.common.json));
     else
         run(scene, options);
 }

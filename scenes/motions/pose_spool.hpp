@@ -1,34 +1,14 @@
-// Poses and trajectories in unnamed temporary files (output/files/spool.hpp), so that memory does not grow with the
-// film.
+// Poses in unnamed temporary files (output/files/spool.hpp), so that memory does not grow with the film.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
-#include <span>
 
 #include "output/files/spool.hpp"
 #include "render/film/film.hpp"
 #include "sim/observe/request.hpp"
-#include "sim/observe/trajectory.hpp"
 
 namespace beamcam::scenes {
-
-// The numbers of a growing trajectory.
-class NumberSpool final : public sim::NumberSource {
-  public:
-    void add(std::span<const double> numbers) {
-        spool_.write(sizeof(double) * size_, std::as_bytes(numbers));
-        size_ += numbers.size();
-    }
-    std::uint64_t size() const override { return size_; }
-    void read(std::uint64_t from, std::span<double> into) const override {
-        spool_.read(sizeof(double) * from, std::as_writable_bytes(into));
-    }
-
-  private:
-    output::Spool spool_;
-    std::uint64_t size_ = 0;
-};
 
 // Poses, stored without loss.
 class PoseSpool final : public render::PoseStore {

@@ -52,7 +52,6 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
 
     DataFile data{output, file, "table", {}};
     data.content = counted(instants.size(), "row") + " of " + counted(columns.size(), "channel");
-    data.numbers = instants.size() * columns.size();
     data.details = object_node({{"rows", instants.size()}, {"channels", channel_names(columns)}});
     const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
     data.table = index;
@@ -78,7 +77,6 @@ void ShapesOutput::plan(Planner& planner, std::size_t output) const {
     poses.push_back({.times = std::move(instants), .stations = stations});
     DataFile data{output, file, "shapes", {}};
     data.content = fmt::format("{} points at {} times", stations, poses.back().times.size());
-    data.numbers = 3 * static_cast<std::size_t>(stations) * poses.back().times.size();
     data.write = [index = poses.size() - 1](const DataSource& from) {
         output::ColumnTable table{{{"t"}, {"x"}, {"v"}}};
         for (const sim::Pose& pose : from.run.poses[index]) {

@@ -87,15 +87,4 @@ void OutputFiles::count_written(const fs::path& file) {
     context_.work.bytes_written += static_cast<long>(fs::file_size(file, ignored));
 }
 
-void OutputFiles::record_cost(const std::vector<std::string>& names, double units, Clock::time_point since,
-                              const std::vector<fs::path>& made) {
-    double bytes = 0;
-    for (const fs::path& file : made) {
-        std::error_code gone;
-        const std::uintmax_t size = fs::file_size(file, gone);
-        if (!gone) bytes += static_cast<double>(size);
-    }
-    context_.history.note(names, units, seconds_since(since), bytes);
-}
-
 }  // namespace beamcam::scenes

@@ -30,9 +30,6 @@ class OutputFiles {
     // Counts and reports a written file.
     void wrote(const std::filesystem::path& file, const std::string& what);
     void count_written(const std::filesystem::path& file);
-    // Adds the cost of these files to the history.
-    void record_cost(const std::vector<std::string>& names, double units, Clock::time_point since,
-                     const std::vector<std::filesystem::path>& made);
 
   private:
     std::vector<std::filesystem::path> files_of(const Plan& plan) const;

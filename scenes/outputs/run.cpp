@@ -10,7 +10,6 @@
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
 #include "scenes/outputs/scene_run.hpp"
-#include "scenes/plan/estimate.hpp"
 #include "scenes/scene/files.hpp"
 
 namespace beamcam::scenes {
@@ -19,10 +18,7 @@ RunContext::RunContext(const RunOptions& run_options)
     : options(run_options),
       progress(resolve(run_options.progress)),
       file_list(run_options.force),
-      cache(open_cache(run_options.no_cache)),
-      history(cache ? History(cache->directory()) : History()),
-      motions(cache_or_null(), &history, progress,
-              {thread_count(run_options.threads), run_options.quiet, run_options.verbose}) {}
+      motions(progress, {thread_count(run_options.threads), run_options.quiet, run_options.verbose}) {}
 
 namespace {
 
@@ -38,15 +34,6 @@ void reject_clashes(std::span<const Scene> scenes) {
             fmt::format("{} of the scene {} and {} of the scene {} are the same file; rename one of them, or run the "
                         "scenes one by one with different -o",
                         later.file, scenes[later.owner].name, earlier.file, scenes[earlier.owner].name));
-}
-
-// Latest time until which any scene needs the motion of this one [s].
-double motion_end(const SceneRun& one, const SceneRuns& all) {
-    double until = 0;
-    for (const auto& other : all)
-        if (other->plan().simulation && other->motion() == one.motion())
-            until = std::max(until, other->plan().simulation->request.end_time);
-    return until;
 }
 
 void warn_of_ignored_gl_settings(const RunContext& context, const SceneRuns& all) {
@@ -76,8 +63,6 @@ void compute_motions(RunContext& context, const SceneRuns& all) {
     context.work.steps = effort.spent.steps;
     context.work.rhs_evaluations = effort.spent.rhs_evaluations;
     context.work.gap_evaluations = effort.spent.gap_evaluations;
-    context.work.trajectories_from_cache = context.motions.from_cache();
-    context.work.trajectories_kept = context.motions.kept();
 }
 
 void report_times_and_work(const RunContext& context) {
@@ -103,12 +88,11 @@ void run(std::span<const Scene> scenes, const RunOptions& options) {
     for (const auto& scene : all) scene->prepare();
     warn_of_ignored_gl_settings(context, all);
     // 2. Integrate each motion once.
-    for (const auto& scene : all) scene->find_events(motion_end(*scene, all));
+    for (const auto& scene : all) scene->find_events();
     compute_motions(context, all);
     for (const auto& scene : all) scene->compute_sweep();
-    // 3. Write the files, and record them and their cost.
+    // 3. Write the files, and record them.
     for (const auto& scene : all) scene->write_outputs();
-    context.history.save();
     // 4. Report.
     if (options.verbose) report_times_and_work(context);
     std::size_t outputs = 0;
@@ -157,7 +141,6 @@ Plan plan_for(const Scene& scene, const RunOptions& options) {
     RunContext context(options);
     Plan made = SceneRun(scene, context).plan();
     add_omitted_text(made, scene);
-    if (context.cache) estimate(made, context.history, thread_count(options.threads));
     return made;
 }
 

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <exception>
-#include <optional>
 #include <utility>
 
 #include "output/data/file_list.hpp"
@@ -24,7 +23,6 @@ struct Times {
 struct RunContext {
     explicit RunContext(const RunOptions& options);
 
-    const Cache* cache_or_null() const { return cache ? &*cache : nullptr; }
     // Prints a message unless the run is quiet.
     template <class... Values>
     void print(fmt::format_string<Values...> text, Values&&... values) const {
@@ -34,8 +32,6 @@ struct RunContext {
     const RunOptions& options;
     Progress progress;
     output::FileList file_list;
-    std::optional<Cache> cache;
-    History history;
     MotionStore motions;
     output::Work work;
     Times times;

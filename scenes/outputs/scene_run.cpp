@@ -17,7 +17,6 @@
 #include "scenes/figures/figure_files.hpp"
 #include "scenes/outputs/film_setup.hpp"
 #include "scenes/outputs/picture_sinks.hpp"
-#include "scenes/plan/estimate.hpp"
 #include "scenes/scene/files.hpp"
 #include "sim/base/counted.hpp"
 
@@ -42,7 +41,7 @@ SceneRun::SceneRun(const Scene& scene, RunContext& context)
     : scene_(scene),
       context_(context),
       up_to_date_(check_up_to_date(scene, context.options.selection, context.options.directory, context.file_list,
-                                   context.cache_or_null(), context.options.force)),
+                                   context.options.force)),
       plan_(scenes::plan(scene, context.options.selection, up_to_date_.existing)),
       files_(scene, up_to_date_.inputs, context),
       motions_(plan_, context.motions) {}
@@ -81,16 +80,13 @@ void SceneRun::check_libraries() {
         }
 }
 
-void SceneRun::find_events(double motion_end) {
+void SceneRun::find_events() {
     if (!plan_.events_until) return;
     const auto start = Clock::now();
     resolve_event_times(
         plan_, scene_,
         [&](const sim::Problem& problem, const sim::Request& request) {
-            return context_.motions.find_events(problem, request,
-                                                &problem == &scene_.problem ? motion_end
-                                                : request.enough            ? 0
-                                                                            : request.end_time);
+            return context_.motions.find_events(problem, request);
         },
         [&](std::size_t output, const std::string& why) { reject(output, why); });
     context_.times.simulate += seconds_since(start);
@@ -158,7 +154,6 @@ void SceneRun::write_data(const DataFile& d) {
         const fs::path file = files_.path_of(d.file);
         const output::Target target = files_.target(file, d.output);
         files_.wrote(file, d.write(source_of(results_.run, &target)));
-        if (d.numbers > 0) files_.record_cost(data_work(d), static_cast<double>(d.numbers), start, {file});
     }
     context_.times.write += seconds_since(start);
 }
@@ -177,7 +172,6 @@ void SceneRun::write_figure(std::size_t figure) {
         output::write_file(files_.target(files_.path_of(file), f.output), bytes);
         files_.wrote(files_.path_of(file), file == how.file ? f.figure : "");
     }
-    files_.record_cost(figure_work(f), 1, start, {files_.path_of(f.file)});
     ++context_.work.figures_drawn;
     ++context_.work.font_sets;
     context_.times.write += seconds_since(start);
@@ -188,7 +182,6 @@ void SceneRun::write_pictures(std::size_t picture) {
     if (p.draw.empty()) return;  // more shards than frames
     stop_if_interrupted();
     warn_of_omissions(p);
-    const auto start = Clock::now();
     render::FilmSetup setup = film_setup(plan_, picture, scene_, results_);
     if (p.kind == Pictures::Kind::page) return write_document(p, render::html_page(setup));
     if (p.kind == Pictures::Kind::model) return write_document(p, render::glb_model(setup));
@@ -215,10 +208,6 @@ void SceneRun::write_pictures(std::size_t picture) {
             p.file, empty, counted(film.frames(), "frame"));
     const auto sink = p.kind == Pictures::Kind::video ? make_video_sink(p, film, to) : make_png_sink(p, to);
     draw(p, film, *sink, context_);
-    constexpr std::size_t kTypical = 10;  // frames; of fewer, the start of drawing and encoding dominates
-    if (p.kind == Pictures::Kind::still || p.draw.size() >= kTypical)
-        files_.record_cost(picture_work(p, thread_count(context_.options.threads)), static_cast<double>(p.draw.size()),
-                           start, files_.files_of(p));
 }
 
 void SceneRun::write_document(const Pictures& p, const std::string& bytes) {

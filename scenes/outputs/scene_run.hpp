@@ -18,12 +18,11 @@ class SceneRun {
     SceneRun(const Scene& scene, RunContext& context);
 
     const Plan& plan() const { return plan_; }
-    const std::string& motion() const { return up_to_date_.motion; }
 
     // Rejects outputs that cannot be written.
     void prepare();
-    // Finds the events on which times of outputs depend. `motion_end`: time until which the motion is needed [s].
-    void find_events(double motion_end);
+    // Finds the events on which times of outputs depend.
+    void find_events();
     void request_motions() { motions_.request_all(); }
     void take_motions() { results_ = motions_.take_results(); }
     // Computes the points of the scene's sweep, if outputs need them.

@@ -30,22 +30,6 @@ bool Plan::needs_encoder() const {
     return std::ranges::any_of(pictures, [](const Pictures& p) { return p.kind == Pictures::Kind::video; });
 }
 
-std::optional<Cost> Plan::cost() const {
-    std::optional<Cost> all;
-    const auto add = [&](const std::optional<Cost>& one, bool bytes) {
-        if (!one) return;
-        if (!all) all.emplace();
-        all->seconds += one->seconds;
-        if (bytes) all->amount += one->amount;
-    };
-    if (simulation) add(simulation->cost, false);
-    for (const Simulation& s : others) add(s.cost, false);
-    for (const Pictures& p : pictures) add(p.cost, true);
-    for (const FigureFile& f : figures) add(f.cost, true);
-    for (const DataFile& d : data) add(d.cost, true);
-    return all;
-}
-
 std::vector<double> Plan::times(const Pictures& p) const {
     const std::vector<double>& all = p.shown.front().request.poses[kFramePoses].times;
     std::vector<double> out;

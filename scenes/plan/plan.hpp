@@ -19,7 +19,6 @@
 #include "output/json/tree.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/studies.hpp"
-#include "scenes/motions/history.hpp"
 #include "scenes/motions/progress.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/scene.hpp"
@@ -37,8 +36,6 @@ struct Selection {
 struct ExistingWork {
     std::map<std::size_t, std::string> finished;   // outputs whose files are up to date, and the files
     std::map<std::size_t, std::set<long>> frames;  // of sequences: numbers of the up-to-date frames
-    bool keeps = false;                            // trajectories are cached
-    std::map<std::string, double> kept_until;      // ends of the cached trajectories, by motion_key [s]
     double until = 0;                              // end of a run for all outputs, up-to-date ones included [s]
 };
 
@@ -51,10 +48,7 @@ struct Simulation {
     std::string until_because = {};  // the output that needs the latest time: "fall.mp4"
     // Events with unknown times at which outputs end: "impact 3, for f.pdf".
     std::vector<std::string> until_events = {};
-    bool horizon = false;     // the reproducible horizon is needed, by further runs
-    bool from_cache = false;  // the cached trajectory is long enough
-    bool keep = false;        // the trajectory goes into the cache
-    std::optional<Cost> cost = {};
+    bool horizon = false;  // the reproducible horizon is needed, by further runs
 
     void simulate_until(double t, const std::string& file);
 };
@@ -86,7 +80,6 @@ struct Pictures : PictureOutput {
     std::string omitted_panels;                 // panels that do not fit: "phase, energy"
     std::vector<sim::Channel> chart_channels;
     std::vector<Study> shown;  // the scene's motion, or those of a comparison
-    std::optional<Cost> cost;
 
     bool makes_poster() const;  // the poster is among the drawn frames
     bool ends_at_event() const { return kind != Kind::still && span.to_event.has_value(); }
@@ -99,7 +92,6 @@ struct FigureFile {
     std::optional<Instant> ends_at = {};  // the event
     std::vector<Study> studies = {};      // the motions that it needs
     FigureMaker make = {};                // draws the figure from their results
-    std::optional<Cost> cost = {};
 };
 
 // The inputs of a data file, and its target.
@@ -121,11 +113,9 @@ struct DataFile {
     std::string part = {};                  // of a sweep: "2/3"; empty: all of it
     std::string content = {};               // for the text of the plan: "1501 rows of 29 channels"
     Node details = object_node();           // for the JSON of the plan
-    std::size_t numbers = 0;                // in the file; 0: few enough to write in no time
     std::optional<std::size_t> table = {};  // index into Request::tables; its rows are saved if the solver fails
     bool holds_events = false;              // those that were found are saved if the solver fails
     bool reports_work = false;              // written last, because it contains the work of all outputs
-    std::optional<Cost> cost = {};
 };
 
 struct Skipped {
@@ -146,7 +136,6 @@ struct Plan {
 
     bool needs_gl() const;                                      // a lit view
     bool needs_encoder() const;                                 // a video
-    std::optional<Cost> cost() const;                           // sum of the known costs; amount: bytes
     std::vector<double> times(const Pictures& pictures) const;  // of its frames; empty while they are unknown
 };
 

@@ -5,12 +5,6 @@
 namespace beamcam::scenes {
 namespace {
 
-void add_cost(Node& stage, const std::optional<Cost>& cost, const char* amount) {
-    if (!cost) return;
-    add(stage, "seconds", cost->seconds);
-    add(stage, amount, cost->amount);
-}
-
 Node file_stage(const char* name, const std::string& file, std::size_t output) {
     return object_node({{"stage", name}, {"file", file}, {"output", output}});
 }
@@ -25,9 +19,6 @@ Node stage_of(const Simulation& simulation) {
     if (!simulation.label.empty()) add(stage, "label", simulation.label);
     if (!simulation.until_events.empty()) add(stage, "until_events", simulation.until_events);
     add(stage, "horizon", simulation.horizon);
-    add(stage, "from_cache", simulation.from_cache);
-    add(stage, "keep", simulation.keep);
-    add_cost(stage, simulation.cost, "steps");
     return stage;
 }
 
@@ -48,7 +39,6 @@ Node stage_of(const Pictures& p, const std::vector<double>& times) {
         if (p.encoding.variable_rate) add(stage, "rate_mode", "variable");
         if (!p.poster_file.empty()) add(stage, "poster", p.poster_file);
     }
-    add_cost(stage, p.cost, "bytes");
     return stage;
 }
 
@@ -62,12 +52,10 @@ Node stages_of(const Plan& plan) {
     for (const FigureFile& f : plan.figures) {
         put(file_stage("figure", f.file, f.output));
         add(stages.items.back(), "figure", f.figure);
-        add_cost(stages.items.back(), f.cost, "bytes");
     }
     for (const DataFile& d : plan.data) {
         put(file_stage(d.stage.c_str(), d.file, d.output));
         for (const Member& detail : d.details.members) add(stages.items.back(), detail.key, detail.value);
-        add_cost(stages.items.back(), d.cost, "bytes");
     }
     return stages;
 }
@@ -76,7 +64,6 @@ Node stages_of(const Plan& plan) {
 
 std::string to_json(const Plan& plan) {
     Node out = object_node({{"stages", stages_of(plan)}});
-    add_cost(out, plan.cost(), "bytes");
     add(out, "skipped", array_node(plan.skipped, [](const Skipped& each) {
             return object_node({{"what", each.what}, {"why", each.why}});
         }));

@@ -46,23 +46,10 @@ std::string about(double value) {
     return fmt::format("{:.10g}", std::round(value / unit) * unit);
 }
 
-// "; about 0.31 s, 5200 steps"; a cached motion needs no steps.
-std::string motion_cost(const Simulation& s) {
-    if (!s.cost) return "";
-    return fmt::format("; about {} s{}", about(s.cost->seconds),
-                       s.from_cache ? "" : fmt::format(", {} steps", about(s.cost->amount)));
-}
-
 std::string size_text(double bytes) {
     return bytes < 1e6   ? about(std::max(1.0, bytes / 1e3)) + " kB"
            : bytes < 1e9 ? about(bytes / 1e6) + " MB"
                          : about(bytes / 1e9) + " GB";
-}
-
-// "; about 12 s, 3.1 MB"
-std::string file_cost(const std::optional<Cost>& cost) {
-    if (!cost) return "";
-    return fmt::format("; about {} s{}", about(cost->seconds), cost->amount > 0 ? ", " + size_text(cost->amount) : "");
 }
 
 std::string simulation_text(const Simulation& simulation) {
@@ -73,10 +60,8 @@ std::string simulation_text(const Simulation& simulation) {
     if (!events.empty()) text += fmt::format("{}until {}", end > 0 ? ", or, if later, " : "", events);
     if (!(end > 0) && events.empty()) text += "the initial state only, without integration";
     if (!simulation.label.empty()) text += fmt::format(" for \"{}\"", simulation.label);
-    if (simulation.from_cache) text += "; from the cache";
-    if (simulation.keep) text += "; added to the cache, unless it is short or too large";
     if (simulation.horizon) text += "; further runs find the reproducible horizon";
-    return text + motion_cost(simulation);
+    return text;
 }
 
 std::string span_text(const Pictures& p, const std::vector<double>& times) {
@@ -116,23 +101,7 @@ std::string picture_text(const Pictures& p, const std::vector<double>& times) {
         text += fmt::format("; one of its frames also as {}", p.poster_file);
     if (const double memory = memory_of(p); memory >= kMuchMemory)
         text += fmt::format("; needs {} of memory for each thread", size_text(memory));
-    return text + file_cost(p.cost);
-}
-
-// What the total does not include: no earlier run did similar work, or its amount depends on events.
-std::vector<std::string> work_without_cost(const Plan& plan) {
-    std::vector<std::string> all;
-    const auto check = [&](const std::optional<Cost>& cost, const std::string& name) {
-        if (!cost) all.push_back(name);
-    };
-    if (plan.simulation) check(plan.simulation->cost, "the motion");
-    for (const Simulation& other : plan.others) check(other.cost, fmt::format("the motion of \"{}\"", other.label));
-    for (const Pictures& p : plan.pictures)
-        check(p.cost, p.times_known ? p.file : p.file + " (at events, which are found first)");
-    for (const FigureFile& f : plan.figures) check(f.cost, f.file);
-    for (const DataFile& d : plan.data)
-        if (d.numbers > 0) check(d.cost, d.file);
-    return all;
+    return text;
 }
 
 }  // namespace
@@ -147,16 +116,8 @@ std::string to_text(const Plan& plan) {
     if (plan.simulation) line("simulate", simulation_text(*plan.simulation));
     for (const Simulation& other : plan.others) line("simulate", simulation_text(other));
     for (const Pictures& p : plan.pictures) line(kind_name(p.kind), picture_text(p, plan.times(p)));
-    for (const FigureFile& f : plan.figures)
-        line("figure", fmt::format("{}: {}{}", f.file, f.figure, file_cost(f.cost)));
-    for (const DataFile& d : plan.data)
-        line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content) + file_cost(d.cost));
-    if (const auto cost = plan.cost()) {
-        const std::vector<std::string> more = work_without_cost(plan);
-        line("total", fmt::format("{}{}, estimated from earlier runs{}", more.empty() ? "" : "more than ",
-                                  file_cost(cost).substr(2),
-                                  more.empty() ? "" : fmt::format("; not known: {}", fmt::join(more, ", "))));
-    }
+    for (const FigureFile& f : plan.figures) line("figure", fmt::format("{}: {}", f.file, f.figure));
+    for (const DataFile& d : plan.data) line(d.stage, d.file + (d.content.empty() ? "" : ": " + d.content));
     text += "skipped\n";
     for (const Skipped& skipped : plan.skipped) text += fmt::format("  {}: {}\n", skipped.what, skipped.why);
     return text;

@@ -5,7 +5,6 @@
 #include <algorithm>
 
 #include "scenes/motions/identity.hpp"
-#include "scenes/motions/motion_store.hpp"
 #include "scenes/plan/output_times.hpp"
 #include "sim/base/counted.hpp"
 #include "sim/observe/recorder_set.hpp"
@@ -94,28 +93,11 @@ Plan Planner::make() {
             std::visit([&](const auto& each) { each.plan(*this, i); }, output);
         }
     }
-    if (needed_) finish_simulation();
-    for (Simulation& other : plan_.others) resolve_cache_use(other);
+    if (needed_) plan_.simulation = std::move(simulation_);
     // In the order of the types.
     std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
     add_skipped_stages();
     return std::move(plan_);
-}
-
-void Planner::finish_simulation() {
-    simulation_.keep = worth_keeping(scene_.problem, simulation_.request);
-    for (const sim::Request& request : study_requests_)
-        simulation_.keep = simulation_.keep || worth_keeping(scene_.problem, request);
-    resolve_cache_use(simulation_);
-    plan_.simulation = std::move(simulation_);
-}
-
-// On entry `keep` is true if the motion is worth caching.
-void Planner::resolve_cache_use(Simulation& simulation) const {
-    const auto kept = existing_.kept_until.find(simulation.key);
-    simulation.from_cache = kept != existing_.kept_until.end() && kept->second >= simulation.request.end_time &&
-                            simulation.until_events.empty();
-    simulation.keep = simulation.keep && existing_.keeps && !simulation.from_cache;
 }
 
 // ---- what outputs need -------------------------------------------------------------------------
@@ -204,7 +186,6 @@ void Planner::add_study(const Study& study, const std::string& file, const std::
     same->simulate_until(end_of(study.request), file);
     if (!label.empty()) same->label = label;
     same->horizon = same->horizon || study.request.horizon;
-    same->keep = same->keep || worth_keeping(study.problem, study.request);
 }
 
 // ---- what is skipped ---------------------------------------------------------------------------
@@ -230,7 +211,6 @@ void Planner::add_skipped_stages() {
     if (end < scene_.end_time && plan_.simulation->until_events.empty())
         skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output needs it");
     if (!scene_.problem.cam) skip("contact", "the scene has no cam");
-    if (plan_.simulation->from_cache) skip("integration", "the motion is in the cache");
     add_unread_channels();
     if (plan_.pictures.empty())
         skip(plan_.figures.empty() ? "pictures, fonts and OpenGL" : "films and OpenGL", "no output is a picture");

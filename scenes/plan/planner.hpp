@@ -37,8 +37,6 @@ class Planner {
     void add(DataFile data) { plan_.data.push_back(std::move(data)); }
 
   private:
-    void finish_simulation();
-    void resolve_cache_use(Simulation& simulation) const;
     void add_study(const Study& study, const std::string& file, const std::optional<Instant>& ends_at,
                    const std::string& label = {});
     void add_requests(const Pictures& p, Study& motion) const;

@@ -23,26 +23,16 @@ class UpToDateCheck {
         found_.inputs.resize(scene.outputs.size());
     }
 
-    UpToDate run(const Cache* cache, bool ignore_files) {
+    UpToDate run(bool ignore_files) {
         const double until = whole_.simulation ? whole_.simulation->request.end_time : 0;
         for (std::size_t i = 0; i < scene_.outputs.size(); ++i)
             if (!is_stdout(file_of(scene_.outputs[i]))) found_.inputs[i] = inputs_key(scene_, i, until, part_of(i));
-        found_.motion = motion_key(scene_.problem);
         found_.existing.until = until;
-        found_.existing.keeps = cache && cache->limit() > 0;
-        if (cache) check_cache(*cache);
         if (!ignore_files) check_files();
         return std::move(found_);
     }
 
   private:
-    void check_cache(const Cache& cache) {
-        std::vector<std::string> motions{found_.motion};
-        for (const Simulation& other : whole_.others) motions.push_back(other.key);
-        for (const std::string& motion : motions)
-            if (const auto until = cache.reach(motion)) found_.existing.kept_until[motion] = *until;
-    }
-
     std::string part_of(std::size_t output) const {
         for (const Pictures& p : whole_.pictures)
             if (p.output == output) return p.part;
@@ -137,17 +127,12 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
 }
 
 UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
-                          output::FileList& file_list, const Cache* cache, bool ignore_files) {
-    return UpToDateCheck(scene, selection, directory, file_list).run(cache, ignore_files);
+                          output::FileList& file_list, bool ignore_files) {
+    return UpToDateCheck(scene, selection, directory, file_list).run(ignore_files);
 }
 
 fs::path place_of(const std::string& directory, const std::string& file) {
     return directory.empty() ? fs::path(file) : fs::path(directory) / file;
-}
-
-std::optional<Cache> open_cache(bool no_cache) {
-    const auto directory = no_cache ? std::nullopt : cache_directory();
-    return directory ? std::optional<Cache>(std::in_place, *directory, cache_limit()) : std::nullopt;
 }
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// Finds the outputs that are up to date and the motions that are in the cache.
+// Finds the outputs that are up to date.
 #pragma once
 
 #include <filesystem>
@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "output/data/file_list.hpp"
-#include "scenes/motions/cache.hpp"
 #include "scenes/plan/plan.hpp"
 
 namespace beamcam::scenes {
@@ -18,17 +17,13 @@ std::string inputs_key(const Scene& scene, std::size_t output, double until, con
 struct UpToDate {
     ExistingWork existing;
     std::vector<std::string> inputs;  // key of each output of the scene; empty for standard output
-    std::string motion;               // key of the motion
 };
 
-// `directory` as in RunOptions. `cache` may be null. `ignore_files`: no file counts as up to date.
+// `directory` as in RunOptions. `ignore_files`: no file counts as up to date.
 UpToDate check_up_to_date(const Scene& scene, const Selection& selection, const std::string& directory,
-                          output::FileList& file_list, const Cache* cache, bool ignore_files);
+                          output::FileList& file_list, bool ignore_files);
 
 // The path of an output's file; with an empty `directory` the name is the path.
 std::filesystem::path place_of(const std::string& directory, const std::string& file);
-
-// The cache of this user; nullopt if there is none, or if `no_cache`.
-std::optional<Cache> open_cache(bool no_cache);
 
 }  // namespace beamcam::scenes

@@ -106,7 +106,6 @@ void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
             motion_.judge(index + 1, shown.compare[index].label + ": ", result.tables.back(), result.impacts,
                           shown.end_time, result.reproducible_until);
         };
-    options.no_cache = true;  // the test runs the present program
     scenes::draw(plan_, test_.entry.scene, callbacks, options);
     if (test_.result.picture) pictures_.conclude();
     update();

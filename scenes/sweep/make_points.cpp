@@ -134,34 +134,6 @@ void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progres
     fan_out(tasks.size(), threads, [&](std::size_t k) { maker.make(grid.task(tasks[k])); });
 }
 
-SweepCost cost_of(const SweepGrid& grid) {
-    constexpr int kMotions = 5;
-    constexpr double kTurns = 6;  // of each, at most
-    SweepCost cost;
-    double motions = 0;
-    for (int i = 0; i < kMotions; ++i) {
-        const std::uint64_t index = (grid.points() - 1) * static_cast<std::uint64_t>(i) / (kMotions - 1);
-        const sim::Problem problem = grid.problem(index);
-        const sim::SampleSpan span = sample_span(problem, grid.sampling());
-        sim::Sampling brief = grid.sampling();
-        brief.transient = {};
-        brief.keep = {std::min(kTurns, static_cast<double>(span.to)), {}};
-        const auto started = Clock::now();
-        try {
-            const sim::SweepPoint point = sim::sweep_point(problem, brief, nullptr, {});
-            const double all = static_cast<double>(span.to) / brief.keep.turns;
-            cost.seconds += point.motion.over_the_top ? seconds_since(started) : all * seconds_since(started);
-            cost.rows +=
-                static_cast<double>(point.motion.samples.size()) * static_cast<double>(span.kept()) / brief.keep.turns;
-            ++motions;
-        } catch (const std::invalid_argument&) {
-            continue;  // a start inside the cam
-        }
-    }
-    const double scale = static_cast<double>(grid.points()) / std::max(motions, 1.0);
-    return {cost.seconds * scale, cost.rows * scale};
-}
-
 output::PointHead head_of(const SweepGrid& grid, const Shard& shard) {
     return {grid.identity(), to_text(object_node({{"part", shard.text()},
                                                   {"program", program_identity()},

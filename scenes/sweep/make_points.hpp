@@ -23,13 +23,6 @@ void make_points(const SweepGrid& grid, const Shard& shard, int threads, Progres
 // state of a beam.
 std::optional<sim::InitialState> end_of(const output::StoredPoint& point);
 
-// The estimated cost of all points, from a few short motions.
-struct SweepCost {
-    double seconds = 0;  // on one thread
-    double rows = 0;     // samples
-};
-SweepCost cost_of(const SweepGrid& grid);
-
 // What the points of a sweep have in common.
 output::PointShape shape_of(const SweepGrid& grid);
 

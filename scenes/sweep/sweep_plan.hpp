@@ -1,4 +1,4 @@
-// The plan of a sweep: points, seconds, bytes.
+// The plan of a sweep: its keys, points and files.
 #pragma once
 
 #include <string>
@@ -12,7 +12,7 @@ struct PlannedFile {
     std::string file, content;
 };
 
-// As text or JSON. `files`: the planned files. Simulates a few short motions to estimate the cost.
-std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& files, int threads, bool json);
+// As text or JSON.
+std::string sweep_plan(const SweepGrid& grid, const std::vector<PlannedFile>& files, bool json);
 
 }  // namespace beamcam::scenes

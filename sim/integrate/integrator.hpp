@@ -18,7 +18,7 @@ namespace beamcam::sim {
 
 class System;
 
-// Kinds of segments that can be stored as numbers and evaluated again (trajectory.hpp).
+// Kinds of segments that can be stored as numbers and evaluated again, by the search for extrema.
 enum class SegmentKind : int { none = 0, rk8 = 1, taylor = 2, exponential = 3 };
 
 // Bounds of magnitudes within a step that may span many periods of vibration.
@@ -108,8 +108,6 @@ class StoredSegment : public Segment {
     // Throws std::invalid_argument when their count is wrong.
     virtual void load(double begin, double end, std::span<const double> numbers) = 0;
 };
-// Throws std::invalid_argument for `none` and unknown kinds.
-std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const System& system);
 std::unique_ptr<StoredSegment> make_stored_rk8(int size);
 std::unique_ptr<StoredSegment> make_stored_taylor(int size);  // of CVODE
 std::unique_ptr<StoredSegment> make_stored_exponential(const System& system);

@@ -55,8 +55,6 @@ inline constexpr double kBesideMiddle = 0.31;    // of a piece: no vibration has
 // Poses are taken within the first steps of a contact: after them a collision is over, and a lasting contact is slow.
 inline constexpr int kContactPoseSteps = 4;
 inline constexpr std::size_t kMostSharedInstants = 4096;  // of a step; poses of so many take 10 MB
-inline constexpr long kRecordsPerPoll = 256;              // of a stored trajectory, between two chances to interrupt it
-inline constexpr std::size_t kWrittenAtOnce = 1 << 16, kReadAtOnce = 1 << 15;  // numbers of a stored trajectory
 
 // ---- chatter ----
 // Model `restitution`: bounces slower than this share of the approach floor are summed in closed form where nothing

@@ -156,6 +156,13 @@ void ExtremaFinder::search_kept(std::vector<Extremum>& extrema) {
     set_phase(phase);
 }
 
+// `kind` is not `none`.
+static std::unique_ptr<StoredSegment> make_stored_segment(SegmentKind kind, const System& system) {
+    if (kind == SegmentKind::rk8) return make_stored_rk8(system.size);
+    if (kind == SegmentKind::taylor) return make_stored_taylor(system.size);
+    return make_stored_exponential(system);
+}
+
 // Channels of a step share the states that they evaluate.
 void ExtremaFinder::search_step(const KeptStep& step, std::span<const Candidate> candidates,
                                 std::vector<Extremum>& extrema) {

@@ -24,8 +24,7 @@ class Recorder {
 
     void begin(const Phase& phase, const std::vector<double>& y);
     void set_phase(const Phase& phase);
-    // `known`: the summary of the interval, if another recorder or an earlier run computed it. The interval is not the
-    // last one then.
+    // `known`: the summary of the interval, if another recorder computed it. The interval is not the last one then.
     void record(const SegmentInterval& s, const SegmentSummary* known = nullptr);
     // Of the interval recorded last.
     const SegmentSummary& summary() const { return summary_; }

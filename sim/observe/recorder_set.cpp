@@ -26,8 +26,10 @@ void RecorderSet::begin(const Phase& phase, const std::vector<double>& y) {
     for (Recorder& r : recorders_) r.begin(phase, y);
 }
 
-const SegmentSummary* RecorderSet::record(const Segment& segment, double from, double to, bool event,
-                                          const StatisticsSource& statistics, const SegmentSummary* known) {
+// The first recorder that takes the whole interval computes the summary for the others.
+void RecorderSet::record(const Segment& segment, double from, double to, bool event,
+                         const StatisticsSource& statistics) {
+    const SegmentSummary* known = nullptr;
     reached_ = to;
     shared_ = {};
     each_unfinished([&](Recorder& r) {
@@ -40,7 +42,6 @@ const SegmentSummary* RecorderSet::record(const Segment& segment, double from, d
             if (!known) known = &r.summary();
         }
     });
-    return known;
 }
 
 void RecorderSet::touch(double t, const double* y, const ContactState& contact) {

@@ -27,10 +27,8 @@ class RecorderSet {
     }
 
     void begin(const Phase& phase, const std::vector<double>& y);
-    // From `from` to `to`, where an event follows or not. `known`: the summary that an earlier run computed. Returns
-    // the summary; null where no recorder takes the whole interval.
-    const SegmentSummary* record(const Segment& segment, double from, double to, bool event,
-                                 const StatisticsSource& statistics, const SegmentSummary* known = nullptr);
+    // From `from` to `to`, where an event follows or not.
+    void record(const Segment& segment, double from, double to, bool event, const StatisticsSource& statistics);
     void touch(double t, const double* y, const ContactState& contact);
     void release(double t, const double* y, const ContactState& contact);
     // After an event, and at the start: the motion goes on from here.

@@ -39,8 +39,7 @@ Run::Run(const Problem& problem, std::span<const Request> requests, const Progre
       dynamics_(problem),
       probe_(dynamics_),
       output_(
-          dynamics_, requests, options.keep, options.observer, [this] { return statistics(); },
-          [this](double t) { report(t); }),
+          dynamics_, requests, options.observer, [this] { return statistics(); }, [this](double t) { report(t); }),
       integrator_(options.around ? options.around(dynamics_, make_integrator(problem.solver, dynamics_))
                                  : make_integrator(problem.solver, dynamics_)),
       touch_search_(probe_, state_, [this](double t) { report(t); }),
@@ -64,7 +63,7 @@ std::vector<Result> Run::integrate() {
         std::vector<Result> partials = output_.fail(state_);
         throw SolverError(explain(failure), state_.t, std::move(partials));
     }
-    return output_.finish(state_);
+    return output_.results();
 }
 
 void Run::start() {

@@ -16,7 +16,6 @@
 namespace beamcam::sim {
 
 struct RunOptions {
-    TrajectoryWriter* keep = nullptr;     // stores the trajectory
     MotionObserver* observer = nullptr;   // follows the motion and may end the run
     const InitialState* start = nullptr;  // initial state; null: that of the problem
     // Wraps the integrator of the problem's solver into another one.

@@ -12,10 +12,10 @@ namespace beamcam::sim {
 namespace {
 
 std::vector<Result> integrate(const Problem& problem, std::span<const Request> requests, const Progress& progress,
-                              TrajectoryWriter* keep, Effort* effort) {
+                              Effort* effort) {
     std::optional<Run> run;
     try {
-        run.emplace(problem, requests, progress, RunOptions{.keep = keep});
+        run.emplace(problem, requests, progress, RunOptions{});
     } catch (const StepFailure& failure) {  // the model itself
         throw SolverError(fmt::format("at the start: {}; use fewer modes", failure.what()), 0, {});
     }
@@ -28,9 +28,7 @@ std::vector<Result> integrate(const Problem& problem, std::span<const Request> r
 // the same method at a tighter tolerance replaces it, as far as that one comes.
 Result comparison_run(const Problem& problem, const Request& angle, const Progress& progress, Effort* effort,
                       Comparison& compared) {
-    const auto run = [&] {
-        return std::move(integrate(compared.problem, {&angle, 1}, progress, nullptr, effort).front());
-    };
+    const auto run = [&] { return std::move(integrate(compared.problem, {&angle, 1}, progress, effort).front()); };
     try {
         return run();
     } catch (const SolverError& error) {
@@ -65,17 +63,16 @@ Result cheap_comparison_run(const Problem& problem, const Request& angle, const 
     return all;
 }
 
-// `motion(requests)` returns the results of the problem itself. A horizon needs one or two additional runs.
-template <class Motion>
-std::vector<Result> with_horizons(const Problem& problem, std::span<const Request> requests, const Progress& progress,
-                                  Effort* effort, Motion&& motion) {
+// A horizon needs one or two additional runs.
+std::vector<Result> integrate_with_horizons(const Problem& problem, std::span<const Request> requests,
+                                            const Progress& progress, Effort* effort) {
     double end = -1;
     for (const Request& request : requests)
         if (request.horizon) end = std::max(end, end_of(request));
-    if (end < 0) return motion(requests);
+    if (end < 0) return integrate(problem, requests, progress, effort);
     std::vector<Request> all(requests.begin(), requests.end());
     all.push_back(horizon_request(problem, end));
-    std::vector<Result> results = motion(all);
+    std::vector<Result> results = integrate(problem, all, progress, effort);
     const Result plain = std::move(results.back());
     results.pop_back();
     const double settled = compared_until(problem, plain, end);
@@ -88,15 +85,6 @@ std::vector<Result> with_horizons(const Problem& problem, std::span<const Reques
     }
     for (std::size_t i = 0; i < requests.size(); ++i)
         if (requests[i].horizon) report_reproducibility(problem, angle, plain, other, compared, results[i]);
-    return results;
-}
-
-template <class Work>
-std::vector<Result> timed(Work&& work) {
-    const auto start = Clock::now();
-    std::vector<Result> results = work();
-    const double seconds = seconds_since(start);
-    for (Result& result : results) result.wall_seconds = seconds;
     return results;
 }
 
@@ -121,31 +109,17 @@ void Effort::add(const Effort& more) {
 }
 
 std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress,
-                             TrajectoryWriter* keep, Effort* effort) {
+                             Effort* effort) {
     require_valid(problem);
-    return timed([&] {
-        return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
-            return integrate(problem, all, progress, keep, effort);
-        });
-    });
+    const auto start = Clock::now();
+    std::vector<Result> results = integrate_with_horizons(problem, requests, progress, effort);
+    const double seconds = seconds_since(start);
+    for (Result& result : results) result.wall_seconds = seconds;
+    return results;
 }
 
 Result simulate(const Problem& problem, const Request& request, const Progress& progress) {
     return std::move(simulate(problem, {&request, 1}, progress).front());
-}
-
-std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
-                           const Progress& progress, Effort* effort) {
-    require_valid(problem);
-    return timed([&] {
-        return with_horizons(problem, requests, progress, effort, [&](std::span<const Request> all) {
-            RecorderSet recorders(System(problem), all, [&](double t) {
-                if (progress && !progress(t)) throw Interrupted();
-            });
-            trajectory.play(problem, recorders);
-            return recorders.results();
-        });
-    });
 }
 
 }  // namespace beamcam::sim

@@ -28,7 +28,7 @@ struct Interrupted : std::runtime_error {
 // Called from time to time with the time reached; if it returns false the run throws Interrupted.
 using Progress = std::function<bool(double t)>;
 
-// The work of one or several calls. A replayed trajectory counts nothing.
+// The work of one or several calls.
 struct Effort {
     long integrations = 0;
     Counters spent;
@@ -36,20 +36,11 @@ struct Effort {
     void add(const Effort& more);
 };
 
-class Trajectory;
-class TrajectoryWriter;
-
 // Throws SolverError, Interrupted; std::invalid_argument if `validate(problem)` returns a fatal issue.
 Result simulate(const Problem& problem, const Request& request, const Progress& progress = {});
 
-// One integration for several requests. Each result has the same bits as with its request alone. `keep` stores the
-// trajectory (trajectory.hpp).
+// One integration for several requests. Each result has the same bits as with its request alone.
 std::vector<Result> simulate(const Problem& problem, std::span<const Request> requests, const Progress& progress = {},
-                             TrajectoryWriter* keep = nullptr, Effort* effort = nullptr);
-
-// The same results, bit by bit, from a stored trajectory. Only the comparison runs of a horizon are integrated. Throws
-// std::invalid_argument if the trajectory is shorter than the requests.
-std::vector<Result> replay(const Problem& problem, const Trajectory& trajectory, std::span<const Request> requests,
-                           const Progress& progress = {}, Effort* effort = nullptr);
+                             Effort* effort = nullptr);
 
 }  // namespace beamcam::sim

@@ -52,14 +52,14 @@ def stages(said):
 
 
 def render(program, file, style, size, frames, preset, crf, fps=60):
-    return [program, "run", os.path.join(HERE, "film.json"), "-o", os.path.dirname(file), "-v", "--force", "--no-cache",
+    return [program, "run", os.path.join(HERE, "film.json"), "-o", os.path.dirname(file), "-v", "--force",
             "--progress", "none",
             "--set", f"time.end={frames / fps}", "--set", f'outputs=[{{"type":"video","file":"{os.path.basename(file)}",'
             f'"size":[{size[0]},{size[1]}],"fps":{fps},"crf":{crf},"preset":"{preset}","view":{{"style":"{style}"}}}}]']
 
 
 def frames_of(program, folder, style, size, frames, fps=60):
-    return [program, "run", os.path.join(HERE, "film.json"), "-o", folder, "-v", "--force", "--no-cache", "--progress", "none",
+    return [program, "run", os.path.join(HERE, "film.json"), "-o", folder, "-v", "--force", "--progress", "none",
             "--set", f"time.end={frames / fps}", "--set", f'outputs=[{{"type":"frames","file":"frame-####.png",'
             f'"size":[{size[0]},{size[1]}],"fps":{fps},"view":{{"style":"{style}"}}}}]']
 

@@ -77,12 +77,11 @@ def pass_an_hour(folder):
 class Campaign:
     def __init__(self, program, root, dice):
         self.program, self.root, self.dice = program, root, dice
-        self.environment = dict(os.environ, BEAMCAM_CACHE_DIR=str(root / "cache"))
         self.counts = collections.Counter()
 
     def start(self, arguments, folder):
         # A shell's background jobs ignore SIGINT, and their children inherit it.
-        return subprocess.Popen([self.program, *map(str, arguments)], cwd=folder, env=self.environment,
+        return subprocess.Popen([self.program, *map(str, arguments)], cwd=folder,
                                 stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True,
                                 preexec_fn=lambda: signal.signal(signal.SIGINT, signal.SIG_DFL))
 

@@ -44,8 +44,8 @@ def run(program, folder, megabytes=None):
     def limit():
         if megabytes:
             resource.setrlimit(resource.RLIMIT_AS, (megabytes << 20, megabytes << 20))
-    return subprocess.run([program, "run", "s.json", "-o", "out", "-q", "--no-cache"], cwd=folder, capture_output=True, text=True,
-                          errors="replace", timeout=LONGEST, env={**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")},
+    return subprocess.run([program, "run", "s.json", "-o", "out", "-q"], cwd=folder, capture_output=True, text=True,
+                          errors="replace", timeout=LONGEST,
                           preexec_fn=limit)
 
 

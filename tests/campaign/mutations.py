@@ -4,7 +4,7 @@
 mutations.py PROGRAM [--count N] [--seed N] [--jobs N] [--keep FOLDER]
 
 The program itself writes the samples: scenes, baselines, CSV and NPZ tables, PNG, PDF and SVG pictures, films in all
-containers, the list of files of an output folder, cached motions. Each run gets a sample with a few mutations: flipped bytes;
+containers, the list of files of an output folder. Each run gets a sample with a few mutations: flipped bytes;
 parts cut, doubled, exchanged, or overwritten with numbers, words and escape sequences. In half of the runs the checksums are
 repaired, so that the code behind them is reached. Every run must end within a minute, with a documented exit code other
 than 1 (bug), without a signal, and without control characters, directional marks and invalid UTF-8 on standard output and
@@ -66,7 +66,6 @@ KINDS = {
     "webp": ("f.webp", [["info", "{f}"]]),
     "segment": ("f.mp4 f.mkv f.webm f.mov", [["concat", "{f}", "{f}", "-o", "joined.{e}", "-q"]]),
     "list of files": (".beamcam.jsonl", [["run", "scene.json", "-q", "-n"], ["info", "t.csv"], ["info", "f.gif", "--json"], ["diff", "t.csv", "t.csv"]]),
-    "cache": (".cache", [["cache"], ["simulate", "other.json", "--impacts", "-"], ["run", "other.json", "-n"]]),
 }
 TEXT = {"scene", "baselines", "csv", "svg", "list of files"}
 
@@ -75,7 +74,7 @@ class Campaign:
         self.program, self.samples, self.seed, self.keep = os.path.abspath(args.program), samples, args.seed, args.keep
 
     def environment(self, folder):
-        return {**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache"), "TERM": "dumb"}
+        return {**os.environ, "TERM": "dumb"}
 
     def run(self, number):
         dice = random.Random(f"{self.seed} {number}")
@@ -87,16 +86,13 @@ class Campaign:
             for sample in self.samples.iterdir():
                 if sample.is_file():
                     os.link(sample, folder / sample.name)
-            shutil.copytree(self.samples / ".cache", folder / ".cache")
             if kind == "baselines":
                 shutil.copytree(self.samples / "b", folder / "b")
             place = folder / name
-            if kind == "cache":
-                place = dice.choice(sorted(p for p in place.rglob("*") if p.is_file()))
             data = mutate(place.read_bytes(), dice, kind in TEXT)
             if dice.random() < 0.5:
                 data = repair_png(data) if place.suffix in {".png", ".apng"} else repair_npz(data) if place.suffix == ".npz" else data
-            if kind not in {"list of files", "cache"}:
+            if kind != "list of files":
                 place = folder / ("x" + place.suffix)
             place.unlink(missing_ok=True)
             place.write_bytes(data)
@@ -127,14 +123,13 @@ class Campaign:
 
 
 def make_samples(program, folder):
-    env = {**os.environ, "BEAMCAM_CACHE_DIR": str(folder / ".cache")}
     (folder / "scene.json").write_text(SCENE, encoding="utf-8")
     (folder / "rich.json").write_text(RICH, encoding="utf-8")
     (folder / "other.json").write_text('{"title": "Other", "time": {"end": 0.1}}', encoding="utf-8")
     (folder / "b.json").write_text(BASELINES, encoding="utf-8")
     for line, codes in ((["run", "scene.json", "-q"], {0}), (["simulate", "other.json", "--impacts", "-", "-q"], {0}),
                         (["test", "b.json", "--update", "still", "other", "-q"], {0, 7})):
-        done = subprocess.run([program, *line], cwd=folder, env=env, capture_output=True, text=True)
+        done = subprocess.run([program, *line], cwd=folder, capture_output=True, text=True)
         if done.returncode not in codes:
             sys.exit(f"making samples, {line}: exit {done.returncode}: {done.stderr}")
 

@@ -77,10 +77,10 @@ inline constexpr const char* kPictureHash =
     "picture_hash() { for f; do ffmpeg -v error -i \"$f\" -sws_flags bicubic+accurate_rnd+full_chroma_int+bitexact "
     "-pix_fmt rgba -f framehash -hash sha256 - | grep -v '^#' | sed \"s|.* ||; s|$|  $f|\"; done; }; ";
 
-// Runs a shell command in a folder; the program is $BEAMCAM, its cache the folder's own.
+// Runs a shell command in a folder; the program is $BEAMCAM.
 inline Finished shell(const Folder& folder, const std::string& command) {
     const std::string line = "cd '" + folder.path().string() +
-                             "' && export BEAMCAM_CACHE_DIR=\"$PWD/.cache\"; BEAMCAM='" BEAMCAM_PROGRAM "'; " +
+                             "' && BEAMCAM='" BEAMCAM_PROGRAM "'; " +
                              kPictureHash + "{ " + command + " ; } >.stdout 2>.stderr </dev/null";
     const int status = std::system(line.c_str());
     Finished finished;

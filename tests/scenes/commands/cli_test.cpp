@@ -103,8 +103,6 @@ TEST(CommandLine, WrongUsageIsTwo) {
     for (const char* arguments : {"",
                                   "run",
                                   "fly s.json",
-                                  "cache",
-                                  "cache list",
                                   "s.json",
                                   "run s.json --what",
                                   "render s.json",
@@ -171,10 +169,8 @@ TEST(CommandLine, WrongUsageIsTwo) {
     EXPECT_THAT(shell(folder, "$BEAMCAM help").err, HasSubstr("unknown command \"help\"; write beamcam --help"));
     EXPECT_THAT(shell(folder, "$BEAMCAM check s.json --emit=slurm").err, HasSubstr("--emit=slurm; it was withdrawn"));
     EXPECT_THAT(shell(folder, "$BEAMCAM keys tip_mass").err, HasSubstr("no key matches tip_mass; a mass at the tip"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM cache list").err,
-                HasSubstr("unknown command \"list\"; the choices are ls, clear"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM cache").err, HasSubstr("(see beamcam cache --help)"));
-    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls --what").err, HasSubstr("(see beamcam cache ls --help)"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls").err, HasSubstr("motions are not stored between runs"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM run s.json --no-cache").err, HasSubstr("motions are not stored between runs"));
     EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 3);  // the scene, .stdout, .stderr
 }
 
@@ -201,8 +197,8 @@ TEST(CommandLine, QuietKeepsStandardOutput) {
     folder.write("a.csv", "t,theta\n0,1\n");
     folder.write("b.csv", "t,theta\n0,2\n");
     folder.write("s.json", R"({"time": {"end": 0.1}})");
-    for (const char* command : {"diff a.csv b.csv", "modes s.json", "check s.json", "plan s.json", "cache ls",
-                                "test b.json", "simulate s.json --channels theta --rate 10"}) {
+    for (const char* command : {"diff a.csv b.csv", "modes s.json", "check s.json", "plan s.json", "test b.json",
+                                "simulate s.json --channels theta --rate 10"}) {
         folder.write("b.json", R"({"entries": {"a": {"scene": {"time": {"end": 0.1}},
   "output": {"type": "trajectory", "rate": 10, "channels": ["theta"]}}}})");
         const Finished loud = shell(folder, fmt::format("$BEAMCAM {}", command)),
@@ -212,16 +208,6 @@ TEST(CommandLine, QuietKeepsStandardOutput) {
         EXPECT_EQ(quiet.code, loud.code) << command;
     }
     EXPECT_THAT(shell(folder, "$BEAMCAM check --help").out, HasSubstr("standard output stays"));
-}
-
-TEST(CommandLine, SaysWhyALongMotionIsNotKept) {
-    const Folder folder;
-    folder.write("s.json", R"({"time": {"end": 40}})");
-    const std::string simulate =
-        "BEAMCAM_CACHE_SIZE=1 BEAMCAM_CACHE_DIR=c $BEAMCAM simulate s.json --trajectory a.csv --force";
-    EXPECT_THAT(shell(folder, simulate).err,
-                HasSubstr("not added to the cache: it is larger than half of the cache of 1 MiB"));
-    EXPECT_EQ(shell(folder, simulate + " -q").err, "");
 }
 
 TEST(CommandLine, ARangeThatCanBeReadInTwoWaysIsExplained) {

@@ -36,7 +36,6 @@ TEST(Completion, BashOffersCommandsOptionsAndValues) {
     EXPECT_EQ(completed(folder, "sweep s.json --over cam.ecc"), "cam.eccentricity=\n");
     EXPECT_EQ(completed(folder, "keys cam.ecc"), "cam.eccentricity\n");
     EXPECT_EQ(completed(folder, "init --from paper/mod"), "paper/models\n");
-    EXPECT_EQ(completed(folder, "cache cl"), "clear\n");
     EXPECT_EQ(completed(folder, "check sce"), "scene.json\n");
 }
 
@@ -47,7 +46,6 @@ TEST(Completion, OffersWhatStandsAtThePlaceOfAnArgument) {
     EXPECT_EQ(completed(folder, "figure --set a=1 sce"), "scene.json\n");  // the option's value is not an argument
     EXPECT_EQ(completed(folder, "figure s.json sce"), "\n");
     EXPECT_EQ(completed(folder, "run s.json -j sce"), "\n");
-    EXPECT_EQ(completed(folder, "cache clear cl"), "\n");
 }
 
 TEST(Completion, EveryShellKnowsEveryCommandAndOption) {

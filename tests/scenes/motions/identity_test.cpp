@@ -1,6 +1,6 @@
-// A cached motion is used for every problem with the same key, a finished file for every scene with the same inputs. So
-// the keys must change with every leaf of a scene that matters, and with no other. The leaves are those of the schema:
-// one that the full scenes lack fails the test.
+// One motion serves every problem with the same key, a finished file every scene with the same inputs. So the keys must
+// change with every leaf of a scene that matters, and with no other. The leaves are those of the schema: one that the
+// full scenes lack fails the test.
 #include "scenes/motions/identity.hpp"
 
 #include <dlfcn.h>

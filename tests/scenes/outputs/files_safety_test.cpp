@@ -14,8 +14,7 @@ using ::testing::HasSubstr;
 
 // A film with a poster, which is finished long before the film is.
 constexpr const char* kFilm =
-    "env --default-signal=INT $BEAMCAM render s.json -o out/f.mp4 --poster 0.01 --size 1280x720 --fps 240 -q -j1 "
-    "--no-cache";
+    "env --default-signal=INT $BEAMCAM render s.json -o out/f.mp4 --poster 0.01 --size 1280x720 --fps 240 -q -j1";
 
 // Ends the run with the signal as soon as the poster is there.
 std::string stopped_at_poster(const std::string& signal) {
@@ -102,7 +101,7 @@ TEST(FileSafety, EachOutputThatCannotBeWrittenIsReportedAndTheOthersAreWritten) 
   {"type": "impacts", "file": "i.csv"},
   {"type": "still", "at": 0.05, "file": "c.png", "size": [1920, 1080], "view": {"style": "flat"}},
   {"type": "still", "at": "impact:9", "file": "never.png", "size": [64, 64], "view": {"style": "flat"}}]})");
-    const Finished finished = shell(folder, "ulimit -f 20; $BEAMCAM run s.json -o out -q --no-cache");
+    const Finished finished = shell(folder, "ulimit -f 20; $BEAMCAM run s.json -o out -q");
     EXPECT_EQ(finished.code, 3);  // of never.png
     for (const char* file : {"s.json:2:3: a.csv: cannot write", "s.json:4:3: c.png: cannot write", "5:3: never.png: "})
         EXPECT_THAT(finished.err, HasSubstr(file));
@@ -154,7 +153,7 @@ TEST(FileSafety, WithoutThreadsAFilmEndsWithAMessageAndIsMadeLater) {
     for (const std::string film : {"f.mp4", "f.mkv", "f.webm --codec av1", "f.mov", "f.gif"}) {
         const Folder folder;
         folder.write("s.json", R"({"time": {"end": 0.2}})");
-        const std::string command = "render s.json --size 96x96 --fps 10 --style flat -q --no-cache -o " + film;
+        const std::string command = "render s.json --size 96x96 --fps 10 --style flat -q -o " + film;
         if (shell(folder, "$BEAMCAM " + command).code == 5) continue;  // without this encoder
         for (const int most : {1, 4}) {
             fs::remove(folder / film.substr(0, film.find(' ')));
@@ -173,8 +172,8 @@ TEST(FileSafety, WithoutThreadsAFilmEndsWithAMessageAndIsMadeLater) {
 // Pango may search for fonts in threads, and GLib ends the process when it cannot start one.
 TEST(FileSafety, WithoutThreadsAPictureIsMadeOrEndsWithAMessage) {
     if (!another_user_can_run()) GTEST_SKIP() << kNoOtherUser;
-    for (const char* output : {"render s.json -o s.png --at 0 --size 96x96 --style flat -q --no-cache",
-                               "figure s.json angle -o s.pdf -q --no-cache"})
+    for (const char* output :
+         {"render s.json -o s.png --at 0 --size 96x96 --style flat -q", "figure s.json angle -o s.pdf -q"})
         for (const int most : {1, 2, 3, 4}) {
             const Folder folder;
             folder.write("s.json", R"({"time": {"end": 0.1}})");
@@ -191,8 +190,7 @@ TEST(GlSafety, WithoutThreadsALitFilmIsMadeOrEndsWithAMessage) {
     for (int most = 1; most < 14; most += 2) {
         const Folder folder;
         folder.write("s.json", R"({"time": {"end": 0.1}})");
-        const Finished run =
-            with_threads(folder, most, "render s.json -o s.mkv --size 96x96 --fps 10 --style lit -q --no-cache");
+        const Finished run = with_threads(folder, most, "render s.json -o s.mkv --size 96x96 --fps 10 --style lit -q");
         if (run.code == 0) continue;
         EXPECT_EQ(run.code, 6) << most << run.err;
         EXPECT_THAT(run.err, HasSubstr("no thread can be started"));
@@ -204,7 +202,7 @@ TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
     const std::pair<const char*, const char*> cases[] = {
         {"mkdir -p out/t.csv", "out/t.csv is a directory"},
         {"mkdir -p out/.beamcam.jsonl", "out/.beamcam.jsonl"},
-        {"'\"$BEAMCAM\"' run s.json -o out -q --no-cache; touch -d 2001-01-01 out/t.csv; chmod 0 out/t.csv",
+        {"'\"$BEAMCAM\"' run s.json -o out -q; touch -d 2001-01-01 out/t.csv; chmod 0 out/t.csv",
          "out/t.csv: Permission denied"},
         {"mkdir out; touch out/.beamcam.jsonl; chmod 0 out/.beamcam.jsonl; touch out/t.csv",
          "out/.beamcam.jsonl: Permission denied"},
@@ -221,7 +219,7 @@ TEST(FileSafety, ErrorsOfTheFileSystemAreToldWithPathAndCause) {
                   "chmod 777 .; run() { if [ $(id -u) = 0 ]; then setpriv --reuid 65534 --clear-groups \"$@\"; "
                   "else \"$@\"; fi; }; run sh -c '" +
                       std::string("umask 0; ") + setting +
-                      "' 2>/dev/null; run $BEAMCAM run s.json -o out -q --no-cache; c=$?; chmod -R u+rwx out; exit $c");
+                      "' 2>/dev/null; run $BEAMCAM run s.json -o out -q; c=$?; chmod -R u+rwx out; exit $c");
         EXPECT_EQ(finished.code, 6) << setting << finished.err;
         EXPECT_THAT(finished.err, HasSubstr(message)) << setting;
     }

@@ -648,7 +648,7 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
                      std::string(R"({"time": {"end": 4}, "outputs": [{"type": "still", "at": 4, "file": "s.png",
             "size": [640, 360], "layout": "theta", "view": {"style": "flat"})") +
                          keys + "}]}");
-        return shell(folder, "$BEAMCAM run s.json --force --no-cache -v").err;
+        return shell(folder, "$BEAMCAM run s.json --force -v").err;
     };
     const auto digest = [&] { return shell(folder, "picture_hash s.png | cut -c1-64").out; };
     EXPECT_THAT(still(""), HasSubstr(" integrations=1 "));

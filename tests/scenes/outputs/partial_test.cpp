@@ -14,7 +14,7 @@ TEST(Partial, TableHasTheRowsThatWereReached) {
     const Finished run =
         shell(folder,
               "echo '{\"cam\": {\"radius\": 1e-6, \"eccentricity\": 0}, \"time\": {\"end\": 0.5}}' > s.json;"
-              "$BEAMCAM simulate s.json --no-cache --rate 100 --trajectory motion.csv");
+              "$BEAMCAM simulate s.json --rate 100 --trajectory motion.csv");
     EXPECT_EQ(run.code, 4);
     EXPECT_THAT(run.err, ::testing::HasSubstr("at t = 0.3699955"));
     EXPECT_FALSE(std::filesystem::exists(folder / "motion.csv"));
@@ -29,7 +29,7 @@ TEST(Partial, ImpactsAreThoseThatWereFound) {
     folder.write("s.json", R"({"beam": {"model": "rigid"}, "hub": {"drive": {"type": "prescribed", "law": "constant",
         "speed": -1}}, "initial": {"angle": 1}, "time": {"end": 2}})");
     for (const std::string ending : {".json", ".csv"}) {
-        const Finished run = shell(folder, "$BEAMCAM simulate s.json --no-cache --impacts i" + ending);
+        const Finished run = shell(folder, "$BEAMCAM simulate s.json --impacts i" + ending);
         EXPECT_EQ(run.code, 4);
         EXPECT_THAT(run.err, ::testing::HasSubstr("wrote i.partial" + ending));
         EXPECT_FALSE(std::filesystem::exists(folder / ("i" + ending)));

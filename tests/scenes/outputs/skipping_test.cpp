@@ -57,7 +57,6 @@ constexpr const char* kStill =
     R"({"type": "still", "file": "s.png", "at": 0.29, "size": [320, 180], "view": {"style": "flat"}})";
 
 std::string scene(const std::string& outputs, const std::string& physics = "") {
-    // A method of many steps, so that the motion is worth keeping.
     return "{" + physics + "\"solver\": {\"method\": \"rk8\"}, \"time\": {\"end\": 0.3}, \"outputs\": [" + outputs +
            "]}";
 }
@@ -86,7 +85,6 @@ TEST(Skipping, TheSummaryCarriesTheWork) {
     EXPECT_THAT(run.out, HasSubstr("\"work\": {"));
     EXPECT_THAT(run.out, HasSubstr("\"integrations\": 1"));
     EXPECT_THAT(run.out, HasSubstr(fmt::format("\"rhs_evaluations\": {}", count(run, "rhs_evaluations"))));
-    EXPECT_EQ(count(run, "trajectories_kept"), 0);  // extremes and events alone are not worth storing it
     EXPECT_EQ(count(shell(folder, "$BEAMCAM simulate s.json --summary - --horizon -v"), "integrations"), 3);
 }
 
@@ -132,7 +130,7 @@ TEST(Skipping, ASecondRunLeavesEverythingAsItIs) {
     EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json"), "files_written"), 4);
     const auto before = stamp(folder / "t.csv");
     const Finished again = shell(folder, "$BEAMCAM run -v s.json");
-    for (const char* what : {"integrations", "trajectories_from_cache", "frames_drawn", "files_written", "font_sets"})
+    for (const char* what : {"integrations", "frames_drawn", "files_written", "font_sets"})
         EXPECT_EQ(count(again, what), 0) << what;
     EXPECT_EQ(count(again, "files_left"), 4);
     EXPECT_THAT(again.err, HasSubstr("kept ./t.csv: up to date"));
@@ -144,56 +142,21 @@ TEST(Skipping, ASecondRunLeavesEverythingAsItIs) {
     EXPECT_EQ(shell(folder, "$BEAMCAM run s.json").code, 6);
 }
 
-TEST(Skipping, OneChangedOutputIsMadeAloneAndSimulatesNothing) {
+TEST(Skipping, OneChangedOutputIsMadeAlone) {
     const Folder folder;
     folder.write("s.json", scene(std::string(kSeveral) + kStill));
     shell(folder, "$BEAMCAM run s.json");
     const Finished dark = shell(folder, "$BEAMCAM run -v s.json --set outputs.3.theme=dark");
-    EXPECT_EQ(count(dark, "integrations"), 0);
-    EXPECT_EQ(count(dark, "trajectories_from_cache"), 1);
+    EXPECT_EQ(count(dark, "integrations"), 1);
     EXPECT_EQ(count(dark, "frames_drawn"), 1);
     EXPECT_EQ(count(dark, "files_left"), 3);
-    // The same picture as without any cache.
-    shell(folder, "$BEAMCAM run -q --no-cache -o fresh s.json --set outputs.3.theme=dark");
+    // The same picture as in a run of all outputs.
+    shell(folder, "$BEAMCAM run -q -o fresh s.json --set outputs.3.theme=dark");
     EXPECT_EQ(slurp(folder / "s.png"), slurp(folder / "fresh/s.png"));
     EXPECT_EQ(slurp(folder / "t.csv"), slurp(folder / "fresh/t.csv"));
     // The title is on the picture, not in the data.
     const Finished title = shell(folder, "$BEAMCAM run -v s.json --set outputs.3.theme=dark --set title=x");
     EXPECT_EQ(count(title, "files_left"), 3);
-    EXPECT_EQ(count(title, "integrations"), 0);
-}
-
-TEST(Skipping, WhatIsOnlyDrawnDoesNotChangeTheMotion) {
-    const Folder folder;
-    folder.write("s.json", scene(kStill));
-    shell(folder, "$BEAMCAM run s.json");
-    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set beam.depth=0.05"), "integrations"), 0);
-    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set beam.basis=hub-beam"), "integrations"), 0);
-    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set beam.modes=3"), "integrations"), 1);
-    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json --set solver.rtol=2e-8"), "integrations"), 1);
-}
-
-TEST(Skipping, ALongerMotionServesAShorterAndReplacesIt) {
-    const Folder folder;
-    folder.write("s.json", R"({"solver": {"method": "rk8"}})");
-    const auto run = [&](const char* times) {
-        return shell(folder, fmt::format("$BEAMCAM simulate s.json -v --channels theta,gap --times {}", times));
-    };
-    EXPECT_EQ(count(run("0.29"), "trajectories_kept"), 1);
-    const Finished longer = run("0.1,0.285,0.4");
-    EXPECT_EQ(count(longer, "integrations"), 1);
-    EXPECT_EQ(count(longer, "trajectories_kept"), 1);
-    for (const char* times : {"0.285", "0.277", "0.4", "0.399999"}) {
-        const Finished kept = run(times);
-        EXPECT_EQ(count(kept, "integrations"), 0) << times;
-        EXPECT_EQ(
-            kept.out,
-            shell(folder, fmt::format("$BEAMCAM simulate s.json --no-cache --channels theta,gap --times {}", times))
-                .out);
-    }
-    EXPECT_THAT(shell(folder, "$BEAMCAM cache ls").out, HasSubstr("0.4 s"));
-    EXPECT_EQ(shell(folder, "$BEAMCAM cache clear").code, 0);
-    EXPECT_EQ(count(run("0.285"), "integrations"), 1);
 }
 
 TEST(Skipping, ScenesOfOneMotionAreSimulatedOnce) {
@@ -201,26 +164,27 @@ TEST(Skipping, ScenesOfOneMotionAreSimulatedOnce) {
     folder.write("a.json", scene(R"({"type": "trajectory", "file": "a.csv"})"));
     folder.write("b.json", scene(R"({"type": "trajectory", "file": "b.csv", "times": [0.2]})"));
     folder.write("c.json", scene(R"({"type": "trajectory", "file": "c.csv"})", R"("cam": {"speed": 2}, )"));
-    const Finished all = shell(folder, "$BEAMCAM run -v --no-cache a.json b.json c.json");
+    const Finished all = shell(folder, "$BEAMCAM run -v a.json b.json c.json");
     EXPECT_EQ(count(all, "integrations"), 2);
     EXPECT_EQ(count(all, "files_written"), 3);
     const std::string before = slurp(folder / "b.csv");
-    shell(folder, "$BEAMCAM run -q --no-cache -o alone b.json");
+    shell(folder, "$BEAMCAM run -q -o alone b.json");
     EXPECT_EQ(before, slurp(folder / "alone/b.csv"));
     // One of three changed.
-    const Finished one = shell(folder, "sed -i 's/0.2/0.25/' b.json; $BEAMCAM run -v --no-cache a.json b.json c.json");
+    const Finished one = shell(folder, "sed -i 's/0.2/0.25/' b.json; $BEAMCAM run -v a.json b.json c.json");
     EXPECT_EQ(count(one, "integrations"), 1);
     EXPECT_EQ(count(one, "files_written"), 1);
     EXPECT_EQ(count(one, "files_left"), 2);
 }
 
-TEST(Skipping, AFilmThatSlowsDownAroundImpactsIntegratesOnce) {
+// The first run finds the impacts, the second serves all outputs.
+TEST(Skipping, AFilmThatSlowsDownAroundImpactsIntegratesTwice) {
     const Folder folder;
     folder.write("s.json", scene(R"({"type": "frames", "file": "f-##.png", "size": [160, 90], "fps": 60, "from": 0.25,
         "speed": {"around": "impacts", "factor": 0.5, "ease": "5 ms"}, "view": {"style": "flat"}},
         {"type": "trajectory", "file": "t.csv", "times": [0.35]})"));
-    const Finished run = shell(folder, "$BEAMCAM run -v --no-cache s.json");
-    EXPECT_EQ(count(run, "integrations"), 1);
+    const Finished run = shell(folder, "$BEAMCAM run -v s.json");
+    EXPECT_EQ(count(run, "integrations"), 2);
     EXPECT_GT(count(run, "frames_drawn"), 1);
 }
 
@@ -231,7 +195,7 @@ TEST(Skipping, PicturesThatCompareTheSameMotionsIntegrateEachOnce) {
     folder.write("s.json", scene(R"({"type": "still", "file": "a.png", "at": 0.29, )" + compare +
                                  R"(, {"type": "still", "file": "b.png", "at": 0.1, )" + compare +
                                  R"(, {"type": "trajectory", "file": "t.csv"})"));
-    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v --no-cache s.json"), "integrations"), 2);
+    EXPECT_EQ(count(shell(folder, "$BEAMCAM run -v s.json"), "integrations"), 2);
 }
 
 // ---- figures ---------------------------------------------------------------------------------------
@@ -252,8 +216,6 @@ TEST(Skipping, FiguresShareOneMotionAndFinishedOnesAreLeftAlone) {
     EXPECT_EQ(count(again, "integrations"), 0);
     EXPECT_EQ(count(again, "font_sets"), 0);
     const Finished chinese = shell(folder, "$BEAMCAM run -v s.json --set outputs.0.lang=zh");
-    EXPECT_EQ(count(chinese, "integrations"), 0);
-    EXPECT_EQ(count(chinese, "trajectories_from_cache"), 1);
     EXPECT_EQ(count(chinese, "figures_drawn"), 1);
     EXPECT_EQ(count(chinese, "files_left"), 1);
     // The instant that a document carries is one of its inputs.
@@ -276,7 +238,7 @@ TEST(Skipping, AFigureSeesNothingOfWhatOtherOutputsLookAt) {
     folder.write("a.json", scene(kFigures));
     folder.write("b.json", scene(std::string(kFigures) + R"(, {"type": "summary", "file": "s.json"},
         {"type": "trajectory", "file": "t.csv", "times": [0.5]})"));
-    shell(folder, "$BEAMCAM run -q --no-cache a.json -o a; $BEAMCAM run -q --no-cache b.json -o b");
+    shell(folder, "$BEAMCAM run -q a.json -o a; $BEAMCAM run -q b.json -o b");
     EXPECT_EQ(pixels(folder / "a/p.png"), pixels(folder / "b/p.png"));
     const auto without_scene = [&](const char* file) {
         return shell(folder, fmt::format("sed 's/<metadata.*//; /beamcam-scene/d' {}", file)).out;
@@ -337,7 +299,7 @@ TEST(Skipping, PartsHaveThePixelsOfTheWhole) {
     folder.write("s.json", scene(std::string(kFrames) + ", " + kStill));
     shell(folder, "$BEAMCAM run -q s.json -o whole");
     for (const char* shard : {"3/3", "1/3", "2/3"}) {
-        const Finished run = shell(folder, fmt::format("$BEAMCAM run -v s.json -o parts --no-cache --shard {}", shard));
+        const Finished run = shell(folder, fmt::format("$BEAMCAM run -v s.json -o parts --shard {}", shard));
         EXPECT_LE(count(run, "frames_drawn"), 4) << shard;
     }
     EXPECT_EQ(shell(folder, "cd whole && for f in *.png; do cmp $f ../parts/$f || exit 1; done").code, 0);
@@ -461,46 +423,6 @@ TEST(Skipping, WhatMakesNoFilmIsRefusedInWords) {
     EXPECT_THAT(refusal("absent.mp4"), HasSubstr("cannot read absent.mp4"));
     EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mp4 -o f.1of2.mp4").code, 2);
     EXPECT_EQ(shell(folder, "$BEAMCAM concat f.1of2.mp4 -o j.avi").code, 2);
-}
-
-// ---- whatever is wrong with the cache ------------------------------------------------------------
-
-class BadCache : public ::testing::TestWithParam<const char*> {};
-
-TEST_P(BadCache, GivesTheRightResultsAtWorstSlower) {
-    const Folder folder;
-    folder.write("s.json", R"({"solver": {"method": "rk8"}})");
-    const std::string command =
-        "$BEAMCAM simulate s.json --channels theta,gap,contact_force --rate 200 --set time.end=0.3";
-    const Finished right = shell(folder, command);
-    EXPECT_EQ(right.code, 0) << right.err;
-    const Finished bad =
-        shell(folder, std::string("f=$(echo .cache/*.trajectory); ") + GetParam() + "; " + command + " -v");
-    EXPECT_EQ(bad.code, 0) << bad.err;
-    EXPECT_EQ(bad.out, right.out);
-    EXPECT_EQ(count(bad, "integrations"), 1);
-    EXPECT_EQ(shell(folder, "$BEAMCAM cache ls").code, 0);
-}
-
-INSTANTIATE_TEST_SUITE_P(
-    Of, BadCache,
-    ::testing::Values("truncate -s 1000 $f", "truncate -s -8 $f", "truncate -s 0 $f", "echo hello > $f",
-                      "rm $f; mkdir $f", "printf X | dd of=$f bs=1 seek=5000 conv=notrunc 2>/dev/null",
-                      "printf XXXXXXXX | dd of=$f bs=1 seek=$(($(stat -c %s $f) - 20)) conv=notrunc 2>/dev/null",
-                      "mv $f .cache/$(printf %064d 7).trajectory", "rm -r .cache; touch .cache",
-                      "export BEAMCAM_CACHE_DIR=/dev/null/no", "export BEAMCAM_CACHE_DIR=/proc/no",
-                      "export BEAMCAM_CACHE_SIZE=0; rm $f", "rm $f; ln -s /dev/full $f",
-                      "rm $f; trap '' XFSZ; ulimit -f 40", "unset BEAMCAM_CACHE_DIR XDG_CACHE_HOME HOME"));
-
-TEST(Skipping, ACacheFromTheFutureStillServes) {
-    const Folder folder;
-    folder.write("s.json", R"({"solver": {"method": "rk8"}})");
-    const std::string command = "$BEAMCAM simulate s.json -v --channels theta --times 0.3";
-    const Finished right = shell(folder, command);
-    EXPECT_EQ(count(right, "trajectories_kept"), 1);
-    const Finished later = shell(folder, "touch -d '2 years' .cache/*; " + command);  // the clock was set back
-    EXPECT_EQ(later.out, right.out);
-    EXPECT_EQ(count(later, "integrations"), 0);
 }
 
 }  // namespace

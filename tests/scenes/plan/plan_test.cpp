@@ -246,36 +246,6 @@ std::string text_with(const ExistingWork& existing, const Selection& selection =
     return to_text(plan(scene, selection, existing));
 }
 
-TEST(PlanText, AMotionThatTwoPicturesCompareIsSimulatedOnceAndMayBeCached) {
-    const Scene scene = scene_of(R"({"outputs": [
-        {"type": "still", "file": "a.png", "at": 0.3, "view": {"style": "flat"},
-         "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]},
-        {"type": "still", "file": "b.png", "at": 0.4, "view": {"style": "flat"},
-         "compare": [{"label": "slow"}, {"label": "fast", "set": {"cam.speed": 5}}]}]})");
-    ExistingWork existing;
-    existing.keeps = true;
-    existing.kept_until[motion_key(scene.problem)] = 0.4;
-    const Plan p = plan(scene, {}, existing);
-    EXPECT_FALSE(p.simulation);
-    ASSERT_EQ(p.others.size(), 2u);
-    const std::string text = to_text(p), how = "until 0.4 s, needed by b.png for ";
-    EXPECT_THAT(text, HasSubstr(how + "\"slow\"; from the cache\n"));
-    EXPECT_THAT(text, HasSubstr(how + "\"fast\"; added to the cache, unless it is short or too large\n"));
-}
-
-TEST(PlanText, AKeptMotionCostsTimeAndNoSteps) {
-    ExistingWork existing;
-    existing.kept_until[motion_key(scene_of(kTwo).problem)] = 0.6;
-    Plan p = plan(scene_of(kTwo), {}, existing);
-    p.simulation->cost = Cost{0.65, 14000};
-    EXPECT_THAT(to_text(p), HasSubstr("; from the cache; about 0.65 s\n"));
-    EXPECT_THAT(
-        to_text(p),
-        HasSubstr("total     more than about 0.65 s, estimated from earlier runs; not known: f-##.png, t.csv\n"));
-    p.simulation->from_cache = false;
-    EXPECT_THAT(to_text(p), HasSubstr("; about 0.65 s, 14000 steps\n"));
-}
-
 TEST(PlanText, WhatIsThereIsLeftAndAKeptMotionIsRead) {
     ExistingWork existing;
     existing.finished = {{1, "t.csv"}};
@@ -332,18 +302,6 @@ TEST(Plan, ShardsCoverEveryFrameOnce) {
     }
     EXPECT_TRUE(plan(scene_of(R"({"outputs": [{"type": "video", "fps": 1}]})"), {.shard = {25, 30}}).pictures.empty());
     EXPECT_EQ(shard_file("out/fall.mp4", {2, 3}), "out/fall.2of3.mp4");
-}
-
-TEST(Plan, ExtremesAndEventsAloneAreNotWorthStoringTheMotion) {
-    ExistingWork existing;
-    existing.keeps = true;
-    const auto keeps = [&](const char* outputs) {
-        return plan(scene_of(std::string("{\"outputs\": ") + outputs + "}"), {}, existing).simulation->keep;
-    };
-    EXPECT_FALSE(keeps(R"([{"type": "summary"}, {"type": "impacts"}])"));
-    EXPECT_FALSE(keeps(R"([{"type": "still", "at": 0}])"));
-    EXPECT_TRUE(keeps(R"([{"type": "summary"}, {"type": "trajectory"}])"));
-    EXPECT_TRUE(keeps(R"([{"type": "still", "at": 0.1}])"));
 }
 
 TEST(Plan, PicturesThatEndBeforeTheRunReportOnlyTheirPart) {

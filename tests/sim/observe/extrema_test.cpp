@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "sim/observe/trajectory.hpp"
 #include "tests/sanitizers.hpp"
 #include "tests/sim/support.hpp"
 

@@ -89,7 +89,7 @@ TEST(Horizon, LastingContactIsComparedForSixTurns) {
     const auto simulated = [&](double end, long& steps) {
         Effort effort;
         request.end_time = end;
-        Result result = simulate(p, {&request, 1}, {}, nullptr, &effort).front();
+        Result result = simulate(p, {&request, 1}, {}, &effort).front();
         steps = effort.spent.steps;
         return result;
     };
@@ -177,9 +177,9 @@ TEST(Horizon, OfAMinuteCostsAFewTimesTheMotion) {
     Request request;
     request.end_time = 60;
     Effort motion, both;
-    simulate(p, {&request, 1}, {}, nullptr, &motion);
+    simulate(p, {&request, 1}, {}, &motion);
     request.horizon = true;
-    const Result r = simulate(p, {&request, 1}, {}, nullptr, &both).front();
+    const Result r = simulate(p, {&request, 1}, {}, &both).front();
     EXPECT_LT(both.spent.rhs_evaluations, 4 * motion.spent.rhs_evaluations) << r.reproducibility;
     // The motion, the tighter run, the other method; the last two again up to the end if the final part does not agree.
     EXPECT_LE(both.integrations, 5);

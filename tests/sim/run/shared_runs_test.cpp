@@ -1,5 +1,4 @@
-// A kept trajectory, and one integration for many: the bits of the run that each would have been alone.
-#include "sim/observe/trajectory.hpp"
+// One integration for several requests: each has the bits of the run that it would have been alone.
 
 #include <algorithm>
 #include <bit>
@@ -10,23 +9,6 @@
 
 namespace beamcam::sim::testing {
 namespace {
-
-// A kept trajectory in memory; the numbers must outlive it.
-class NumbersInMemory final : public NumberSource {
-  public:
-    explicit NumbersInMemory(std::span<const double> numbers) : numbers_(numbers) {}
-    std::uint64_t size() const override { return numbers_.size(); }
-    void read(std::uint64_t from, std::span<double> into) const override {
-        std::ranges::copy(numbers_.subspan(static_cast<std::size_t>(from), into.size()), into.begin());
-    }
-
-  private:
-    std::span<const double> numbers_;
-};
-
-Trajectory trajectory_of(const Problem& problem, std::span<const double> numbers) {
-    return {problem, std::make_shared<NumbersInMemory>(numbers)};
-}
 
 // ---- every number of a result, as bits -----------------------------------------------------------
 
@@ -108,29 +90,14 @@ Request full_request(const Problem& problem, double end) {
     return request;
 }
 
-struct Kept {
-    std::vector<double> numbers;
-    Result result;
-};
-
-Kept keep(const Problem& problem, double end) {
-    Kept kept;
-    TrajectoryWriter writer(
-        [&](std::span<const double> piece) { kept.numbers.insert(kept.numbers.end(), piece.begin(), piece.end()); });
-    const Request request = full_request(problem, end);
-    kept.result = simulate(problem, {&request, 1}, {}, &writer).front();
-    EXPECT_TRUE(writer.complete());
-    return kept;
-}
-
-struct StoredCase {
+struct NamedCase {
     const char* name;
     Problem problem;
     double end;
 };
 
-std::vector<StoredCase> cases() {
-    std::vector<StoredCase> all;
+std::vector<NamedCase> cases() {
+    std::vector<NamedCase> all;
     const auto add = [&](const char* name, double end, auto&& change) {
         Problem p;
         change(p);
@@ -187,36 +154,7 @@ std::vector<StoredCase> cases() {
     return all;
 }
 
-// Ends in flight, in contact, exactly at events and kinks, at once.
-std::vector<double> ends_for(const Kept& kept, double end) {
-    std::vector<double> ends{0, 0.25, end};
-    if (!kept.result.impacts.empty()) {
-        const Impact& impact = kept.result.impacts.front();
-        for (double t : {impact.t_start, impact.t_start - 1e-5, impact.t_end.value_or(end),
-                         impact.t_start + 0.3 * impact.duration.value_or(0)})
-            ends.push_back(t);
-    }
-    std::erase_if(ends, [&](double t) { return t < 0 || t > end; });
-    return ends;
-}
-
-class Everything : public ::testing::TestWithParam<StoredCase> {};
-
-TEST_P(Everything, AKeptTrajectoryGivesTheBitsOfTheDirectRun) {
-    const auto& [name, problem, end] = GetParam();
-    if (problem.beam.model > ModelKind::paper) SKIP_UNDER_SANITIZERS();
-    const Kept kept = keep(problem, end);
-    const Trajectory trajectory = trajectory_of(problem, kept.numbers);
-    EXPECT_EQ(trajectory.end(), end);
-    for (const double shorter : ends_for(kept, end)) {
-        SCOPED_TRACE(::testing::Message() << "until " << shorter);
-        const Request request = full_request(problem, shorter);
-        Effort effort;
-        const Result replayed = replay(problem, trajectory, {&request, 1}, {}, &effort).front();
-        expect_equal(replayed, simulate(problem, request));
-        EXPECT_EQ(effort.integrations, 0);
-    }
-}
+class Everything : public ::testing::TestWithParam<NamedCase> {};
 
 TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
     const auto& [name, problem, end] = GetParam();
@@ -233,7 +171,7 @@ TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
     again.poses.front().contacts = 4;
     requests.insert(requests.end(), 2, again);
     Effort effort;
-    const std::vector<Result> together = simulate(problem, requests, {}, nullptr, &effort);
+    const std::vector<Result> together = simulate(problem, requests, {}, &effort);
     EXPECT_EQ(effort.integrations, 1);
     for (std::size_t i = 0; i < requests.size(); ++i) {
         SCOPED_TRACE(::testing::Message() << "request " << i);
@@ -244,58 +182,35 @@ TEST_P(Everything, OneRunForManyGivesEachTheBitsOfItsOwn) {
 INSTANTIATE_TEST_SUITE_P(Of, Everything, ::testing::ValuesIn(cases()),
                          [](const auto& each) { return std::string(each.param.name); });
 
-// Apexes and zero crossings are searched only on request; a later request finds them in the stored steps.
-TEST(KeptTrajectory, FindsApexesAndZerosThatTheRunDidNotSearch) {
+// Apexes and zero crossings are searched only on request, and nothing else depends on the search.
+TEST(SharedRuns, OfApexesAndZerosLeaveEverythingElseAsItIs) {
     for (const Method method : {Method::automatic, Method::rk8}) {
         Problem problem;
         problem.solver.method = method;
         problem.cam.reset();
         problem.initial.angular_velocity = 2;  // it rises, turns back and falls past the horizontal
-        Request request = full_request(problem, 0.8);
-        std::vector<double> numbers;
-        TrajectoryWriter writer(
-            [&](std::span<const double> piece) { numbers.insert(numbers.end(), piece.begin(), piece.end()); });
-        request.apexes = request.zero_crossings = false;
-        const Result without = simulate(problem, {&request, 1}, {}, &writer).front();
-        EXPECT_TRUE(without.apexes.empty());
-        request.apexes = request.zero_crossings = true;
-        const Result direct = simulate(problem, request);
+        const Request with = [&] {
+            Request request = full_request(problem, 0.8);
+            request.apexes = request.zero_crossings = true;
+            return request;
+        }();
+        Request without = with;
+        without.apexes = without.zero_crossings = false;
+        const Result direct = simulate(problem, with);
         ASSERT_FALSE(direct.apexes.empty());
         ASSERT_FALSE(direct.theta_zero.empty());
-        expect_equal(replay(problem, trajectory_of(problem, numbers), {&request, 1}).front(), direct);
-        // Nothing else depends on the search.
         Result bare = direct;
         bare.apexes.clear(), bare.theta_zero.clear();
-        expect_equal(without, bare);
-        // Either beside the other in one run.
-        Request without_events = request;
-        without_events.apexes = without_events.zero_crossings = false;
-        const Request both[] = {without_events, request};
+        expect_equal(simulate(problem, without), bare);
+        const Request both[] = {without, with};
         const std::vector<Result> together = simulate(problem, both);
         expect_equal(together[0], bare);
         expect_equal(together[1], direct);
     }
 }
 
-TEST(KeptTrajectory, GivesTheHorizonAfterTheRunsThatItIsComparedWith) {
-    Problem problem;
-    Request request;
-    request.end_time = 0.5;
-    request.horizon = true;
-    const Result direct = simulate(problem, request);
-    ASSERT_TRUE(direct.reproducible_until);
-    const Kept kept = keep(problem, 0.5);
-    Effort effort;
-    const Result replayed = replay(problem, trajectory_of(problem, kept.numbers), {&request, 1}, {}, &effort).front();
-    EXPECT_EQ(replayed.reproducible_until, direct.reproducible_until);
-    EXPECT_EQ(effort.integrations, 2);  // the method itself at a tighter tolerance, and another
-    effort = {};
-    simulate(problem, {&request, 1}, {}, nullptr, &effort);
-    EXPECT_EQ(effort.integrations, 3);
-}
-
-// A run that ends at an event has the same results up to there as a longer one, stored or not.
-TEST(KeptTrajectory, OfAsManyEventsAsAreEnoughEndsAtTheLastOfThem) {
+// A run that ends at an event has the same results up to there as a longer one.
+TEST(SharedRuns, OfAsManyEventsAsAreEnoughEndAtTheLastOfThem) {
     const Problem problem;
     Request request;
     request.end_time = 1.5;
@@ -309,59 +224,15 @@ TEST(KeptTrajectory, OfAsManyEventsAsAreEnoughEndsAtTheLastOfThem) {
     for (const auto& [enough, end] : cases) {
         SCOPED_TRACE(::testing::Message() << "until " << end);
         request.enough = enough;
-        std::vector<double> numbers;
-        TrajectoryWriter writer(
-            [&](std::span<const double> piece) { numbers.insert(numbers.end(), piece.begin(), piece.end()); });
-        const Result found = simulate(problem, {&request, 1}, {}, &writer).front();
+        const Result found = simulate(problem, request);
         EXPECT_EQ(found.end_time, end);
-        EXPECT_EQ(writer.reached(), end);
         ASSERT_LE(found.impacts.size(), whole.impacts.size());
         for (std::size_t i = 0; i < found.impacts.size(); ++i)
             EXPECT_EQ(found.impacts[i].t_start, whole.impacts[i].t_start);
         if (end < 1.5) {
             EXPECT_LT(found.counters.steps, whole.counters.steps);
         }
-        const Trajectory trajectory = trajectory_of(problem, numbers);
-        EXPECT_EQ(replay(problem, trajectory, {&request, 1}).front().end_time, end);
-        Request until;  // the whole run that ends there
-        until.end_time = end;
-        until.tables = {{{0, 0.3 * end, end}, all_channels(problem)}};
-        expect_equal(replay(problem, trajectory, {&until, 1}).front(), simulate(problem, until));
     }
-}
-
-TEST(KeptTrajectory, IsRefusedWhenItIsDamagedForeignOrTooShort) {
-    const Problem problem;
-    const Kept kept = keep(problem, 0.3);
-    Problem other;
-    other.beam.modes = 3;
-    EXPECT_THROW(trajectory_of(other, kept.numbers), std::invalid_argument);
-    const std::span<const double> all(kept.numbers);
-    for (std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{10}, all.size() / 2, all.size() - 1})
-        EXPECT_THROW(trajectory_of(problem, all.first(count)), std::invalid_argument) << count;
-    const Request longer = full_request(problem, 0.31);
-    EXPECT_THROW(replay(problem, trajectory_of(problem, all), {&longer, 1}), std::invalid_argument);
-    const Request request = full_request(problem, 0.3);
-    for (std::size_t at = 1; at < kept.numbers.size(); at += kept.numbers.size() / 37) {
-        std::vector<double> bent = kept.numbers;
-        bent[at] = -1e300;
-        try {
-            replay(problem, trajectory_of(problem, bent), {&request, 1});  // an error or a wrong number, never a crash
-        } catch (const std::invalid_argument&) {
-        }
-    }
-}
-
-TEST(KeptTrajectory, IsNotCompleteWhereASegmentIsMoreThanNumbers) {
-    Problem problem;
-    problem.solver.method = Method::arkode_erk;
-    Request request;
-    request.end_time = 0.05;
-    std::size_t handed = 0;
-    TrajectoryWriter writer([&](std::span<const double> piece) { handed += piece.size(); });
-    simulate(problem, {&request, 1}, {}, &writer);
-    EXPECT_FALSE(writer.complete());
-    EXPECT_EQ(handed, 0u);
 }
 
 TEST(Prefix, HoldsInTheStepThatAnEventShortens) {
