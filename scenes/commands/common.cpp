@@ -143,10 +143,10 @@ void print_plans(std::span<const Scene> scenes, const RunOptions& options, bool 
     for (const Scene& scene : scenes) {
         const Plan planned = plan_for(scene, options);
         if (json) {
-            text += (text.empty() ? "" : ",\n") + to_json(planned);
+            text += (text.empty() ? "" : ",\n") + to_json(planned, scene);
         } else {
             if (scenes.size() > 1) text += fmt::format("{}{}\n", text.empty() ? "" : "\n", scene.name);
-            text += to_text(planned);
+            text += to_text(planned, scene);
         }
     }
     if (json)

@@ -1,6 +1,5 @@
 // `beamcam plan`: a dry run.
 #include "scenes/commands/commands.hpp"
-#include "scenes/sweep/sweep_plan.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -14,10 +13,7 @@ struct PlanArguments {
 int act(const PlanArguments& args) {
     const auto [scenes, code] = load_scenes(args.scenes, args.common);
     if (scenes.empty()) return code;
-    const RunOptions options = run_options(args.common, args.directory);
-    print_plans(scenes, options, args.common.json);
-    for (const Scene& scene : scenes)
-        if (scene.sweep && !args.common.json) print_text("\n" + sweep_plan(SweepGrid(scene), {}, false));
+    print_plans(scenes, run_options(args.common, args.directory), args.common.json);
     return code;
 }
 
@@ -25,7 +21,7 @@ int act(const PlanArguments& args) {
 
 void add_plan(Grammar& grammar) {
     const auto [app, args] =
-        grammar.command<PlanArguments>("plan", "Print what `run` would do, what it would skip, and why", act);
+        grammar.command<PlanArguments>("plan", "List the motions and files of a run, and what it would keep", act);
     app.examples = {"plan fall.json", "plan fall.json --force"};
     add_scenes(app, args.scenes, args.common);
     app.option("-o,--output", &args.directory, "DIR", "Directory for the outputs (default: the current one)");

@@ -11,10 +11,8 @@
 #include "scenes/format/checks.hpp"
 #include "scenes/format/file_column.hpp"
 #include "scenes/format/sweep_keys.hpp"
-#include "scenes/motions/fan_out.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/sweep/parts.hpp"
-#include "scenes/sweep/sweep_plan.hpp"
 #include "sim/problem/number_keys.hpp"
 
 namespace beamcam::scenes {
@@ -183,14 +181,6 @@ void reject_unused_options(const SweepArguments& args) {
     if (args.value && !args.film) throw UsageError("--value belongs to --diagram");
 }
 
-std::vector<PlannedFile> planned_files(const Plan& plan) {
-    std::vector<PlannedFile> files;
-    for (const DataFile& d : plan.data)
-        if (!is_stdout(d.file)) files.push_back({d.file, d.stage + (d.content.empty() ? "" : ", " + d.content)});
-    for (const FigureFile& f : plan.figures) files.push_back({f.file, "figure, " + f.figure});
-    return files;
-}
-
 void act(const SweepArguments& args) {
     check_parts(args);
     reject_unused_options(args);
@@ -202,10 +192,7 @@ void act(const SweepArguments& args) {
     scene.set_outputs(outputs_of(args, scene));
     RunOptions options = run_options(args.common, "");
     if (args.shard) options.selection = shard_argument(*args.shard);
-    if (args.common.dry_run)
-        print_text(sweep_plan(SweepGrid(scene), planned_files(plan(scene, options.selection)), args.common.json));
-    else
-        run(scene, options);
+    run_or_plan({&scene, 1}, options, args.common);
 }
 
 }  // namespace

@@ -48,11 +48,10 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
     const sim::Channel t{sim::ChannelKind::t, 0};
     if (std::ranges::find(columns, t) == columns.end()) columns.insert(columns.begin(), t);
     std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
-    planner.simulate_until(*std::ranges::max_element(instants), file);
+    planner.simulate_until(*std::ranges::max_element(instants));
 
-    DataFile data{output, file, "table", {}};
-    data.content = counted(instants.size(), "row") + " of " + counted(columns.size(), "channel");
-    data.details = object_node({{"rows", instants.size()}, {"channels", channel_names(columns)}});
+    DataFile data{output, file, kType, {}};
+    data.content = counted(instants.size(), "row");
     const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
     data.table = index;
     data.write = [index](const DataSource& from) { return write_table(from, from.run.tables[index]); };
@@ -72,10 +71,10 @@ void ShapesOutput::visit(SceneVisitor& v) {
 void ShapesOutput::plan(Planner& planner, std::size_t output) const {
     const Scene& scene = planner.scene();
     std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
-    planner.simulate_until(*std::ranges::max_element(instants), file);
+    planner.simulate_until(*std::ranges::max_element(instants));
     std::vector<sim::PoseRequest>& poses = planner.request().poses;
     poses.push_back({.times = std::move(instants), .stations = stations});
-    DataFile data{output, file, "shapes", {}};
+    DataFile data{output, file, kType, {}};
     data.content = fmt::format("{} points at {} times", stations, poses.back().times.size());
     data.write = [index = poses.size() - 1](const DataSource& from) {
         output::ColumnTable table{{{"t"}, {"x"}, {"v"}}};
@@ -104,8 +103,8 @@ void ImpactsOutput::plan(Planner& planner, std::size_t output) const {
         return fmt::format("{} in {}", counted(from.run.impacts.size(), "impact"),
                            counted(from.run.collisions.size(), "collision"));
     };
-    planner.simulate_until(planner.run_end(), file);
-    planner.add(DataFile{.output = output, .file = file, .stage = "impacts", .write = write, .holds_events = true});
+    planner.simulate_until(planner.run_end());
+    planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write, .holds_events = true});
 }
 
 // ---- "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.
@@ -134,13 +133,13 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
         from.file ? output::write_file(*from.file, json) : output::print_json(json);
         return from.run.reproducibility;
     };
-    planner.simulate_until(planner.run_end(), file);
+    planner.simulate_until(planner.run_end());
     planner.request().zero_crossings = true;
     if (planner.request().extrema.empty())
         for (const sim::Channel& channel : all_channels(planner.scene().problem))
             if (channel.kind != sim::ChannelKind::t) planner.request().extrema.push_back(channel);
     if (horizon) planner.require_horizon();
-    planner.add(DataFile{.output = output, .file = file, .stage = "summary", .write = write, .reports_work = true});
+    planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write, .reports_work = true});
 }
 
 // ---- "sweep": the samples of all points of the scene's sweep, as NetCDF-4, CSV or NPZ.
@@ -154,13 +153,11 @@ void SweepOutput::visit(SceneVisitor& v) {
 }
 
 void SweepOutput::plan(Planner& planner, std::size_t output) const {
-    DataFile data{output, file, "sweep", {}};
+    DataFile data{output, file, kType, {}};
     if (const Shard& shard = planner.selection().shard; !shard.whole()) {
         data.file = part_file(file, shard);
         data.part = shard.text();
     }
-    for (const SweptKey& over : planner.scene().sweep->over)
-        data.content += (data.content.empty() ? "over " : " and ") + over.key;
     data.write = [](const DataSource& from) {
         if (from.file) {
             output::write_sweep(*from.file, *from.sweep);

@@ -175,14 +175,13 @@ void FigureOutput::plan(Planner& planner, std::size_t output) const {
     if (planned.times_known) {
         how = with_event_times(std::move(how), {}, planner.scene().end_time);
     } else {  // the events can be anywhere in the scene
-        planned.ends_at = series.at ? series.at : series.to_event;
-        planner.find_events(series.to.value_or(planner.scene().end_time), !planned.ends_at);
+        planned.ends_at_event = series.at || series.to_event;
+        planner.find_events(series.to.value_or(planner.scene().end_time), !planned.ends_at_event);
         how = without_events(std::move(how));
     }
     prepare_figure(planned, planner.scene(), how);
     if (figure_type(figure)->of_sweep()) {
-        if (!planner.selection().shard.whole())
-            return planner.skip(file, "a part of a sweep has no diagram; join the parts with `beamcam collect` first");
+        if (!planner.selection().shard.whole()) return;  // a part of a sweep has no diagram
         planner.require_sweep(file);
     }
     planner.add(std::move(planned));

@@ -139,9 +139,7 @@ void draw(const Plan& plan, const Scene& scene, DrawCallbacks& callbacks, const 
 
 Plan plan_for(const Scene& scene, const RunOptions& options) {
     RunContext context(options);
-    Plan made = SceneRun(scene, context).plan();
-    add_omitted_text(made, scene);
-    return made;
+    return SceneRun(scene, context).plan();
 }
 
 }  // namespace beamcam::scenes

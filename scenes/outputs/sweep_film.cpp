@@ -258,10 +258,9 @@ void SweepFilmOutput::visit(SceneVisitor& v) {
 }
 
 void SweepFilmOutput::plan(Planner& planner, std::size_t output) const {
-    if (!planner.selection().shard.whole())
-        return planner.skip(file, "a part of a sweep has no film; join the parts with `beamcam collect` first");
-    DataFile film{output, file, "sweep-film", {}};
-    film.content = fmt::format("{} of {} × {}", counted(frames_of(*this), "frame"), size.width, size.height);
+    if (!planner.selection().shard.whole()) return;  // a part of a sweep has no film
+    DataFile film{output, file, kType, {}};
+    film.content = counted(frames_of(*this), "frame");
     film.write = [how = *this, scene = planner.scene()](const DataSource& from) {
         return counted(SweepFilm(how, scene, *from.sweep).write(*from.file, from.progress), "frame");
     };

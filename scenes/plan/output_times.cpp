@@ -293,7 +293,7 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
         if (!p.compare.empty()) return put_times(p, times_of_compared(p, find));
         end_at_event(p, own());
         put_times(p, times_of(p, own()));
-        plan.simulation->simulate_until(p.end_time, p.file);
+        plan.simulation->simulate_until(p.end_time);
     });
     resolve_each(plan.figures, reject, [&](FigureFile& f) {
         const FigureOutput& how = output_of(f, scene);
@@ -301,10 +301,10 @@ void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find,
         prepare_figure(f, scene,
                        of_scene ? with_event_times(how, own(), scene.end_time) : with_found_times(how, scene, find));
         for (const Study& study : f.studies)
-            if (study.of_scene) plan.simulation->simulate_until(end_of(study.request), f.file);
+            if (study.of_scene) plan.simulation->simulate_until(end_of(study.request));
     });
     plan.events_until.reset();
-    if (plan.simulation) plan.simulation->until_events.clear();
+    if (plan.simulation) plan.simulation->ends_at_event = false;
 }
 
 }  // namespace beamcam::scenes

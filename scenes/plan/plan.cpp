@@ -16,12 +16,6 @@ Plan plan(const Scene& scene, const Selection& selection, const ExistingWork& ex
     return Planner(scene, selection, existing).make();
 }
 
-void Simulation::simulate_until(double t, const std::string& file) {
-    if (!(t > request.end_time) && !until_because.empty()) return;
-    request.end_time = std::max(t, request.end_time);
-    until_because = file;
-}
-
 bool Plan::needs_gl() const {
     return std::ranges::any_of(pictures, [](const Pictures& p) { return p.view.style != render::Style::flat; });
 }
@@ -76,18 +70,6 @@ std::string characters_without_font(const PictureOutput& p, const Scene& scene) 
     for (const Compared& motion : p.compare) written += motion.label;
     const std::string lost = render::characters_without_font(written);
     return lost.empty() ? lost : fmt::format("{} omits {}: no font has these characters", p.file, lost);
-}
-
-void add_omitted_text(Plan& plan, const Scene& scene) {
-    std::vector<Skipped> notes;
-    try {
-        for (const Pictures& p : plan.pictures)
-            if (const std::string what = omitted_text(p, scene); !what.empty())
-                notes.push_back({fmt::format("{} on {}", what, p.file), why_text_is_omitted(p.size)});
-    } catch (const render::FontError&) {
-        return;  // drawing reports this
-    }
-    plan.skipped.insert(plan.skipped.begin(), notes.begin(), notes.end());
 }
 
 bool is_slow_motion(const Pictures& p) {

@@ -5,6 +5,7 @@
 // not in it; there are no switches that turn a stage off.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <functional>
 #include <map>
@@ -16,7 +17,6 @@
 
 #include "output/files/target.hpp"
 #include "output/files/work.hpp"
-#include "output/json/tree.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/studies.hpp"
 #include "scenes/motions/progress.hpp"
@@ -39,18 +39,16 @@ struct ExistingWork {
     double until = 0;                              // end of a run for all outputs, up-to-date ones included [s]
 };
 
-// The simulation of one motion, for all outputs that need it.
-struct Simulation {
+// A motion that outputs need.
+struct PlannedMotion {
     sim::Problem problem;
-    std::string key;                 // motion_key(problem)
-    sim::Request request = {};       // for data files of the scene's motion; of other motions only the end
-    std::string label = {};          // of a compared motion
-    std::string until_because = {};  // the output that needs the latest time: "fall.mp4"
-    // Events with unknown times at which outputs end: "impact 3, for f.pdf".
-    std::vector<std::string> until_events = {};
-    bool horizon = false;  // the reproducible horizon is needed, by further runs
+    std::string key;             // motion_key(problem)
+    sim::Request request = {};   // for data files of the scene's motion; of other motions only the end
+    std::string label = {};      // of a compared motion
+    bool ends_at_event = false;  // it may end later than the request, at events that have to be found first
+    bool horizon = false;        // the reproducible horizon is needed, by further runs
 
-    void simulate_until(double t, const std::string& file);
+    void simulate_until(double t) { request.end_time = std::max(t, request.end_time); }
 };
 
 // The parts of the request for a motion that a picture shows.
@@ -89,9 +87,9 @@ struct FigureFile {
     std::string file, figure;
     // False: it begins or ends at events; studies and maker cover the whole scene until the events are found.
     bool times_known = true;
-    std::optional<Instant> ends_at = {};  // the event
-    std::vector<Study> studies = {};      // the motions that it needs
-    FigureMaker make = {};                // draws the figure from their results
+    bool ends_at_event = false;
+    std::vector<Study> studies = {};  // the motions that it needs
+    FigureMaker make = {};            // draws the figure from their results
 };
 
 // The inputs of a data file, and its target.
@@ -107,32 +105,27 @@ struct DataSource {
 // A file with numbers of the scene's motion or sweep.
 struct DataFile {
     std::size_t output = 0;
-    std::string file, stage;  // stage: name in the plan, "table"
+    std::string file, type;  // type: name in the plan, "trajectory"
     // Writes the file; returns a description for the user: "1501 rows".
     std::function<std::string(const DataSource& from)> write;
     std::string part = {};                  // of a sweep: "2/3"; empty: all of it
-    std::string content = {};               // for the text of the plan: "1501 rows of 29 channels"
-    Node details = object_node();           // for the JSON of the plan
+    std::string content = {};               // for the plan: "1501 rows"
     std::optional<std::size_t> table = {};  // index into Request::tables; its rows are saved if the solver fails
     bool holds_events = false;              // those that were found are saved if the solver fails
     bool reports_work = false;              // written last, because it contains the work of all outputs
 };
 
-struct Skipped {
-    std::string what, why;
-};
-
 struct Plan {
-    std::optional<Simulation> simulation;  // of the scene's motion
+    std::optional<PlannedMotion> simulation;  // of the scene's motion
     // Upper bound of the first run, which finds the events of pictures and figures without known times.
     std::optional<double> events_until;
-    bool all_events = false;         // false: the first run may end at the last event that outputs name
-    std::vector<Simulation> others;  // of motions that pictures and figures compare with the scene's or each other
-    std::string sweep;               // the first file that needs the points of the scene's sweep; empty: none
+    bool all_events = false;            // false: the first run may end at the last event that outputs name
+    std::vector<PlannedMotion> others;  // of motions that pictures and figures compare with the scene's or each other
+    std::string sweep;                  // the first file that needs the points of the scene's sweep; empty: none
     std::vector<Pictures> pictures;
     std::vector<FigureFile> figures;
     std::vector<DataFile> data;
-    std::vector<Skipped> skipped;
+    std::vector<std::string> kept;  // files that are up to date: "t.csv", "4 frames of f-##.png"
 
     bool needs_gl() const;                                      // a lit view
     bool needs_encoder() const;                                 // a video
@@ -155,8 +148,6 @@ std::string why_text_is_omitted(const Size& size);
 // "fall.mp4 omits 🙂: no font has these characters", of title, captions (also those outside the film)
 // and names; empty if there are none.
 std::string characters_without_font(const PictureOutput& p, const Scene& scene);
-// Adds the omitted texts of all pictures to Plan::skipped, unless fonts are missing.
-void add_omitted_text(Plan& plan, const Scene& scene);
 
 // True for a film of one motion that shows its collisions in slow motion.
 bool is_slow_motion(const Pictures& p);
@@ -168,13 +159,8 @@ using FindEvents = std::function<sim::Result(const sim::Problem& problem, const 
 using RejectOutput = std::function<void(std::size_t output, const std::string& why)>;
 void resolve_event_times(Plan& plan, const Scene& scene, const FindEvents& find, const RejectOutput& reject = {});
 
-// Names in the plan: "lit", "video".
-const char* view_name(const render::View& view);
-const char* kind_name(PictureOutput::Kind kind);
-std::string encoding_text(const Encoding& encoding);  // "H.264, crf 18, veryfast"
-
-// The plan for people and for programs.
-std::string to_text(const Plan& plan);
-std::string to_json(const Plan& plan);
+// The plan for people and for programs: motions, files and what is kept, one line each.
+std::string to_text(const Plan& plan, const Scene& scene);
+std::string to_json(const Plan& plan, const Scene& scene);
 
 }  // namespace beamcam::scenes

@@ -85,18 +85,14 @@ Plan Planner::make() {
     for (std::size_t i = 0; i < scene_.outputs.size(); ++i) {
         const Output& output = scene_.outputs[i];
         if (const auto finished = existing_.finished.find(i); finished != existing_.finished.end()) {
-            ++finished_;
-            skip(finished->second, "up to date");
-        } else if (selection_.shard.number > 1 && !is_shared(output)) {
-            skip(file_of(output), "the first shard writes it");
-        } else {
+            plan_.kept.push_back(finished->second);
+        } else if (selection_.shard.number == 1 || is_shared(output)) {
             std::visit([&](const auto& each) { each.plan(*this, i); }, output);
         }
     }
     if (needed_) plan_.simulation = std::move(simulation_);
     // In the order of the types.
     std::ranges::stable_sort(plan_.data, {}, [&](const DataFile& d) { return scene_.outputs[d.output].index(); });
-    add_skipped_stages();
     return std::move(plan_);
 }
 
@@ -104,14 +100,14 @@ Plan Planner::make() {
 
 double Planner::run_end() const { return std::max(scene_.end_time, existing_.until); }
 
-void Planner::simulate_until(double t, const std::string& file) {
+void Planner::simulate_until(double t) {
     needed_ = true;
-    simulation_.simulate_until(t, file);
+    simulation_.simulate_until(t);
 }
 
-void Planner::simulate_until(const Instant& event, const std::string& file) {
+void Planner::simulate_until_event() {
     needed_ = true;
-    simulation_.until_events.push_back(fmt::format("{}, for {}", name_of(event), file));
+    simulation_.ends_at_event = true;
 }
 
 std::size_t Planner::add_table(std::vector<double> times, std::vector<sim::Channel> channels) {
@@ -130,13 +126,13 @@ void Planner::add(Pictures p, double end) {
     p.times_known = !p.collisions && !moves_by_events && (still ? !p.at.is_event() : !p.span.needs_events());
     p.chart_channels = render::chart_channels(panels_of(p, scene_.problem));
     p.omitted_panels = omitted_panels(p);
-    if (!p.omitted_panels.empty()) skip("panels " + p.omitted_panels + " of " + p.file, why_panels_are_omitted(p.size));
     FilmTimes times;
     if (p.times_known) times = times_of(p, {});
     if (const auto numbers = known_numbers(p, times)) {
         const auto [first, count] = *numbers;
         choose_frames(p, first, count);
-        add_skipped_frames(p, static_cast<std::size_t>(count));
+        if (!p.existing.empty())
+            plan_.kept.push_back(fmt::format("{} of {}", counted(p.existing.size(), "frame"), p.file));
         if (p.draw.empty()) return;
     }
     if (p.compare.empty()) p.shown.push_back({.problem = scene_.problem, .key = simulation_.key, .of_scene = true});
@@ -144,7 +140,7 @@ void Planner::add(Pictures p, double end) {
         p.shown.push_back({.problem = each.problem, .key = motion_key(each.problem), .label = each.label});
     for (Study& motion : p.shown) {
         add_requests(p, motion);
-        add_study(motion, p.file, p.ends_at_event() ? p.span.to_event : std::nullopt, motion.label);
+        add_study(motion, p.ends_at_event(), motion.label);
     }
     if (p.times_known)
         put_times(p, std::move(times));
@@ -163,7 +159,7 @@ void Planner::add_requests(const Pictures& p, Study& motion) const {
 }
 
 void Planner::add(FigureFile figure) {
-    for (const Study& study : figure.studies) add_study(study, figure.file, figure.ends_at);
+    for (const Study& study : figure.studies) add_study(study, figure.ends_at_event);
     plan_.figures.push_back(std::move(figure));
 }
 
@@ -173,67 +169,17 @@ void Planner::find_events(double until, bool all) {
 }
 
 // Studies of the same motion share one simulation.
-void Planner::add_study(const Study& study, const std::string& file, const std::optional<Instant>& ends_at,
-                        const std::string& label) {
+void Planner::add_study(const Study& study, bool ends_at_event, const std::string& label) {
     if (study.of_scene) {
-        ends_at ? simulate_until(*ends_at, file) : simulate_until(end_of(study.request), file);
-        study_requests_.push_back(study.request);
+        ends_at_event ? simulate_until_event() : simulate_until(end_of(study.request));
         simulation_.horizon = simulation_.horizon || study.request.horizon;
         return;
     }
-    auto same = std::ranges::find(plan_.others, study.key, &Simulation::key);
+    auto same = std::ranges::find(plan_.others, study.key, &PlannedMotion::key);
     if (same == plan_.others.end()) same = plan_.others.insert(same, {study.problem, study.key});
-    same->simulate_until(end_of(study.request), file);
+    same->simulate_until(end_of(study.request));
     if (!label.empty()) same->label = label;
     same->horizon = same->horizon || study.request.horizon;
-}
-
-// ---- what is skipped ---------------------------------------------------------------------------
-
-void Planner::add_skipped_frames(const Pictures& p, std::size_t count) {
-    if (!p.part.empty() || (p.kind == Pictures::Kind::frames && p.draw.size() + p.existing.size() < count))
-        skip(fmt::format("{} of {} frames of {}", count - p.draw.size() - p.existing.size(), count, p.file),
-             p.selection.frames ? "outside the selected frames" : "other shards draw them");
-    if (!p.existing.empty()) skip(fmt::format("{} of {}", counted(p.existing.size(), "frame"), p.file), "up to date");
-}
-
-void Planner::add_skipped_stages() {
-    const bool compares = std::ranges::any_of(plan_.pictures, [](const Pictures& p) { return !p.compare.empty(); });
-    if (!needed_ && !compares && !plan_.others.empty())
-        return skip("simulation of the scene itself", "its figures show only variants of it");
-    if (!needed_)
-        return skip(compares || !plan_.sweep.empty() ? "simulation of the scene itself" : "simulation",
-                    compares               ? "only compared motions are shown"
-                    : !plan_.sweep.empty() ? "only the sweep is shown"
-                    : finished_ > 0        ? "all outputs are up to date"
-                                           : "no output needs the motion");
-    const double end = plan_.simulation->request.end_time;
-    if (end < scene_.end_time && plan_.simulation->until_events.empty())
-        skip(fmt::format("simulation from {:g} s to {:g} s", end, scene_.end_time), "no output needs it");
-    if (!scene_.problem.cam) skip("contact", "the scene has no cam");
-    add_unread_channels();
-    if (plan_.pictures.empty())
-        skip(plan_.figures.empty() ? "pictures, fonts and OpenGL" : "films and OpenGL", "no output is a picture");
-    else if (!plan_.needs_gl())
-        skip("OpenGL", "every view is flat");
-    if (!plan_.needs_encoder()) skip("video encoder", "no output is a video");
-    if (plan_.simulation->request.extrema.empty()) skip("extrema and zero crossings", "no output is a summary");
-    if (!plan_.simulation->horizon) skip("further runs for the reproducible horizon", "no output needs it");
-}
-
-void Planner::add_unread_channels() {
-    const std::vector<sim::Channel> every = all_channels(scene_.problem);
-    auto read = [&](const sim::Channel& channel) {
-        const sim::Request& request = plan_.simulation->request;
-        auto holds = [&](const std::vector<sim::Channel>& some) { return std::ranges::count(some, channel) > 0; };
-        const auto in_tables = [&](const sim::Request& some) {
-            return std::ranges::any_of(some.tables, [&](const sim::TableRequest& t) { return holds(t.channels); });
-        };
-        return holds(request.extrema) || in_tables(request) || std::ranges::any_of(study_requests_, in_tables);
-    };
-    const auto unread =
-        std::ranges::count_if(every, [&](const sim::Channel& c) { return c.kind != ChannelKind::t && !read(c); });
-    if (unread > 0) skip(fmt::format("{} of {} channels", unread, every.size() - 1), "no output needs them");
 }
 
 }  // namespace beamcam::scenes

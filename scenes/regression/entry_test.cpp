@@ -55,9 +55,10 @@ void EntryTest::prepare() {
     // A picture that compares other motions than the scene's own needs no simulation of the scene. A figure of statics
     // needs no motion at all.
     if (!plan_.simulation) {
-        double& until = plan_.simulation.emplace(Simulation{scene.problem, motion_key(scene.problem)}).request.end_time;
+        double& until =
+            plan_.simulation.emplace(PlannedMotion{scene.problem, motion_key(scene.problem)}).request.end_time;
         for (const Pictures& p : plan_.pictures) until = std::max(until, p.end_time);
-        for (const Simulation& other : plan_.others) until = std::max(until, other.request.end_time);
+        for (const PlannedMotion& other : plan_.others) until = std::max(until, other.request.end_time);
         if (plan_.pictures.empty() && plan_.others.empty() && !plan_.figures.empty()) test_.result.motion.reset();
     }
     until_ = plan_.simulation->request.end_time;

@@ -300,7 +300,7 @@ TEST(CommandLine, CheckReportsEveryScene) {
 
 TEST(CommandLine, ASceneFromStandardInputNamesItsFilesStdin) {
     const Folder folder;
-    EXPECT_THAT(shell(folder, "echo '{}' | $BEAMCAM plan -").out, HasSubstr("video     stdin.mp4: "));
+    EXPECT_THAT(shell(folder, "echo '{}' | $BEAMCAM plan -").out, HasSubstr("video       stdin.mp4: "));
     EXPECT_THAT(shell(folder, "echo '{,}' | $BEAMCAM check -").err, HasSubstr("stdin:1:2: "));
 }
 
@@ -309,9 +309,9 @@ TEST(CommandLine, PlanPrintsDataAndDoesNothing) {
     folder.write("s.json", "{}");
     const Finished plan = shell(folder, "$BEAMCAM plan s.json"), dry = shell(folder, "$BEAMCAM run -n s.json");
     EXPECT_EQ(plan.code, 0);
-    EXPECT_THAT(plan.out, HasSubstr("video     s.mp4: 90 frames"));
+    EXPECT_THAT(plan.out, HasSubstr("video       s.mp4: 90 frames"));
     EXPECT_EQ(plan.out, dry.out);
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --json").out, HasSubstr("\"stage\": \"simulate\""));
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --json").out, HasSubstr("\"what\": \"motion\""));
     EXPECT_EQ(shell(folder, "$BEAMCAM plan s.json --json | /usr/bin/python3 -m json.tool").code, 0);
     EXPECT_FALSE(std::filesystem::exists(folder / "s.mp4"));
 }

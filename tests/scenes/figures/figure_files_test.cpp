@@ -65,7 +65,7 @@ TEST(Figures, RunMakesThoseThatASceneLists) {
     const Folder folder;
     folder.write("s.json",
                  R"({"outputs": [{"type": "figure", "figure": "schematic", "file": "a.svg", "column": "nature"}]})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure    a.svg: schematic"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("figure      a.svg: schematic"));
     ASSERT_EQ(shell(folder, "$BEAMCAM run s.json -q").code, 0);
     EXPECT_THAT(testing::slurp(folder / "a.svg"), HasSubstr("width=\"89mm\""));
 }

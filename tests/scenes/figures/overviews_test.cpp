@@ -205,20 +205,6 @@ TEST(Stretch, ThatEndsAtAnEventIsIntegratedNoFurther) {
     EXPECT_EQ(searched, 2);
 }
 
-TEST(Stretch, ThePlanNamesTheEventAtWhichItEnds) {
-    const auto words = [](const std::string& outputs) {
-        const Reading reading = testing::read(R"({"time": {"end": 2}, "outputs": [)" + outputs + "]}");
-        return to_text(plan(*reading.scene));
-    };
-    const std::string alone = words(R"({"type": "video", "file": "a.mp4", "to": "impact:3"})");
-    EXPECT_THAT(alone, HasSubstr("a first run until 2 s at most finds"));
-    EXPECT_THAT(alone, HasSubstr("; until impact 3, for a.mp4"));
-    EXPECT_THAT(alone, HasSubstr("frames from 0 s to impact 3 at 60 per second"));
-    EXPECT_THAT(words(R"({"type": "figure", "figure": "strobe", "at": "release:2", "file": "a.pdf"},
-                         {"type": "video", "file": "b.mp4", "to": 0.5})"),
-                HasSubstr("until 0.5 s, needed by b.mp4, or, if later, until release 2, for a.pdf"));
-}
-
 // A column of 5 ms holds most of a period of the first mode: an instant of it would show a vibration that is not there.
 TEST(Overviews, ColumnsOfAKymographHaveTheExtremesOfWhatIsFaster) {
     const auto figure = overview_of("kymograph", R"(, "to": 3)");

@@ -128,11 +128,10 @@ TEST(FileSafety, PicturesOfAGigabyteAreAnnounced) {
         folder.write("s.json", R"({"outputs": [{"type": "still", "at": 0, "file": "s.png", "size": [)" +
                                    std::to_string(pixels) + ", " + std::to_string(pixels) +
                                    R"(], "view": {"style": "flat"}}]})");
-        return shell(folder, "$BEAMCAM check s.json; $BEAMCAM plan s.json");
+        return shell(folder, "$BEAMCAM check s.json");
     };
     const Finished huge = still(16384), usual = still(1024);
     EXPECT_THAT(huge.err, HasSubstr("GB of memory"));
-    EXPECT_THAT(huge.out, HasSubstr("GB of memory"));
     EXPECT_THAT(usual.out + usual.err, ::testing::Not(HasSubstr("of memory")));
 }
 

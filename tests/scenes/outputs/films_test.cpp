@@ -287,7 +287,7 @@ TEST(Films, APosterAtAnImpactLeavesTheNumberOfFramesKnown) {
     const Reading reading =
         testing::read(R"({"time": {"end": 0.5}, "outputs": [{"type": "video", "fps": 30, "poster": "impact:1"}]})");
     ASSERT_TRUE(reading.scene);
-    EXPECT_THAT(to_text(plan(*reading.scene)), HasSubstr("15 frames from 0 s to 0.5 s"));
+    EXPECT_EQ(plan(*reading.scene).pictures.front().draw.size(), 15u);
 }
 
 TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
@@ -295,7 +295,6 @@ TEST(Films, ThePlanTellsWhyImpactsAreFoundFirst) {
     ASSERT_TRUE(reading.scene);
     Plan p = plan(*reading.scene);
     EXPECT_EQ(p.events_until, 1.5);
-    EXPECT_THAT(to_text(p), HasSubstr("a first run until 1.5 s finds the events"));
     resolve_event_times(p, *reading.scene, [](const sim::Problem&, const sim::Request&) {
         sim::Result result;
         result.impacts.resize(1);
@@ -657,8 +656,7 @@ TEST(Films, ArePalerWhereTheMotionIsNotReproducibleIfTheyAreAsked) {
     EXPECT_EQ(digest(), plain);
     EXPECT_THAT(still(R"(, "horizon": true)"), HasSubstr(" integrations=3 "));
     EXPECT_NE(digest(), plain);
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out,
-                HasSubstr("further runs find the reproducible horizon"));
+    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json --force").out, HasSubstr("compared with further runs"));
 }
 
 // A logo is an input: another picture in the file makes another film.
@@ -861,7 +859,6 @@ TEST(Films, PanelsThatFindNoRoomAreTold) {
     folder.write("s.json", R"({"time": {"end": 0.1}, "outputs": [{"type": "still", "file": "a.png", "at": 0.1,
         "size": [640, 300], "view": {"style": "flat"},
         "layout": {"columns": ["mechanism", {"rows": ["theta", "contact_force", "energy"]}]}}]})");
-    EXPECT_THAT(shell(folder, "$BEAMCAM plan s.json").out, HasSubstr("panels energy of a.png: 640 × 300 is too small"));
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json").err, HasSubstr("warning: a.png shows no energy: 640 × 300"));
     EXPECT_THAT(shell(folder, "$BEAMCAM run s.json -q --force").err, ::testing::IsEmpty());
     // The standard arrangement is nobody's wish.
