@@ -23,11 +23,11 @@ namespace beamcam::scenes {
 using AddCommand = void(Grammar& grammar);
 AddCommand add_run, add_render, add_simulate, add_sweep, add_collect, add_lyapunov, add_orbits, add_modes, add_check,
     add_plan, add_concat, add_sheet, add_init, add_examples, add_schema, add_keys, add_diff, add_test, add_info,
-    add_doctor, add_accuracy, add_figure, add_paper, add_stress, add_completion, add_manual;
+    add_doctor, add_accuracy, add_figure, add_completion, add_manual;
 inline constexpr AddCommand* kCommands[] = {
     add_run,  add_render, add_simulate, add_sweep,  add_collect,  add_lyapunov, add_orbits,     add_modes,  add_check,
     add_plan, add_concat, add_sheet,    add_init,   add_examples, add_schema,   add_keys,       add_diff,   add_test,
-    add_info, add_doctor, add_accuracy, add_figure, add_paper,    add_stress,   add_completion, add_manual,
+    add_info, add_doctor, add_accuracy, add_figure, add_completion, add_manual,
 };
 
 // ---- options that several commands share --------------------------------------------------------
@@ -98,6 +98,6 @@ sim::CamSpan span_argument(const char* option, const std::string& text);
 // Throws UsageError unless `file` ends in one of these, or unless it is "-" where that is possible.
 void require_ending(const char* option, const std::string& file, std::initializer_list<const char*> endings);
 void require_ending_or_stdout(const char* option, const std::string& file, std::initializer_list<const char*> endings);
-inline constexpr std::initializer_list<const char*> kCaptionEndings{".txt", ".md", ".tex"};
+inline constexpr std::initializer_list<const char*> kCaptionEndings{".txt", ".md"};
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// The figures of commands: an assessment of accuracy, periodic orbits, Lyapunov exponents, a stress campaign.
+// The figures of commands: an assessment of accuracy, periodic orbits, Lyapunov exponents.
 #pragma once
 
 #include <vector>
@@ -9,7 +9,6 @@
 #include "scenes/scene/scene.hpp"
 #include "sim/orbit/exponents.hpp"
 #include "sim/studies/accuracy.hpp"
-#include "sim/studies/stress.hpp"
 
 namespace beamcam::scenes {
 
@@ -28,12 +27,5 @@ render::figure::Figure branches_figure(const output::BranchTable& table, const S
 
 // The convergence of the Lyapunov exponents of a motion. Throws PictureError where every exponent is −∞.
 render::figure::Figure exponents_figure(const sim::Exponents& exponents, const Subject& subject);
-
-// The outcomes of a stress campaign: a panel for each grid, a cell for each pair of extremes, in it a stripe for each
-// variant, coloured by its outcome. Failures are crossed out as well, so that colour alone does not carry them.
-// `results` belong to `campaign.cases`, in their order.
-render::figure::Figure survival_map(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
-// At the size of a double page.
-render::Image survival_picture(const sim::Campaign& campaign, const std::vector<sim::StressResult>& results);
 
 }  // namespace beamcam::scenes

@@ -1,9 +1,8 @@
-// Numerical constants of the studies, each with its reason: accuracy, stress campaign.
+// Numerical constants of the assessment of accuracy, each with its reason.
 #pragma once
 
 namespace beamcam::sim {
 
-// ---- accuracy ----
 inline constexpr int kInstants = 1000;           // at which motions are compared
 inline constexpr double kReferenceRtol = 1e-13;  // the tightest tolerance
 inline constexpr double kCheckRtol = 1e-12;      // of the run that estimates the error of the reference
@@ -15,9 +14,5 @@ inline constexpr double kShortestPart = 1.0 / 16;  // of the motion: least part 
 inline constexpr int kModelShapes = 20;            // least number of shapes in the comparison of models
 inline constexpr int kPaperShapes = 6;             // the same of `paper`, which loses its positive inertia with more
 inline constexpr double kAsFar = 0.98;             // of the longest time within the target: as good
-
-// ---- stress campaign ----
-inline constexpr double kCaseLimit = 120;  // [s] of CPU time: a case that takes longer hangs
-inline constexpr int kChannelSamples = 7;  // instants at which all channels are checked
 
 }  // namespace beamcam::sim

@@ -19,7 +19,7 @@ TEST(CommandLine, VersionHelpAndSchemaAreData) {
     const Folder folder;
     EXPECT_THAT(shell(folder, "$BEAMCAM --version").out, StartsWith("beamcam "));
     for (const char* command :
-         {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "keys", "figure", "paper"}) {
+         {"", "run", "render", "simulate", "check", "plan", "modes", "init", "schema", "keys", "figure"}) {
         const Finished help = shell(folder, std::string("$BEAMCAM ") + command + " --help");
         EXPECT_EQ(help.code, 0);
         EXPECT_THAT(help.out, HasSubstr("beamcam "));  // of the usage; the rest is by CLI11
@@ -142,8 +142,7 @@ TEST(CommandLine, WrongUsageIsTwo) {
                                   "keys --json nonsense",
                                   "test s.json --junit j.txt",
                                   "figure s.json --channels theta --lines 45deg,,3 -o a.pdf",
-                                  "figure s.json --channels theta, -o a.pdf",
-                                  "paper"}) {
+                                  "figure s.json --channels theta, -o a.pdf"}) {
         const Finished finished = shell(folder, std::string("$BEAMCAM ") + arguments);
         EXPECT_EQ(finished.code, 2) << arguments << "\n" << finished.err;
         EXPECT_THAT(finished.err, StartsWith("beamcam: ")) << arguments;
