@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 """Checks the structure of the source tree: the top-level entries, the order of includes, the use of libraries, that every
-cited equation is in sim/MODEL.md, and that every test named by a source or document exists. Prints each violation as file:line and fails if there is one.
+cited equation is in sim/MODEL.md, that every test named by a source or document exists, and that phrases are translated. Prints each violation as file:line and fails if there is one.
 
 house.py ROOT            checks the tree
 house.py --self-test     checks that the checks can fail
@@ -33,6 +33,8 @@ INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
 EQUATION = re.compile(r"\(S\d+[a-z]?\)")
 TEST = re.compile(r"^TEST(?:_F|_P)?\((\w+),\s*(\w+)\)", re.MULTILINE)
 FOLDER = re.compile(r"`(\w+)/(\w+)`")
+PHRASE = re.compile(r'\bphrase\(\s*[\w.>-]+,\s*"((?:[^"\\]|\\.)*)"')
+TRANSLATION = re.compile(r'\{"((?:[^"\\]|\\.)*)",\s*"')
 NAMED_TEST = re.compile(r"`(\w+\.[A-Z]\w*[a-z]\w*)`")
 
 
@@ -145,7 +147,17 @@ def check_named_tests(root):
                     yield f"{path.relative_to(root)}:{number}: no test is named {name}"
 
 
-CHECKS = [check_top_level, check_one_way, check_folders, check_private_libraries, check_equations, check_named_tests]
+def check_phrases(root):
+    table = root / "render/plot/lang.cpp"
+    known = set(TRANSLATION.findall(table.read_text(encoding="utf-8"))) if table.exists() else set()
+    for room in ("render", "scenes"):
+        for path in sources(root / room):
+            for phrase in PHRASE.findall(path.read_text(encoding="utf-8")):
+                if phrase not in known:
+                    yield f'{path.relative_to(root)}: render/plot/lang.cpp has no Chinese for "{phrase}"'
+
+
+CHECKS = [check_top_level, check_one_way, check_folders, check_private_libraries, check_equations, check_named_tests, check_phrases]
 
 
 def self_test():
@@ -164,6 +176,7 @@ def self_test():
         ("sim/a.cpp", "#include <nlohmann/json.hpp>\n", check_private_libraries),
         ("sim/a.cpp", "// θ̈ (S99)\n", check_equations),
         ("scenes/a.cpp", '"`Modes.ArePrinted`"', check_named_tests),
+        ("scenes/a.cpp", 'phrase(lang, "nowhere")', check_phrases),
     ]
     for name, text, guard in breaches:
         with tempfile.TemporaryDirectory() as directory:

@@ -1,4 +1,4 @@
-// The markup of labels, which can be drawn, or converted to LaTeX or plain text.
+// The markup of labels, which can be drawn, or converted to plain text.
 //
 //   $θ$ / rad          letters between dollars are italic symbols, digits and signs stay upright
 //   $x_{c}$, m s^{−1}  sub- and superscripts, in braces or a single character; braces needed outside dollars
@@ -34,7 +34,6 @@ struct Run {
 std::string power_of_ten(int exponent);  // as markup: "10^{−8}"
 
 std::vector<Run> parse_markup(std::string_view markup);
-std::string to_latex(std::string_view markup);
 std::string to_plain(std::string_view markup);
 std::string escaped(std::string_view plain);  // as markup
 std::string xml(std::string_view plain);

@@ -1,4 +1,4 @@
-// Markup as LaTeX and as plain text.
+// Markup as plain text.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,25 +12,6 @@
 
 namespace beamcam::render {
 namespace {
-
-constexpr std::array kLatexText{SignPair{"–", "--"},
-                                SignPair{"—", "---"},
-                                SignPair{"\u00A0", "~"},
-                                SignPair{"\u2009", "\\,"},
-                                SignPair{"“", "``"},
-                                SignPair{"”", "''"},
-                                SignPair{"%", "\\%"},
-                                SignPair{"&", "\\&"},
-                                SignPair{"#", "\\#"},
-                                SignPair{"_", "\\_"},
-                                SignPair{"{", "\\{"},
-                                SignPair{"}", "\\}"},
-                                SignPair{"$", "\\$"},
-                                SignPair{"~", "\\textasciitilde{}"},
-                                SignPair{"^", "\\textasciicircum{}"},
-                                SignPair{"\\", "\\textbackslash{}"},
-                                SignPair{"…", "\\dots{}"},
-                                SignPair{"µ", "\\textmu{}"}};
 
 template <std::size_t N>
 const std::string_view* find(const std::array<SignPair, N>& table, std::string_view c) {
@@ -46,84 +27,6 @@ void each_character(std::string_view text, const Visit& visit) {
         text.remove_prefix(c.size());
         visit(c, text);
     }
-}
-
-std::string latex_math(std::string_view text) {
-    std::string out;
-    each_character(text, [&](std::string_view c, std::string_view rest) {
-        const std::string_view* known = find(kLatexMath, c);
-        out += known ? *known : c;
-        // A letter after a command would belong to its name.
-        if (known && known->size() > 1 && known->front() == '\\' && known->back() != ' ' && !rest.empty()) out += ' ';
-    });
-    return out;
-}
-
-std::string latex_text(std::string_view text) {
-    std::string out;
-    each_character(text, [&](std::string_view c, std::string_view) {
-        if (const std::string_view* known = find(kLatexText, c))
-            out += *known;
-        else if (const std::string_view* sign = find(kLatexMath, c))
-            out += fmt::format("${}$", sign->substr(0, sign->find_last_not_of(' ') + 1));
-        else
-            out += c;
-    });
-    return out;
-}
-
-std::string latex_of(const std::vector<Run>& runs);
-
-// LaTeX within a formula.
-std::string latex_part(const std::vector<Run>& runs) {
-    std::string out = latex_of(runs);
-    std::erase(out, '$');
-    return out;
-}
-
-bool is_digit(char c) { return std::isdigit(static_cast<unsigned char>(c)) || c == '.'; }
-
-bool is_number(std::string_view text) {
-    bool all = true;
-    each_character(
-        text, [&](std::string_view c, std::string_view) { all = all && (c == "−" || c == "+" || is_digit(c[0])); });
-    return all;
-}
-
-std::string latex_run(const Run& run) {
-    if (!run.under.empty()) return fmt::format("$\\frac{{{}}}{{{}}}$", latex_part(run.over), latex_part(run.under));
-    if (!run.over.empty()) return fmt::format("$\\sqrt{{{}}}$", latex_part(run.over));
-    std::string body = run.symbol ? latex_math(run.text) : latex_text(run.text);
-    if (run.script == 0) {
-        if (!run.symbol) return run.bold ? fmt::format("\\textbf{{{}}}", body) : body;
-        if (run.dots) body = fmt::format("\\{}{{{}}}", run.dots == 1 ? "dot" : "ddot", body);
-        return fmt::format("${}$", body);
-    }
-    if (!run.symbol)
-        body = is_number(run.text) ? latex_math(run.text) : fmt::format("\\mathrm{{{}}}", latex_math(run.text));
-    return fmt::format("${}{{{}}}$", run.script < 0 ? "_" : "^", body);
-}
-
-std::string latex_of(const std::vector<Run>& runs) {
-    std::string out;
-    for (const Run& run : runs) {
-        const std::string piece = latex_run(run);
-        // Joins formulas: "$x$$_{c}$" would start a displayed equation.
-        if (out.ends_with("$") && !out.ends_with("\\$") && piece.starts_with("$")) {
-            out.pop_back();
-            out += piece.substr(1);
-        } else if (piece.starts_with("$^") && !out.empty() && is_digit(out.back())) {  // a power of a number
-            const auto number = std::find_if_not(out.rbegin(), out.rend(), is_digit).base();
-            if (number != out.begin() && number[-1] == '$')  // after "$\\times$"
-                out.erase(number - 1);
-            else
-                out.insert(number, '$');
-            out += piece.substr(1);
-        } else {
-            out += piece;
-        }
-    }
-    return out;
 }
 
 constexpr std::array kSuperscripts{SignPair{"0", "⁰"}, SignPair{"1", "¹"}, SignPair{"2", "²"}, SignPair{"3", "³"},
@@ -213,7 +116,6 @@ std::string plain_of(const std::vector<Run>& runs) {
 
 }  // namespace
 
-std::string to_latex(std::string_view markup) { return latex_of(parse_markup(markup)); }
 std::string to_plain(std::string_view markup) { return plain_of(parse_markup(markup)); }
 
 }  // namespace beamcam::render

@@ -161,13 +161,13 @@ struct Panel {
 
 struct Figure {
     std::string name = {};   // "free-fall"
-    std::string title = {};  // plain text, for the file's properties
+    std::string title = {};  // markup, for the caption and the file's properties
     std::vector<Panel> panels = {};
     bool stack = false;    // panels above each other however wide the page; else side by side where there is room
     bool share_x = false;  // stacked panels have one x axis: numbers and label below the last
     double aspect = 0.66;  // height by width of one column
     std::optional<double> height = {};  // [mm]; instead of what follows from the aspect
-    std::string caption = {};           // markup
+    std::string caption = {};           // markup: the parameters
     std::string accuracy = {};          // markup: tolerance and energy balance; ends the caption
 };
 

@@ -1,11 +1,86 @@
 #include "render/plot/lang.hpp"
 
-#include <string_view>
+#include <algorithm>
+#include <iterator>
+#include <utility>
 
 namespace beamcam::render {
 namespace {
 
-// Longer phrases come before those that they contain.
+// The phrases of figures. {} is a value, {0}, {1} are values by their number.
+constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
+    // axes
+    {"approach speed", "接近速度"},
+    {"averaged over $t$ / s", "平均时间 $t$ / s"},
+    {"cam phase / turn", "凸轮相位 / 转"},
+    {"coefficient of restitution", "恢复系数"},
+    {"error of {} / rad", "{} 的误差 / rad"},
+    {"horizontal distance $x$ from $O$ / m", "距 $O$ 的水平距离 $x$ / m"},
+    {"impacts", "冲击次数"},
+    {"impacts per period, or per turn of the cam", "每周期（或每转）碰撞次数"},
+    {"largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}"},
+    {"mean of {}", "平均 {}"},
+    {"phase of the cam", "凸轮相位"},
+    {"run time / ms", "计算时间 / ms"},
+    {"turns of the cam", "凸轮转数"},
+    {"{}, impact $k$", "{}，第 $k$ 次冲击"},
+    {"{}, impact $k$ + 1", "{}，第 $k$ + 1 次冲击"},
+    // legends, marks and titles of panels
+    {"along the rod", "沿杆"},
+    {"as printed", "原文公式"},
+    {"bending and contact", "弯曲与接触能"},
+    {"coinciding", "重合"},
+    {"error, against $N$ = {}", "误差（相对 $N$ = {}）"},
+    {"exact", "精确模型"},
+    {"external work", "外功"},
+    {"first collision", "首次碰撞"},
+    {"first-order", "一阶模型"},
+    {"flexible", "柔性"},
+    {"kinetic", "动能"},
+    {"located", "事件定位"},
+    {"lost", "损失"},
+    {"No samples to draw; motions: {}", "没有可绘制的点；运动：{}"},
+    {"on the beam", "梁上"},
+    {"on the cam", "凸轮上"},
+    {"paper", "论文模型"},
+    {"potential", "重力势能"},
+    {"reference", "参考解"},
+    {"rigid", "刚性"},
+    {"rigid, factor 2", "刚性，2 倍"},
+    {"run time (right)", "计算时间（右）"},
+    {"second-order", "二阶模型"},
+    {"stable", "稳定"},
+    {"sum − work", "总和 − 外功"},
+    {"sweep", "扫描"},
+    {"target", "目标"},
+    {"terms completed", "补全各项"},
+    {"unknown", "未知"},
+    {"unstable", "不稳定"},
+    {"zeroth-order", "零阶模型"},
+    // impacts in subtitles and chapters
+    {"Impact {}", "第 {} 次冲击"},
+    {"Impacts {}–{}", "第 {}–{} 次冲击"},
+    {" · up to {}", " · 最大 {}"},
+    {"Start", "开始"},
+    // motions of sweeps
+    {"aperiodic", "非周期"},
+    {"carried down", "递减延续"},
+    {"carried up", "递增延续"},
+    {"chaotic", "混沌"},
+    {"following", "跟随"},
+    {"over-the-top", "翻越"},
+    {"period {}", "周期 {}"},
+    {"period {} and more", "周期 {} 及以上"},
+    {"period {0} turn{1}, {2:g} impact{3}", "周期 {0} 圈，碰撞 {2:g} 次"},
+    {"periodic", "周期"},
+    {"quasi-periodic", "准周期"},
+    {"random starts", "随机初值"},
+    {"rest", "静止"},
+    {"same start", "相同初值"},
+    {"unsettled", "未定"},
+};
+
+// The words of films. Longer phrases come before those that they contain.
 constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
     {"Contact trace on disc and beam", "圆盘与梁上的接触轨迹"},
@@ -69,6 +144,12 @@ constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
 };
 
 }  // namespace
+
+std::string_view translated(Lang lang, std::string_view english) {
+    if (lang == Lang::en) return english;
+    const auto found = std::ranges::find(kPhrases, english, &std::pair<std::string_view, std::string_view>::first);
+    return found == std::end(kPhrases) ? english : found->second;
+}
 
 std::string in(Lang lang, std::string text) {
     if (lang == Lang::en) return text;

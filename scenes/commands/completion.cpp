@@ -93,9 +93,9 @@ Candidates values_of(const Parameter& parameter, std::string_view word) {
     } else if (placeholder == "PATTERN") {
         out.add_keys("");
     } else if (placeholder == "FIGURE") {
-        out.add(figure_names());
+        out.add(names_of_figures_and_presets());
     } else if (placeholder == "EXAMPLE") {
-        for (const EmbeddedScene& scene : embedded_scenes()) out.words.emplace(scene.name, "");
+        for (const EmbeddedText& scene : embedded_scenes()) out.words.emplace(scene.name, "");
     }
     constexpr std::string_view kFiles[] = {"FILE",   "DIR",  "SCENE", "OTHERS", "BASELINES", "SEGMENT",
                                            "REPORT", "FILM", "PART",  "A",      "B"};

@@ -9,8 +9,11 @@
 #include <vector>
 
 #include "output/json/source.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/commands/key_options.hpp"
 #include "scenes/figures/figure_types.hpp"
+#include "scenes/format/presets.hpp"
+#include "scenes/format/reader.hpp"
 #include "scenes/format/suggest.hpp"
 #include "scenes/outputs/run.hpp"
 
@@ -20,6 +23,8 @@ namespace {
 struct FigureArguments {
     Common common;
     std::string scene, figure, file;
+    std::optional<std::string> preset;  // a file
+    bool list = false;
     KeyOptions print{"figure"}, channels{"figure"}, span{"figure"};
     KeyOptions panel{"figure"};  // of the figure's only panel
     std::optional<std::string> data, caption;
@@ -28,10 +33,6 @@ struct FigureArguments {
     std::optional<std::string> title;
     bool impacts = false, residuals = false, logarithmic = false, apart = false;
 
-    Lang lang() const {
-        const std::string* given = print.value("--lang");
-        return given && *given == "zh" ? Lang::zh : Lang::en;
-    }
     bool describes_panel() const { return panel.any() || title; }
     // Options that describe a series, and their keys; options of `print` describe other figures.
     std::vector<std::pair<std::string, std::string>> of_series() const {
@@ -49,15 +50,44 @@ struct FigureArguments {
     }
 };
 
-// The names of all figures; why the scene cannot have some of them.
-std::string list(const Scene& scene, Lang lang) {
-    std::string text;
-    for (const FigureType& type : figure_types()) {
-        const auto refusal = refusal_of(type, scene);
-        text += fmt::format("{:<18} {}{}\n", type.name, type.title.in(lang),
-                            refusal ? fmt::format(" (not for this scene: {})", *refusal) : "");
+Node output_of(const std::string& figure) {
+    return object_node({{"type", FigureOutput::kType}, {"figure", figure}});
+}
+
+// Why the scene cannot have this figure.
+std::optional<std::string> refusal_of(const Preset& preset, const FigureArguments& args, const Scene& scene) {
+    try {
+        read_output(output_of(preset.name), {}, scene, args.scene, args.common);
+        return std::nullopt;
+    } catch (const UsageError& error) {
+        return error.what();
     }
+}
+
+// The names of all figures and presets; why the scene cannot have some of them.
+std::string list(const FigureArguments& args, const Scene& scene) {
+    std::string text;
+    const auto add = [&](std::string_view name, std::string_view title, const std::optional<std::string>& refusal) {
+        text += fmt::format("{:<18} {}{}\n", name, render::to_plain(title),
+                            refusal ? fmt::format(" (not for this scene: {})", *refusal) : "");
+    };
+    for (const FigureType& type : figure_types()) add(type.name, type.title, refusal_of(type, scene));
+    for (const Preset& preset : embedded_presets()) add(preset.name, preset.title(), refusal_of(preset, args, scene));
     return text;
+}
+
+// The preset that the arguments name; nothing for a figure of its own.
+std::optional<Preset> preset_of(const FigureArguments& args) {
+    if (!args.preset) {
+        const Preset* embedded = embedded_preset(args.figure);
+        return embedded ? std::optional(*embedded) : std::nullopt;
+    }
+    const Source source = load_named_source(*args.preset);
+    Parsed parsed = parse(source.text);
+    if (parsed.is_json && parsed.root.kind != Node::Kind::object)
+        parsed.messages.push_back({parsed.root.place, "a preset is an object with the keys of a figure", true});
+    if (!parsed.messages.empty()) throw SceneError(describe({source}, parsed.messages));
+    return Preset{std::filesystem::path(*args.preset).stem().string(), std::move(parsed.root)};
 }
 
 // ---- the output as a scene would describe it -------------------------------------------------------
@@ -90,9 +120,12 @@ Node note_node(const std::string& text) {
     return note;
 }
 
-Node output_node(const FigureArguments& args) {
-    Node output = object_node({{"type", FigureOutput::kType}, {"figure", args.figure}});
-    if (args.describes_panel()) add(output, "panels", array_node({panel_node(args)}));
+Node output_node(const FigureArguments& args, const std::optional<Preset>& preset) {
+    Node output = output_of(args.figure);
+    if (preset) add_preset(output, *preset);
+    if (args.describes_panel() && !preset) add(output, "panels", array_node({panel_node(args)}));
+    if (Node* first = preset && args.title ? child(output, "panels") : nullptr; first && !first->items.empty())
+        add(first->items.front(), "title", *args.title);
     if (!args.compare.empty()) add(output, "compare", compare_node(args));
     if (args.impacts) add(output, "impacts", true);
     if (args.residuals) add(output, "residuals", true);
@@ -108,13 +141,13 @@ void reject_options_of_others(const FigureArguments& args, const FigureType& typ
         if (const auto misplaced = type.misplaced(key)) throw UsageError(fmt::format("{} {}", option, *misplaced));
 }
 
-FigureOutput figure_output(const FigureArguments& args, const Scene& scene) {
+FigureOutput figure_output(const FigureArguments& args, const std::optional<Preset>& preset, const Scene& scene) {
     require_ending("-o", args.file, kFigureEndings);
-    if (args.figure == "series" && !args.channels.any())
+    if (args.figure == "series" && !preset && !args.channels.any())
         throw UsageError("figure series: name its --channels, for example theta,contact_force");
     const KeyOptions no_channels{"figure"};  // they are in the panel
     auto figure = std::get<FigureOutput>(
-        read_output(output_node(args),
+        read_output(output_node(args, preset),
                     {&args.print, args.describes_panel() ? &no_channels : &args.channels, &args.panel, &args.span},
                     scene, args.scene, args.common));
     figure.file = args.file;
@@ -137,23 +170,29 @@ void act(const FigureArguments& given) {
     Scene scene = load_scene(args.scene, args.common);
     if (args.figure.empty() && !args.of_series().empty()) args.figure = "series";
     if (args.figure.empty() && args.print.value("--at")) args.figure = "strobe";
-    if (args.figure.empty()) {
+    if (args.preset && !args.figure.empty())
+        throw UsageError(fmt::format("figure {}: --preset names another figure; give one of them", args.figure));
+    if (args.list || (args.figure.empty() && !args.preset)) {
         if (!args.file.empty())
             throw UsageError(fmt::format("-o {}: which figure? `beamcam figure {}` lists them", args.file, args.scene));
-        print_text(list(scene, args.lang()));
+        print_text(list(args, scene));
         return;
     }
+    const std::optional<Preset> preset = preset_of(args);
+    if (preset) args.figure = preset->figure();
     const FigureType* type = figure_type(args.figure);
-    if (!type)
-        throw UsageError(fmt::format("there is no figure {}{}", in_quotes(args.figure),
-                                     suggestion_or_list(args.figure, figure_names())));
+    if (!type) {
+        throw UsageError(fmt::format("{}there is no figure {}{}", args.preset ? *args.preset + ": " : "",
+                                     in_quotes(args.figure),
+                                     suggestion_or_list(args.figure, names_of_figures_and_presets())));
+    }
     reject_options_of_others(args, *type);
     if (args.file.empty())
         throw UsageError(
             fmt::format("figure {}: name the file with -o, ending in .pdf, .svg, .eps, .png or .tif", args.figure));
     if (const auto refusal = refusal_of(*type, scene))
         throw SceneError(fmt::format("{}: no figure \"{}\": {}", args.scene, type->name, *refusal));
-    scene.set_outputs({figure_output(args, scene)});
+    scene.set_outputs({figure_output(args, preset, scene)});
     run_or_plan({&scene, 1}, run_options(args.common, ""), args.common);
 }
 
@@ -170,7 +209,7 @@ void add_print_options(Command& app, FigureArguments& args) {
     args.print.add(app, "--theme", "theme", "THEME");
     app.option("--data", &args.data, "FILE", "Write the plotted numbers, too: .csv");
     app.option("--caption", &args.caption, "FILE",
-               "Write the caption, too: .txt and .md plain and as LaTeX, .tex as LaTeX");
+               "Write the caption, too: .txt or .md");
 }
 
 void add_content_options(Command& app, FigureArguments& args) {
@@ -182,7 +221,6 @@ void add_content_options(Command& app, FigureArguments& args) {
     args.span.add(app, "--to", "to", "T");
     args.print.add(app, "--at", "at", "T");
     args.print.add(app, "--window", "window", "T");
-    args.print.add(app, "--collision", "collision", "N");
 }
 
 void add_series_options(Command& app, FigureArguments& args) {
@@ -218,7 +256,9 @@ void add_figure(Grammar& grammar) {
                     "figure fall.json --channels theta,contact_force --from impact:1 -o touch.svg"};
     add_scene(app, args.scene, args.common);
     app.positional("FIGURE", &args.figure,
-                   "Name of the figure; not needed with --channels (\"series\") and --at (\"strobe\")");
+                   "Name of the figure or preset; not needed with --channels (\"series\") and --at (\"strobe\")");
+    app.flag("--list", args.list, "List all figures and presets, and which of them this scene cannot have");
+    app.option("--preset", &args.preset, "FILE", "A preset of your own: .json with the keys of a figure");
     app.option("-o,--output", &args.file, "FILE", "File to make: .pdf, .svg, .eps, .png or .tif");
     add_print_options(app, args);
     add_content_options(app, args);

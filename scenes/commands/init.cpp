@@ -21,9 +21,9 @@ struct InitArguments {
     std::string name, from = "default";
 };
 
-const EmbeddedScene& example_named(const std::string& name) {
+const EmbeddedText& example_named(const std::string& name) {
     std::vector<std::string> known;
-    for (const EmbeddedScene& scene : embedded_scenes()) {
+    for (const EmbeddedText& scene : embedded_scenes()) {
         if (scene.name == name || fmt::format("{}.json", scene.name) == name) return scene;
         known.emplace_back(scene.name);
     }
@@ -31,7 +31,7 @@ const EmbeddedScene& example_named(const std::string& name) {
 }
 
 int act(const InitArguments& args) {
-    const EmbeddedScene& example = example_named(args.from);
+    const EmbeddedText& example = example_named(args.from);
     const std::string own = std::filesystem::path(example.name).filename().string();
     const std::string name = !args.name.empty() ? args.name : args.from == "default" ? "scene" : own;
     std::string text(example.text);
@@ -56,9 +56,9 @@ int act(const InitArguments& args) {
 
 void list_examples(const Common&) {
     std::size_t width = 0;
-    for (const EmbeddedScene& scene : embedded_scenes()) width = std::max(width, scene.name.size());
+    for (const EmbeddedText& scene : embedded_scenes()) width = std::max(width, scene.name.size());
     std::string text;
-    for (const EmbeddedScene& scene : embedded_scenes())
+    for (const EmbeddedText& scene : embedded_scenes())
         text += fmt::format("{:<{}}  {}\n", scene.name, width, scene.summary());
     print_text(text);
 }

@@ -230,7 +230,7 @@ void add_sweep(Grammar& grammar) {
                "theta); map, basins: class (default), exponent, impacts_per_period, or the mean of a column");
     add_column(app, args.column);
     add_lang(app, args.lang);
-    app.option("--caption", &args.caption, "FILE", "Write the caption of the figure, too: .txt, .md or .tex");
+    app.option("--caption", &args.caption, "FILE", "Write the caption of the figure, too: .txt or .md");
     app.option("--shard", &args.shard, "I/N",
                "Compute part I of N into a separate file: 2/3 writes NAME.2of3.points; `beamcam collect` joins the "
                "parts. auto: the part of this array task of Slurm");

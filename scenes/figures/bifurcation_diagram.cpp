@@ -7,7 +7,6 @@
 #include <map>
 #include <numeric>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include "scenes/figures/figure_types.hpp"
@@ -73,7 +72,7 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
     const std::uint64_t count = points.seed(0) == SeedKind::random ? 1 : points.seeds();
     std::vector<figure::Cloud> clouds;
     for (std::uint64_t seed = 0; seed < count; ++seed)
-        clouds.push_back({count > 1 ? look_of(points.seed(seed)).label.in(points.lang) : "",
+        clouds.push_back({count > 1 ? phrase(points.lang, look_of(points.seed(seed)).label) : "",
                           {},
                           {},
                           count > 1 ? rgb(kSeedColors[seed % std::size(kSeedColors)]).faded(seed > 0 ? kOverFirst : 1)
@@ -84,22 +83,18 @@ std::vector<figure::Cloud> clouds_of_starts(const SweptPoints& points) {
 // Samples and exponents as clouds, one for each start that is distinguished.
 struct Dots {
     std::vector<figure::Cloud> samples, exponents;
-    std::set<AttractorClass> undrawn;  // classes of the motions with an exponent, but without drawn samples
 };
 Dots dots_of(const SweptPoints& points, std::size_t column, const std::vector<std::uint64_t>& order,
              const Added& added) {
     const std::size_t width = points.data.columns.size();
-    Dots out{clouds_of_starts(points), clouds_of_starts(points), {}};
+    Dots out{clouds_of_starts(points), clouds_of_starts(points)};
     for (const std::uint64_t k : order) {
         if (!points.data.has(k)) continue;
         const output::StoredPoint p = points.data.read(k);
         const std::size_t cloud = out.samples.size() > 1 ? k % points.seeds() : 0;
         const double at = points.value(k);
         if (std::isfinite(p.exponent)) out.exponents[cloud].add(at, p.exponent), added(1, cloud, k);
-        if (!has_section(kind_of(p))) {
-            if (std::isfinite(p.exponent)) out.undrawn.insert(kind_of(p));
-            continue;
-        }
+        if (!has_section(kind_of(p))) continue;
         for (std::size_t i = column; i < p.samples.size(); i += width)
             out.samples[cloud].add(at, drawn(points, column, p.samples[i])), added(0, cloud, k);
     }
@@ -127,7 +122,7 @@ figure::Cloud coinciding(const std::vector<figure::Cloud>& clouds, Lang lang) {
     Color all = clouds.front().color;
     for (const figure::Cloud& cloud : clouds) all = mix(all, cloud.color, cloud.color.a);
     all.a = 1;
-    return {.label = phrase(lang, "coinciding", "重合"), .color = all};
+    return {.label = phrase(lang, "coinciding"), .color = all};
 }
 
 // `classes`: those of the motions.
@@ -143,23 +138,11 @@ figure::Panel samples_panel(const SweptPoints& points, std::size_t column, std::
     }
     std::vector<std::string> names;
     for (const figure::Swatch& each : classes) names.push_back(each.label);
-    panel.title = phrase(points.lang, "No samples to draw; motions: {}", "没有可绘制的点；运动：{}",
-                         fmt::join(names, phrase(points.lang, ", ", "、")));
+    panel.title = phrase(points.lang, "No samples to draw; motions: {}", fmt::format("{}", fmt::join(names, ", ")));
     panel.y = {.from = 0, .to = 1, .numbered = false, .ticked = false};  // numbers would be invented
     panel.legend = figure::Legend::none;
     panel.share = 0.15;
     return panel;
-}
-
-// Of the panel of exponents, which has dots where that of the samples has none.
-std::string exponents_text(const std::set<AttractorClass>& undrawn, Lang lang) {
-    std::vector<std::string> names;
-    for (const AttractorClass kind : undrawn) names.push_back(class_label(kind, lang));
-    const std::string more = names.empty() ? ""
-                                           : phrase(lang, ", also of motions whose samples are not drawn ({})",
-                                                    "，包括未绘制样本的运动（{}）", fmt::join(names, ", "));
-    return phrase(lang, "$λ_1$: the largest Lyapunov exponent where it is known and finite{}.",
-                  "$λ_1$：最大 Lyapunov 指数（已知且有限处）{}。", more);
 }
 
 std::string usual_value(const SweptPoints& points) { return points.of_impacts() ? "v_n_before" : "theta"; }
@@ -191,8 +174,6 @@ figure::Figure diagram_of(const SweptPoints& points, const std::string& value, c
                   .tight = true};
     out.stack = out.share_x = true;
     out.aspect = empty ? 0.45 : known ? 1.05 : 0.8;
-    if (empty) out.caption = phrase(points.lang, "No motion has a section to draw.", "没有可绘制的截面。");
-    if (known) out.caption += (empty ? " " : "") + exponents_text(dots.undrawn, points.lang);
     return out;
 }
 

@@ -87,8 +87,7 @@ const char* letters(sim::OrbitChange change) {
 // period doublings.
 constexpr double kLabelRoom = 0.06;
 
-std::string add_special(const output::BranchTable& table, double factor, double range, Panel& panel) {
-    std::string text;
+void add_special(const output::BranchTable& table, double factor, double range, Panel& panel) {
     std::map<sim::OrbitChange, double> labelled;
     for (const sim::Branch& branch : table.branches)
         for (const sim::SpecialPoint& point : branch.special) {
@@ -102,9 +101,7 @@ std::string add_special(const output::BranchTable& table, double factor, double 
                                        .label = room && k == 0 ? letters(point.change) : "",
                                        .look = static_cast<int>(point.change),
                                        .hollow = true});
-            text += fmt::format("{}{} {}", text.empty() ? "" : "; ", letters(point.change), number(x, 11));
         }
-    return text;
 }
 
 // Stable and unstable pieces of all branches.
@@ -112,8 +109,8 @@ struct BranchCurves {
     Series stable, unstable;
 };
 BranchCurves curves_of(const output::BranchTable& table, double factor, Lang lang) {
-    BranchCurves out{{.label = phrase(lang, "stable", "稳定"), .solid = true},
-                     {.label = phrase(lang, "unstable", "不稳定"), .look = 1}};
+    BranchCurves out{{.label = phrase(lang, "stable"), .solid = true},
+                     {.label = phrase(lang, "unstable"), .look = 1}};
     for (const sim::Branch& branch : table.branches) {
         const std::vector<FollowedImpact> impacts = followed_impacts(branch);
         add_impacts(branch, impacts, true, factor, out.stable);
@@ -134,19 +131,6 @@ std::vector<sim::Problem> problems_along(const output::BranchTable& table, const
     return out;
 }
 
-std::string branches_caption(const output::BranchTable& table, const std::string& special, bool with_sweep,
-                             const Scene& scene, Lang lang) {
-    return phrase(lang,
-                  "Approach speeds of the impacts of periodic orbits over {}: stable orbits solid, unstable ones "
-                  "dashed; SN fold, PD period doubling, NS Neimark–Sacker, BP branching, G grazing, C corner (the "
-                  "contact passes the tip), R release. {}{}{}",
-                  "周期轨道各次碰撞的接近速度随 {} 的变化：实线稳定，虚线不稳定；SN 鞍结，PD 倍周期，NS "
-                  "Neimark–Sacker，BP 分支点，G 擦边，C 拐点（接触越过自由端），R 脱离。{}{}{}",
-                  symbol_of(table.key), special.empty() ? "" : phrase(lang, "{}. ", "{}。", special),
-                  !with_sweep ? "" : phrase(lang, "Dots: impacts of a sweep. ", "点：扫描所得碰撞。"),
-                  facts(subject_of(scene, lang), {.others = problems_along(table, scene.problem)}));
-}
-
 }  // namespace
 
 Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swept, const Scene& scene, Lang lang) {
@@ -157,26 +141,28 @@ Figure branches_figure(const output::BranchTable& table, const SweptImpacts& swe
                       .from = shown.factor * table.from,
                       .to = shown.factor * table.to,
                       .tight = true},
-                .y = {.label = axis_label(kApproachSpeed.in(lang), "m/s")},
+                .y = {.label = axis_label(phrase(lang, "approach speed"), "m/s")},
                 .legend = render::figure::Legend::box,
                 .name = "branches"};
     const bool with_sweep = !swept.parameter.empty();
     if (with_sweep)
-        panel.clouds.push_back({phrase(lang, "sweep", "扫描"), {}, swept.approach, render::rgb(kSweptColor)});
+        panel.clouds.push_back({phrase(lang, "sweep"), {}, swept.approach, render::rgb(kSweptColor)});
     for (const double parameter : swept.parameter) panel.clouds[0].x.push_back(shown.factor * parameter);
-    const std::string special = add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
+    add_special(table, shown.factor, shown.factor * (table.to - table.from), panel);
     for (Series* series : {&curves.stable, &curves.unstable}) {
         if (with_sweep) series->weight = kWiderThanDots;
         if (!series->x.empty()) panel.series.push_back(std::move(*series));
     }
     if (panel.series.empty())
         throw render::PictureError("branches: no orbit with impacts was followed, so there is nothing to draw");
-    return {.name = "branches",
-            .title = phrase(lang, "Branches of periodic orbits", "周期轨道分支"),
-            .panels = {std::move(panel)},
-            .caption = branches_caption(table, special, with_sweep, scene, lang),
-            .accuracy = phrase(lang, "Newton's method on the section map at relative tolerance 10^{−12}.",
-                               "截面映射上的 Newton 法，相对容差 10^{−12}。")};
+    Figure figure{.name = "branches",
+                  .title = fmt::format("Approach speeds of periodic orbits over {}: SN fold, PD period doubling, NS "
+                                       "Neimark–Sacker, BP branching, G grazing, C corner, R release",
+                                       symbol_of(table.key)),
+                  .panels = {std::move(panel)}};
+    add_caption(figure, problems_along(table, scene.problem));
+    figure.accuracy = "Newton's method on the section map at relative tolerance 10^{−12}.";
+    return figure;
 }
 
 }  // namespace beamcam::scenes

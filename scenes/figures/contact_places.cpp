@@ -72,7 +72,7 @@ std::optional<render::figure::Inset> first_collision(const sim::Collision& c, do
         touching += touches;
     }
     if (touching < 2) return std::nullopt;
-    Panel panel{.title = phrase(lang, "first collision", "首次碰撞"),
+    Panel panel{.title = phrase(lang, "first collision"),
                 .x = {.label = axis_label("($t$ − $t_{1}$)", duration.unit)},
                 .series = {std::move(s)},
                 .color_bar = whole.color_bar,
@@ -93,12 +93,8 @@ Figure impulsive_places(const Subject& subject, const sim::Result& result) {
     places.points.value = scaled(std::move(places.points.value), 1 / prefix.factor);
     places.strongest /= prefix.factor;
     places.measure_beam();
-    return {.title = phrase(lang, "Contact point on the beam", "梁上的接触点"),
-            .panels = {places_panel(places, end, places.beam_label(), fmt::format("$J$ / ({}N s)", prefix.symbol))},
-            .caption = phrase(lang,
-                              "Place of the impacts on the beam, measured from its root, coloured by their normal "
-                              "impulse $J$. ",
-                              "各次冲击在梁上的位置（自根部量起），颜色表示法向冲量 $J$。")};
+    return {.title = "Impacts on the beam, measured from its root, coloured by their normal impulse",
+            .panels = {places_panel(places, end, places.beam_label(), fmt::format("$J$ / ({}N s)", prefix.symbol))}};
 }
 
 // The place of contact at each instant, coloured by the force.
@@ -121,19 +117,11 @@ Figure forceful_places(const Subject& subject, const sim::Result& result, const 
     on_beam.sort_by_value(), on_cam.sort_by_value();
     std::vector<Panel> panels{places_panel(on_beam, end, on_beam.beam_label(), "$F$ / N"),
                               places_panel(on_cam, end, "$s_{\\r{c}}$/$R$ / °", "$F$ / N")};
-    panels[0].title = phrase(lang, "on the beam", "梁上"), panels[1].title = phrase(lang, "on the cam", "凸轮上");
+    panels[0].title = phrase(lang, "on the beam"), panels[1].title = phrase(lang, "on the cam");
     if (const sim::Collision* first = collision_of(problem, result, 1))
         if (auto inset = first_collision(*first, end, t, on_beam.measure.factor, panels[0], lang))
             panels[0].insets = {std::move(*inset)};
-    return {.panels = lettered(std::move(panels)),
-            .stack = true,
-            .share_x = true,
-            .aspect = 1.1,
-            .caption = phrase(lang,
-                              "Contact point (a) on the beam, measured from its root, and (b) on the cam, as the angle "
-                              "from the mark of the disc (the ray from $C$ to $B$), coloured by the normal force. ",
-                              "接触点 (a) 在梁上（自根部量起）和 (b) 在凸轮上（自圆盘标记，即射线 $C$$B$ "
-                              "起的角度）的位置，颜色表示法向力。")};
+    return {.panels = lettered(std::move(panels)), .stack = true, .share_x = true, .aspect = 1.1};
 }
 
 FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, Studies& studies) {
@@ -150,6 +138,8 @@ FigureDrawing prepare_places(const Scene& scene, const FigureOutput&, Studies& s
 }  // namespace
 
 extern const FigureType kContactPlaces{
-    "contact-places", {"Contact point on beam and cam", "梁与凸轮上的接触点"}, needs_cam, prepare_places};
+    "contact-places",
+    "Contact point on the beam from its root, and on the cam from the ray $C$$B$, coloured by the normal force", needs_cam,
+    prepare_places};
 
 }  // namespace beamcam::scenes

@@ -37,17 +37,16 @@ Inclination inclination(const sim::Problem& p) {
 
 struct Curves {
     Printing printing;
-    Translated label;
+    const char* label;
     int look;  // the line style
 };
-constexpr std::array kCurves{Curves{Printing::corrected, {"along the rod", "沿杆"}, 0},
-                             Curves{Printing::completed, {"terms completed", "补全各项"}, 2},
-                             Curves{Printing::printed, {"as printed", "原文公式"}, 1}};
+constexpr std::array kCurves{Curves{Printing::corrected, "along the rod", 0},
+                             Curves{Printing::completed, "terms completed", 2},
+                             Curves{Printing::printed, "as printed", 1}};
 
-// Deflection [mm] and slope along the beam [10⁻³] over both spans; the slope's jump at the support.
+// Deflection [mm] and slope along the beam [10⁻³] over both spans.
 struct DeflectionCurves {
     Series v, slope;
-    double jump = 0;
 };
 DeflectionCurves shape_of(const sim::Problem& problem, double angle, double support, std::size_t i, const Curves& c,
                           Lang lang) {
@@ -55,7 +54,7 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
     const bool first = c.printing == Printing::corrected;
     DeflectionCurves out;
     const std::string at = "$l_{1}$ = " + length_text(support);
-    out.v = {.name = at + phrase(lang, ", ", "，") + c.label.in(lang),
+    out.v = {.name = fmt::format("{}, {}", at, phrase(lang, c.label)),
              .look = c.look,
              .solid = first,
              .weight = first ? 1 : 0.9,
@@ -71,33 +70,7 @@ DeflectionCurves shape_of(const sim::Problem& problem, double angle, double supp
             out.slope.add(x, s.slope * std::cos(angle) * 1e3);  // dx/ds = cos θ
         }
     }
-    out.jump = std::abs(out.slope.y[kPerSpan] - out.slope.y[kPerSpan - 1]);
     return out;
-}
-
-std::string deflection_caption(const Subject& subject, const Inclination& at, double jump) {
-    const Lang lang = subject.lang;
-    const std::string angle = number(at.angle * 180 / M_PI, 4);
-    std::string text = phrase(
-        lang,
-        "Static deflection $v$ across the beam (a) and slope d$v$/d$s$ along it (b), over the horizontal distance "
-        "$x$ = $s$ cos $θ$. The beam, inclined by $θ$ = {}°{}, is hinged at $O$ and supported at $x$ = $l_{{1}}$. ",
-        "横向静挠度 $v$ (a) 与沿梁斜率 d$v$/d$s$ (b)，横轴为水平距离 $x$ = $s$ cos $θ$；倾角 $θ$ = {}°{}的梁铰接于 "
-        "$O$ 并支承于 $x$ = $l_{{1}}$ 处。",
-        angle,
-        at.tangent ? phrase(lang, " (tangent to the disc as if it were centred)", "（与视为对心的圆盘相切）") : "");
-    if (is_of_the_paper(subject.problem))
-        text += phrase(
-            lang,
-            "Eq. (5) of the paper as printed (dashed) lacks a term in each constant of the overhanging span, so "
-            "that its slope jumps at the support, by up to {} × 10^{{−3}} here; with these terms (dotted) it is "
-            "continuous. Both integrate along the horizontal; along the inclined rod (solid) the deflection is "
-            "1/cos^{{2}} $θ$ = {} times larger. ",
-            "原文式 (5)（虚线）悬伸段两个常数各缺一项，支承处斜率发生跳变（此处最大 {} × "
-            "10^{{−3}}）；补全后（点线）连续。二者均沿水平方向积分；沿倾斜杆（实线）的挠度大 1/cos^{{2}} $θ$ = {} "
-            "倍。",
-            number(jump, 3), number(1 / std::pow(std::cos(at.angle), 2), 4));
-    return text + beam_facts(subject);
 }
 
 Figure deflection_figure(const Subject& subject, const Results&) {
@@ -106,7 +79,7 @@ Figure deflection_figure(const Subject& subject, const Results&) {
     const double reach = problem.beam.length * std::cos(at.angle);
     const std::span curves(kCurves.data(), is_of_the_paper(problem) ? kCurves.size() : 1);
     const bool several = curves.size() > 1;
-    Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m", "距 $O$ 的水平距离 $x$ / m"),
+    Panel shape{.x = {.label = phrase(lang, "horizontal distance $x$ from $O$ / m"),
                       .tight = true},
                 .y = {.label = "$v$ / mm"},
                 .rules = {{.at = 0}},
@@ -115,12 +88,10 @@ Figure deflection_figure(const Subject& subject, const Results&) {
               .y = {.label = "d$v$/d$s$ / 10^{−3}"},
               .rules = {{.at = 0}},
               .legend = several ? Legend::box : Legend::none};
-    double largest_jump = 0;  // of the slope, as printed
     for (std::size_t i = 0; i < kSupports.size(); ++i) {
         const double support = kSupports[i] * reach;
         for (const Curves& c : curves) {
             DeflectionCurves s = shape_of(problem, at.angle, support, i, c, lang);
-            if (c.printing == Printing::printed) largest_jump = std::max(largest_jump, s.jump);
             shape.series.push_back(std::move(s.v));
             slope.series.push_back(std::move(s.slope));
         }
@@ -128,15 +99,19 @@ Figure deflection_figure(const Subject& subject, const Results&) {
     }
     // The key to the dashes, in black.
     for (std::size_t k = 0; several && k < curves.size(); ++k)
-        slope.series.push_back({.label = curves[k].label.in(lang),
+        slope.series.push_back({.label = phrase(lang, curves[k].label),
                                 .look = curves[k].look,
                                 .solid = curves[k].printing == Printing::corrected,
                                 .color = render::rgb(0x000000)});
-    return {.panels = lettered({std::move(shape), std::move(slope)}),
-            .share_x = true,
-            .aspect = 1.15,
-            .caption = deflection_caption(subject, at, largest_jump),
-            .accuracy = accuracy({}, lang)};
+    Figure figure{
+        .title = fmt::format("Static deflection across the beam and slope along it; inclined by {}°{}, hinged at $O$, "
+                             "supported at $x$ = $l_{{1}}$",
+                             number(at.angle * 180 / M_PI, 4), at.tangent ? ", tangent to the centred disc" : ""),
+        .panels = lettered({std::move(shape), std::move(slope)}),
+        .share_x = true,
+        .aspect = 1.15};
+    add_caption(figure, std::vector{problem});
+    return figure;
 }
 
 FigureDrawing prepare_deflection(const Scene&, const FigureOutput&, Studies&) { return deflection_figure; }
@@ -158,7 +133,7 @@ std::optional<std::string> needs_static_bending(const Scene& scene) {
 }  // namespace
 
 extern const FigureType kDeflection{"deflection",
-                                    {"Static deflection for several contact points", "不同接触点的静挠度"},
+                                    "Static deflection for several contact points",
                                     needs_static_bending,
                                     prepare_deflection};
 

@@ -105,17 +105,6 @@ std::size_t trial_begin(const Stations& searched, const ArrivalAt& arrival_at) {
     return std::clamp<std::size_t>(middle, kMiddle, searched.x.size() - 1 - kMiddle) - kMiddle;
 }
 
-// The first touch of the simulation, with the digits that one mode fewer does not change.
-std::string located(const sim::Problem& problem, const sim::Result& result, const sim::Result* fewer, Lang lang) {
-    if (result.impacts.empty()) return phrase(lang, "the simulation has no impact. ", "仿真中无碰撞。");
-    const sim::Impact& hit = result.impacts.front();
-    std::optional<double> x, t;
-    if (fewer && !fewer->impacts.empty()) x = fewer->impacts.front().x, t = fewer->impacts.front().t_start;
-    return phrase(lang, "the located event is at $x$ = {} m, $t$ = {} s. ", "事件定位为 $x$ = {} m、$t$ = {} s。",
-                  supported(estimate(problem, hit.x, x)), supported(estimate(problem, hit.t_start, t))) +
-           digits_stated(problem, lang);
-}
-
 // The trial points in both rounds, with when each reaches the cam.
 struct Trial {
     DistanceHistory history;
@@ -200,29 +189,9 @@ Panel arrivals_panel(const Trial& trial, const sim::Result& strikes, Lang lang) 
     if (!strikes.impacts.empty())
         inset.marks.push_back({.x = strikes.impacts.front().x,
                                .y = strikes.impacts.front().t_start * time.factor,
-                               .label = phrase(lang, "located", "事件定位"),
+                               .label = phrase(lang, "located"),
                                .look = 1});
     return inset;
-}
-
-std::string trial_caption(const Trial& trial, double rtol, Lang lang) {
-    const std::vector<double>&when = trial.when, &x = trial.history.x;
-    const std::size_t first = trial.first;
-    // The first zero lies between the neighbours of the first point; its time is as certain as theirs agree.
-    double around = 0;
-    for (const std::size_t k : {first > 0 ? first - 1 : first, std::min(first + 1, x.size() - 1)})
-        if (when[k] != kNever) around = std::max(around, when[k] - when[first]);
-    return phrase(lang,
-                  "Distance $D$′ of points $x$ of the beam, moving as without the cam, from the cam's surface "
-                  "near the first touch. Inset: the time at which the distance is zero against $x$, by the first round "
-                  "of the trial method (points), its refinement (line) and the simulation (“located”). Earliest "
-                  "trial point: {} m; earliest of points {} mm apart: $x$ = {} m, $t$ = {} s; ",
-                  "首次接触附近，梁上各点 $x$（按无凸轮时运动）到凸轮表面的距离 $D$′。插图：距离为零的时刻随 $x$ "
-                  "的变化，试算法第一轮（点）及加密（线），以及仿真定位的事件。首轮最先接触点：{} m；加密至 {} "
-                  "mm 后 $x$ "
-                  "= {} m，$t$ = {} s；",
-                  number(x[trial.first_trial], 3), number(trial.spacing() * 1e3, 3), number(x[first], 4),
-                  supported({when[first], std::max(around, 10 * rtol * when[first])}));
 }
 
 FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, Studies& studies) {
@@ -233,19 +202,15 @@ FigureDrawing prepare_distance(const Scene& scene, const FigureOutput&, Studies&
     std::vector<std::size_t> where;
     for (const double x : searched.x) where.push_back(studies.point(fall, x, all));
     const std::size_t touching = studies.of(scene.problem, scene.end_time);
-    const auto fewer = study_with_one_mode_fewer(scene.problem, scene.end_time, studies);
-    if (fewer) studies.stop_after(*fewer, {.touches = 1});
     return [=](const Subject& subject, const Results& results) -> Figure {
         const auto& [problem, units, lang, end] = subject;
         const sim::Result &falls = *results[fall], &strikes = *results[touching];
         const Trial trial = try_points(falls, searched, where, instants(all), problem);
         Panel panel = distance_panel(trial);
         panel.insets.push_back({.panel = {arrivals_panel(trial, strikes, lang)}, .width = 0.42, .height = 0.42});
-        return {.panels = {std::move(panel)},
-                .aspect = 0.76,
-                .caption = trial_caption(trial, problem.solver.rtol, lang) +
-                           located(problem, strikes, results.find(fewer), lang) + facts(subject),
-                .accuracy = accuracy({{&falling, &falls}, {&problem, &strikes}}, lang)};
+        Figure figure{.panels = {std::move(panel)}, .aspect = 0.76};
+        add_caption(figure, {{&problem, &strikes}, {&falling, &falls}});
+        return figure;
     };
 }
 
@@ -261,7 +226,8 @@ std::optional<std::string> needs_tangent(const Scene& scene) {
 }  // namespace
 
 extern const FigureType kDistance{"distance",
-                                  {"Distance of points of the beam from the cam", "梁上各点到凸轮表面的距离"},
+                                  "Distance of points of the freely falling beam from the cam near the first touch; inset: when it is zero, by "
+                                  "trial points, their refinement and the located touch",
                                   needs_tangent,
                                   prepare_distance};
 

@@ -25,7 +25,7 @@ std::string value_text(const sim::Exponents& e, std::size_t i) {
 }
 
 Panel panel_of(const sim::Exponents& e, std::size_t shown, Lang lang) {
-    Panel panel{.x = {.label = phrase(lang, "averaged over $t$ / s", "平均时间 $t$ / s"), .tight = true},
+    Panel panel{.x = {.label = phrase(lang, "averaged over $t$ / s"), .tight = true},
                 .y = {.label = "$λ$ / s^{−1}", .with_zero = true},
                 .rules = {{.at = 0}},
                 .name = "exponents"};
@@ -46,12 +46,6 @@ std::size_t count_of_largest(const sim::Exponents& e) {
     return static_cast<std::size_t>(far - e.lambda.begin());
 }
 
-std::string values_text(const sim::Exponents& e) {
-    std::string values;
-    for (std::size_t i = 0; i < e.lambda.size(); ++i) values += (i > 0 ? ", " : "") + value_text(e, i);
-    return values;
-}
-
 }  // namespace
 
 render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& subject) {
@@ -63,18 +57,14 @@ render::figure::Figure exponents_figure(const sim::Exponents& e, const Subject& 
     const std::size_t largest = count_of_largest(e);
     const bool both = largest > 0 && largest < panels[0].series.size();
     if (both) panels.insert(panels.begin(), panel_of(e, largest, lang));
-    return {.name = "exponents",
-            .title = phrase(lang, "Lyapunov exponents", "Lyapunov 指数"),
-            .panels = lettered(std::move(panels)),
-            .aspect = both ? 1.2 : 0.66,
-            .caption = phrase(lang,
-                              "Convergence of the Lyapunov exponents after a transient of {} s, over {} s with {} "
-                              "impacts ({} near grazing){}: {}. {}",
-                              "经 {} s 暂态后，{} s 内（{} 次冲击，其中 {} 次近擦边）Lyapunov 指数的收敛{}：{}。{}",
-                              number(e.transient, 4), number(e.duration, 4), e.impacts, e.near_grazing,
-                              both ? phrase(lang, ", (a) the largest, (b) all", "，(a) 最大者，(b) 全部") : "",
-                              values_text(e), facts(subject)),
-            .accuracy = phrase(lang, "Errors are standard errors of block averages.", "误差为分块平均的标准误差。")};
+    render::figure::Figure figure{.name = "exponents",
+                                  .title = fmt::format("Convergence of the Lyapunov exponents over {} s with {} impacts",
+                                                       number(e.duration, 4), e.impacts),
+                                  .panels = lettered(std::move(panels)),
+                                  .aspect = both ? 1.2 : 0.66};
+    add_caption(figure, std::vector{subject.problem});
+    figure.accuracy = "Errors are standard errors of block averages.";
+    return figure;
 }
 
 }  // namespace beamcam::scenes

@@ -12,6 +12,7 @@
 #include "output/image/tiff.hpp"
 #include "render/base/error.hpp"
 #include "render/draw/markup.hpp"
+#include "scenes/figures/caption.hpp"
 #include "scenes/figures/swept_points.hpp"
 #include "scenes/scene/files.hpp"
 #include "scenes/scene/version.hpp"
@@ -29,13 +30,9 @@ std::int64_t creation_instant() {
     return instant && *instant >= 0 && *instant <= kLatest ? *instant : 0;
 }
 
-std::string whole_caption(const figure::Figure& f) {
-    return f.caption + (f.caption.ends_with("。") || f.caption.empty() ? "" : " ") + f.accuracy;
-}
-
 figure::Document document_of(const figure::Figure& f, const std::string& scene) {
     figure::Document d;
-    d.title = f.title;
+    d.title = render::to_plain(f.title);
     d.subject = render::to_plain(whole_caption(f));
     d.scene = scene;
     d.creator = fmt::format("beamcam {}", kVersion);
@@ -113,19 +110,11 @@ std::string scene_of_figure(Scene scene, FigureOutput how) {
     return to_json(scene);
 }
 
-std::string caption_text(const figure::Figure& f, const std::string& file) {
-    const std::string caption = whole_caption(f);
-    const std::string latex = fmt::format("\\caption{{{}}}\n\\label{{fig:{}}}\n", render::to_latex(caption), f.name);
-    const std::string plain = render::to_plain(caption) + "\n";
-    if (ending_of(file) == ".tex") return "% " + plain + latex;
-    return plain + "\n" + latex;
-}
-
 std::vector<std::pair<std::string, std::string>> figure_files(const figure::Figure& f, const FigureOutput& how,
                                                               const std::string& scene) {
     std::vector<std::pair<std::string, std::string>> files{{how.file, bytes_of(f, how, scene)}};
     if (!how.data_file.empty()) files.emplace_back(how.data_file, figure::data_csv(f));
-    if (!how.caption_file.empty()) files.emplace_back(how.caption_file, caption_text(f, how.caption_file));
+    if (!how.caption_file.empty()) files.emplace_back(how.caption_file, render::to_plain(whole_caption(f)) + "\n");
     return files;
 }
 

@@ -26,7 +26,4 @@ std::string scene_of_figure(Scene scene, FigureOutput how);
 // and for each panel whose motions have none "no points".
 std::vector<std::string> missing_data(const render::figure::Figure& figure);
 
-// The caption with its accuracy statement as plain text, then as LaTeX; for `.tex` the plain text is a comment.
-std::string caption_text(const render::figure::Figure& figure, const std::string& file);
-
 }  // namespace beamcam::scenes

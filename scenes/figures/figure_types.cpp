@@ -13,18 +13,16 @@
 namespace beamcam::scenes {
 
 // Each is in its file of this folder.
-extern const FigureType kSchematic, kFreeFall, kTipVibration, kDeflection, kDistance, kAngle, kSpeeds, kCollision,
-    kEnergy, kContactPlaces, kPhase, kApexModes, kModels, kSeries, kKymograph, kSpectrogram, kStrobe, kImpactMaps,
-    kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
+extern const FigureType kSeries, kSchematic, kFreeFall, kDeflection, kDistance, kContactPlaces, kKymograph, kSpectrogram,
+    kStrobe, kImpactMaps, kImpactHistograms, kBifurcation, kBasins, kMap, kPoincare, kImpactMap;
 
 namespace {
 
 // Made on first use: the types are initialized before.
 const std::vector<FigureType>& table() {
     static const std::vector<FigureType> all{
-        kSeries,    kSchematic,  kFreeFall,         kTipVibration, kDeflection, kDistance, kAngle,     kSpeeds,
-        kCollision, kEnergy,     kContactPlaces,    kPhase,        kApexModes,  kModels,   kKymograph, kSpectrogram,
-        kStrobe,    kImpactMaps, kImpactHistograms, kBifurcation,  kBasins,     kMap,      kPoincare,  kImpactMap};
+        kSeries,      kSchematic, kFreeFall,   kDeflection,       kDistance,    kContactPlaces, kKymograph, kSpectrogram,
+        kStrobe,      kImpactMaps, kImpactHistograms, kBifurcation, kBasins,    kMap,           kPoincare,  kImpactMap};
     return all;
 }
 
@@ -49,11 +47,12 @@ static void shorten_times(std::vector<Panel>& panels) {
 FigureMaker FigureType::prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const {
     studies.name_figure(name);
     return [draw = of_sweep() ? swept_figure(*this, how) : maker(scene, how, studies),
-            subject = subject_of(scene, how.lang), called = std::string(name),
-            usual = title.in(how.lang)](const Results& results) {
+            subject = subject_of(scene, how.lang), called = std::string(name), chosen = how.title,
+            usual = title](const Results& results) {
         render::figure::Figure figure = draw(subject, results);
         figure.name = called;
         if (figure.title.empty()) figure.title = usual;
+        if (!chosen.empty()) figure.title = chosen;
         shorten_times(figure.panels);
         return figure;
     };
@@ -154,26 +153,12 @@ const sim::Collision* collision_of(const sim::Problem& problem, const sim::Resul
     return nullptr;
 }
 
-std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Result& result, double end) {
-    if (result.impacts.empty() || !result.impacts.front().at_touch) return std::nullopt;
-    const sim::Impact& touch = result.impacts.front();
-    const sim::Vec2 disc = problem.cam->centre + problem.cam->eccentricity * sim::unit(touch.cam_angle);
-    const bool from_below = cross(sim::unit(touch.at_touch->theta), disc) > 0;
-    if (from_below) return std::nullopt;
-    for (const sim::Apex& apex : sim::rebounds(result)) {
-        const bool cut_short = apex.t > result.collisions.back().t_start && result.end_time < end;
-        if (apex.theta > touch.at_touch->theta && !cut_short) return apex.theta;
-    }
-    return std::nullopt;
-}
-
 int contact_rows(double end) { return static_cast<int>(std::clamp(end / 2e-5, 4e4, 4e5)) + 1; }
 
 FigureDrawing figure_of_motion(std::size_t study, MotionDrawing draw) {
     return [study, draw = std::move(draw)](const Subject& subject, const Results& results) {
         Figure figure = draw(subject, *results[study]);
-        figure.caption += facts(subject);
-        figure.accuracy = accuracy({{&subject.problem, results[study]}}, subject.lang);
+        add_caption(figure, {{&subject.problem, results[study]}});
         return figure;
     };
 }
@@ -185,14 +170,6 @@ ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count,
     out.poses = poses.size();
     poses.push_back({.times = instants({out.from, out.to, count}), .stations = stations});
     return out;
-}
-
-std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, Studies& studies) {
-    const std::optional<sim::Problem> fewer = with_one_mode_fewer(problem);
-    if (!fewer) return std::nullopt;
-    const std::size_t study = studies.of(*fewer, end);
-    studies.may_fail(study);
-    return study;
 }
 
 std::vector<double> frequencies_of(const sim::Problem& problem) {

@@ -35,7 +35,7 @@ class SweptPoints;
 
 struct FigureType {
     const char* name;
-    Translated title;
+    const char* title;
     // Why the scene has no such figure, with the remedy; nothing when it has. `refusal_of` checks more.
     std::optional<std::string> (*refusal)(const Scene& scene);
     // Of motions: requests them, and returns the function that draws their results. Null for a figure of a sweep.
@@ -51,7 +51,7 @@ struct FigureType {
     // or of all figures.
     std::optional<std::string> misplaced(std::string_view key) const;
     // Adds what the figure needs to the studies; the maker remembers where it is. The figure has the type's name, and
-    // its title unless it has another. `how`: the language and the figure's own keys.
+    // the title of `how`, or else its own or that of the type.
     FigureMaker prepare(const Scene& scene, const FigureOutput& how, Studies& studies) const;
 };
 
@@ -98,14 +98,10 @@ std::vector<Touch> strikes(const sim::Problem& problem, const std::vector<Touch>
 
 // Counted from 1; null: there are fewer.
 const sim::Collision* collision_of(const sim::Problem& problem, const sim::Result& result, int number);
-// The highest θ of the first rebound: the first time between two collisions, or after the last one, in which θ rises
-// above its value at the first touch. None for a beam that strikes the cam from below, and none after the last
-// collision of a motion that was cut short before `end`.
-std::optional<double> rebound_apex(const sim::Problem& problem, const sim::Result& result, double end);
 // Rows over the scene: an impact lasts a few tenths of a millisecond.
 int contact_rows(double end);
 
-// Draws the result of the scene's own motion; the facts of the scene are added to its caption, and its accuracy.
+// Draws the result of the scene's own motion, and adds caption and accuracy.
 using MotionDrawing = std::function<Figure(const Subject&, const sim::Result&)>;
 FigureDrawing figure_of_motion(std::size_t study, MotionDrawing draw);
 
@@ -116,9 +112,6 @@ struct ShownPoses {
 };
 // `stations`: points along the beam.
 ShownPoses request_poses(const Scene& scene, const FigureOutput& how, int count, int stations, Studies& studies);
-
-// The study of the motion with one mode fewer, which bounds the digits of numbers; none for a rigid beam.
-std::optional<std::size_t> study_with_one_mode_fewer(const sim::Problem& problem, double end, Studies& studies);
 
 // Natural frequencies of the bending vibrations [Hz], ascending; none of a rigid beam.
 std::vector<double> frequencies_of(const sim::Problem& problem);

@@ -25,7 +25,7 @@ std::optional<double> closed_form(const sim::Problem& p) {
 
 // A beam of the figure, with its study and its tables of θ.
 struct Fall {
-    Translated label = {};
+    const char* label = "";
     int look = 0;
     sim::Problem problem = {};
     std::size_t study = 0, table = 0;
@@ -46,8 +46,7 @@ struct Fall {
 struct Falls {
     std::vector<Fall> shown;
     bool flexible = false, paper = false;
-    std::optional<double> closely;     // when the rigid beam is level, if the inset shows it [s]
-    std::optional<std::size_t> fewer;  // the study of one mode fewer
+    std::optional<double> closely;  // when the rigid beam is level, if the inset shows it [s]
 
     const Fall& rigid() const { return shown[flexible ? 1 : 0]; }
     void mark_zero(const Fall& fall, const Results& results, bool hollow, Panel& panel) const {
@@ -66,9 +65,9 @@ Falls falls_of(const Scene& scene, Studies& studies) {
     const std::optional<double> exact = closed_form(own);
     out.paper = exact && is_of_the_paper(scene.problem) && *exact < end;
     if (out.flexible && exact && *exact + kAround < end) out.closely = exact;
-    if (out.flexible) out.shown.push_back({{"flexible", "柔性"}, 0, own});
-    out.shown.push_back({{"rigid", "刚性"}, 1, stiff});
-    if (out.paper) out.shown.push_back({{"rigid, factor 2", "刚性，2 倍"}, 2, doubled});
+    if (out.flexible) out.shown.push_back({"flexible", 0, own});
+    out.shown.push_back({"rigid", 1, stiff});
+    if (out.paper) out.shown.push_back({"rigid, factor 2", 2, doubled});
     for (Fall& fall : out.shown) {
         fall.study = studies.of(fall.problem, end);
         studies.zero_crossings(fall.study);
@@ -77,8 +76,6 @@ Falls falls_of(const Scene& scene, Studies& studies) {
             fall.close = studies.table(fall.study, {*out.closely - kAround, *out.closely + kAround, 241},
                                        {ChannelKind::t, ChannelKind::theta});
     }
-    out.fewer = study_with_one_mode_fewer(own, end, studies);
-    if (out.fewer) studies.zero_crossings(*out.fewer);
     return out;
 }
 
@@ -113,42 +110,6 @@ std::optional<render::figure::Inset> close_up(const Falls& falls, const Results&
                                                 factor * slope * kAround}};
 }
 
-std::string fall_caption(const Falls& falls, const Results& results, const Subject& subject) {
-    const Lang lang = subject.lang;
-    std::string text = falls.flexible
-                           ? phrase(lang, "Hub angle without the cam, of the flexible and of the rigid beam. ",
-                                    "无凸轮时柔性梁与刚性梁的转角。")
-                           : phrase(lang, "Hub angle without the cam. ", "无凸轮时的转角。");
-    const std::optional<double> fewer = falls.fewer ? Fall{.study = *falls.fewer}.zero(results) : std::nullopt;
-    const Fall &own = falls.shown.front(), &rigid = falls.rigid();
-    const auto estimated = [&](const Fall& fall) {
-        return estimate(fall.problem, *fall.zero(results), fall.look == 0 ? fewer : std::nullopt);
-    };
-    std::vector<std::string> times;
-    for (const Fall& fall : falls.shown)
-        if (fall.look < 2 && fall.zero(results))
-            times.push_back(phrase(lang, "{} s ({})", "{} s（{}）", supported(estimated(fall)), fall.label.in(lang)));
-    if (times.empty()) {
-        text +=
-            phrase(lang, "$θ$ does not reach 0 before {} s. ", "{} s 之前 $θ$ 未达到 0。", number(subject.end_time, 4));
-    } else {
-        text += phrase(lang, "$θ$ = 0 is reached at {}. ", "到达 $θ$ = 0 的时刻：{}。", listed(times, lang));
-        if (falls.flexible && times.size() == 2)
-            text += phrase(lang, "Flexibility changes the time by {} s. ", "柔性使该时刻改变 {} s。",
-                           supported({*own.zero(results) - *rigid.zero(results), estimated(own).error}));
-        text += digits_stated(own.problem, lang);
-    }
-    if (falls.paper)
-        text += phrase(lang,
-                       "The paper prints 0.37 s for the flexible beam and 0.262 s for the rigid rod. The third curve, "
-                       "the rigid rod with a factor 2 between torque and inertia (torque doubled or inertia halved), "
-                       "takes {} s, 1/√2 of the rod's time. ",
-                       "原文给出柔性梁 0.37 s、刚性杆 0.262 s。第三条曲线为力矩与惯量之比差 2 "
-                       "倍（力矩加倍或惯量减半）的刚性杆，历时 {} s，即刚性杆的 1/√2。",
-                       supported(estimated(falls.shown.back())));
-    return text + beam_facts(subject);
-}
-
 Panel fall_panel(const Falls& falls, const Results& results, const Subject& subject) {
     const Measure angle = measure_in(subject.units, "rad");
     Panel panel{.x = {.label = "$t$ / s", .tight = true},
@@ -156,7 +117,7 @@ Panel fall_panel(const Falls& falls, const Results& results, const Subject& subj
                 .rules = {{.at = 0}},
                 .legend = Legend::box};
     for (const Fall& fall : falls.shown) {
-        panel.series.push_back(fall.curve(results, fall.table, fall.label.in(subject.lang)));
+        panel.series.push_back(fall.curve(results, fall.table, phrase(subject.lang, fall.label)));
         panel.series.back().y = scaled(std::move(panel.series.back().y), angle.factor);
     }
     panel.series.front().solid = true;
@@ -179,16 +140,15 @@ FigureDrawing prepare_fall(const Scene& scene, const FigureOutput&, Studies& stu
     return [falls = falls_of(scene, studies)](const Subject& subject, const Results& results) -> Figure {
         Runs runs;
         for (const Fall& fall : falls.shown) runs.emplace_back(&fall.problem, results[fall.study]);
-        return {.panels = {fall_panel(falls, results, subject)},
-                .aspect = 0.74,
-                .caption = fall_caption(falls, results, subject),
-                .accuracy = accuracy(runs, subject.lang)};
+        Figure figure{.panels = {fall_panel(falls, results, subject)}, .aspect = 0.74};
+        add_caption(figure, runs);
+        return figure;
     };
 }
 
 }  // namespace
 
 extern const FigureType kFreeFall{
-    "free-fall", {"Hub angle without the cam", "无凸轮时的转角"}, needs_fall, prepare_fall};
+    "free-fall", "Hub angle without the cam", needs_fall, prepare_fall};
 
 }  // namespace beamcam::scenes

@@ -1,6 +1,5 @@
 // Impacts as maps and as histograms: restitution, successive speeds, and the phase of the cam at impact.
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +24,7 @@ double phase_of(const sim::Impact& hit) {
     const double turns = hit.cam_angle / (2 * std::numbers::pi);
     return turns - std::floor(turns);
 }
-std::string phase_label(Lang lang) { return phrase(lang, "phase of the cam / (2π)", "凸轮相位 / (2π)"); }
+std::string phase_label(Lang lang) { return phrase(lang, "phase of the cam") + " / (2π)"; }
 
 // A logarithmic axis for ratios of very different size: a slow touch can leave much faster than it came.
 void spread_ratios(Panel& panel) {
@@ -38,14 +37,12 @@ void spread_ratios(Panel& panel) {
     panel.y.from.reset();
 }
 
-// Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase;
-// with what the caption says of each.
-std::vector<std::pair<Panel, Translated>> impact_maps(const Subject& subject, const sim::Result& result, double from,
-                                                      double to) {
+// Restitution against speed, each collision against the next, and two speeds of each impact against the cam's phase.
+std::vector<Panel> impact_maps(const Subject& subject, const sim::Result& result, double from, double to) {
     const auto& [problem, units, lang, end] = subject;
-    const auto speed = [&](const char* which) { return axis_label(kApproachSpeed.in(subject.lang) + which, "m/s"); };
+    const auto speed = [&](const char* which) { return axis_label(phrase(subject.lang, "approach speed") + which, "m/s"); };
     const Measure turning = measure_in(units, "rad/s");
-    Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution", "恢复系数")),
+    Panel loss = map_panel(speed(""), phrase(lang, "coefficient of restitution")),
           next = map_panel(speed(" $k$"), speed(" $k$\u00A0+\u00A01")), phase = map_panel(phase_label(lang), speed("")),
           hub = map_panel(phase_label(lang), axis_label("$\\dot{θ}$", turning.unit));
     for (const sim::Impact& hit : strikes(problem, result.impacts, from, to)) {
@@ -59,39 +56,21 @@ std::vector<std::pair<Panel, Translated>> impact_maps(const Subject& subject, co
     phase.x.to = hub.x.to = 1;
     hub.y.from.reset();
     spread_ratios(loss);
-    return {
-        {loss,
-         {"coefficient of restitution of each impact (the ratio of its normal speeds after and before) against its "
-          "approach speed",
-          "各次冲击的恢复系数（分离速度与接近速度之比）与接近速度"}},
-        {next,
-         {"approach speed of each collision, $k$ + 1, against that of the one before, $k$",
-          "相邻碰撞（第 $k$、$k$ + 1 次）的接近速度"}},
-        {phase, {"approach speed of each impact against the phase of the cam", "各次冲击的接近速度与凸轮相位"}},
-        {hub,
-         {"hub speed $\\dot{θ}$ at the touch against the phase of the cam", "接触时的角速度 $\\dot{θ}$ 与凸轮相位"}}};
+    return {loss, next, phase, hub};
 }
 
 FigureDrawing prepare_maps(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const double from = how.series.from, to = how.series.to.value_or(scene.end_time);
     const std::size_t study = studies.of(scene.problem, to);
     const auto draw = [=](const Subject& subject, const sim::Result& result) -> Figure {
-        const Lang lang = subject.lang;
-        std::vector<Panel> panels;
-        std::vector<std::string> words;
-        for (auto& [panel, what] : impact_maps(subject, result, from, to)) {
-            if (panel.series.front().x.empty()) continue;
-            panel.letter = panel_letter(panels.size());
-            words.push_back(fmt::format("({}) {}", panel.letter, what.in(lang)));
-            panels.push_back(std::move(panel));
-        }
+        std::vector<Panel> panels = impact_maps(subject, result, from, to);
+        std::erase_if(panels, [](const Panel& panel) { return panel.series.front().x.empty(); });
         if (panels.empty())
             throw render::PictureError(fmt::format(
                 "figure impact-maps: nothing strikes the cam from {:g} s to {:g} s; raise time.end", from, to));
         const double aspect = 0.6 * static_cast<double>(panels.size());
-        return {.panels = std::move(panels),
-                .aspect = aspect,
-                .caption = phrase(lang, "{}. ", "{}。", fmt::join(words, phrase(lang, "; ", "；")))};
+        for (std::size_t k = 0; k < panels.size(); ++k) panels[k].letter = panel_letter(k);
+        return {.panels = std::move(panels), .aspect = aspect};
     };
     return figure_of_motion(study, draw);
 }
@@ -106,7 +85,7 @@ Panel histogram(std::string label, const std::vector<double>& values, double end
     for (std::size_t k = 0; k < bins; ++k)
         for (const std::size_t edge : {k, k + 1}) steps.add(width * static_cast<double>(edge), counts[k]);
     return {.x = {.label = std::move(label), .tight = true},
-            .y = {.label = phrase(lang, "impacts", "冲击次数"), .with_zero = true, .counts = true},
+            .y = {.label = phrase(lang, "impacts"), .with_zero = true, .counts = true},
             .series = {steps},
             .bands = {{.x = steps.x, .low = std::vector<double>(steps.x.size(), 0), .high = steps.y}},
             .legend = Legend::none};
@@ -127,16 +106,9 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, St
                 "time.end, or see impact-maps",
                 speeds.size(), from, to));
         std::vector<Panel> panels = lettered(
-            {histogram(axis_label(kApproachSpeed.in(lang), "m/s"), speeds, *std::ranges::max_element(speeds), lang),
+            {histogram(axis_label(phrase(lang, "approach speed"), "m/s"), speeds, *std::ranges::max_element(speeds), lang),
              histogram(phase_label(lang), phases, 1, lang)});
-        const auto width = [&](std::size_t panel) { return number(panels[panel].series[0].x[1], 2); };
-        std::string caption = phrase(
-            lang,
-            "Histograms of the {} impacts from {} s to {} s: (a) approach speed, in intervals of {} m s^{{−1}}; (b) "
-            "phase of the cam, in intervals of {}. ",
-            "{} 次冲击（{} s 至 {} s）：(a) 接近速度（区间宽 {} m s^{{−1}}）、(b) 凸轮相位（区间宽 {}）的次数。",
-            speeds.size(), number(from, 4), number(to, 4), width(0), width(1));
-        return {.panels = std::move(panels), .aspect = 1.2, .caption = std::move(caption)};
+        return {.panels = std::move(panels), .aspect = 1.2};
     };
     return figure_of_motion(study, draw);
 }
@@ -144,12 +116,12 @@ FigureDrawing prepare_histograms(const Scene& scene, const FigureOutput& how, St
 }  // namespace
 
 extern const FigureType kImpactMaps{.name = "impact-maps",
-                                    .title = {"Maps of the impacts", "冲击映射"},
+                                    .title = "Restitution of the impacts, successive collisions, and speeds at impact over the phase of the cam",
                                     .refusal = needs_cam,
                                     .maker = prepare_maps,
                                     .keys = {"from", "to"}};
 extern const FigureType kImpactHistograms{.name = "impact-histograms",
-                                          .title = {"Histograms of impact speed and phase", "冲击速度与相位的直方图"},
+                                          .title = "Histograms of the approach speed and of the phase of the cam at impacts",
                                           .refusal = needs_cam,
                                           .maker = prepare_histograms,
                                           .keys = {"from", "to"}};

@@ -23,9 +23,7 @@ constexpr std::uint32_t kPeriodColors[] = {0x08306B, 0x2171B5, 0x6BAED6, 0x9ECAE
 figure::Swatch map_entry(const output::StoredPoint& p, Lang lang) {
     if (kind_of(p) != AttractorClass::periodic) return {class_label(kind_of(p), lang), color_of(kind_of(p))};
     const int most = static_cast<int>(std::size(kPeriodColors)), shown = std::min(p.period, most);
-    const std::string label = shown == most ? phrase(lang, "period {} and more", "周期 {} 及以上", shown)
-                                            : phrase(lang, "period {}", "周期 {}", shown);
-    return {label, rgb(kPeriodColors[shown - 1])};
+    return {phrase(lang, shown == most ? "period {} and more" : "period {}", shown), rgb(kPeriodColors[shown - 1])};
 }
 
 // A number of the point, or the mean of a column of its samples; NaN: none; −∞: an exponent after lasting contact.
@@ -40,10 +38,9 @@ double map_value(const SweptPoints& points, const output::StoredPoint& p, const 
 }
 
 std::string map_label(const SweptPoints& points, const std::string& value) {
-    if (value == "exponent") return phrase(points.lang, "largest exponent / s^{−1}", "最大 Lyapunov 指数 / s^{−1}");
-    if (value == "impacts_per_period")
-        return phrase(points.lang, "impacts per period, or per turn of the cam", "每周期（或每转）碰撞次数");
-    return phrase(points.lang, "mean of ", "平均 ") + column_label(points, points.column(value));
+    if (value == "exponent") return phrase(points.lang, "largest exponent / s^{−1}");
+    if (value == "impacts_per_period") return phrase(points.lang, "impacts per period, or per turn of the cam");
+    return phrase(points.lang, "mean of {}", column_label(points, points.column(value)));
 }
 
 void color_by_class(const SweptPoints& points, const std::vector<output::StoredPoint>& entries, figure::Panel& panel) {
@@ -91,23 +88,7 @@ void color_by_value(const SweptPoints& points, const std::vector<output::StoredP
         if (std::ranges::find(cells.colors, color) != cells.colors.end())
             panel.swatches.push_back({std::move(label), color});
     };
-    if (both_signs) explain(kUnknown, phrase(points.lang, "unknown", "未知")), explain(kMinusInfinity, "−∞");
-}
-
-// Explains the cells without a number of a map that is coloured by one.
-std::string unknown_cells_text(const SweptPoints& points, const std::string& value, bool grey) {
-    const std::string color = grey ? phrase(points.lang, "Grey", "灰色") : phrase(points.lang, "White", "白色");
-    if (value == "class") return "";
-    if (value == "exponent" && grey)
-        return phrase(points.lang, "−∞: lasting contact removes every difference.", "−∞：持续接触使一切差异消失。");
-    if (value == "exponent")
-        return phrase(points.lang,
-                      "{}: the exponent is unknown, or −∞ because lasting contact removes every difference.",
-                      "{}：指数未知，或持续接触使一切差异消失（−∞）。", color);
-    if (value == "impacts_per_period")
-        return phrase(points.lang, "Where there is no period: impacts in a turn of the cam. {}: neither is known.",
-                      "无周期处为凸轮每转的碰撞次数。{}：二者均未知。", color);
-    return phrase(points.lang, "{}: no sample.", "{}：无样本。", color);
+    if (both_signs) explain(kUnknown, phrase(points.lang, "unknown")), explain(kMinusInfinity, "−∞");
 }
 
 }  // namespace
@@ -133,8 +114,7 @@ figure::Figure key_map(const SweptPoints& points, const FigureOutput& how) {
         color_by_class(points, entries, panel);
     else
         color_by_value(points, entries, value, panel);
-    const bool grey = panel.color_bar && panel.color_bar->is_signed;
-    return {.panels = {std::move(panel)}, .aspect = 0.9, .caption = unknown_cells_text(points, value, grey)};
+    return {.panels = {std::move(panel)}, .aspect = 0.9};
 }
 
 }  // namespace beamcam::scenes

@@ -71,25 +71,14 @@ FigureDrawing prepare_kymograph(const Scene& scene, const FigureOutput& how, Stu
             kymograph_panel(deflections(result.poses[shown.poses], samples), shown, problem.beam.length, samples > 1);
         for (const sim::Impact& hit : strikes(problem, result.impacts, shown.from, shown.to))
             panel.marks.push_back({.x = hit.t_start, .y = hit.x, .look = 1, .hollow = true});
-        std::string caption = phrase(lang,
-                                     "Deflection $v$($x$, $t$) from the tangent at the root, along the beam and in "
-                                     "time, one column every {} s. ",
-                                     "相对根部切线的挠度 $v$($x$, $t$) 沿梁长与时间的分布，每列 {} s。",
-                                     number((shown.to - shown.from) / (kColumns - 1), 2));
-        if (samples > 1)
-            caption += phrase(lang,
-                              "The beam vibrates faster than the columns: each shows the largest magnitude of {} "
-                              "instants. ",
-                              "一列之内梁多次振动，取 {} 个时刻中挠度绝对值的最大者。", samples);
-        if (!panel.marks.empty()) caption += phrase(lang, "Squares: impacts. ", "标记：冲击。");
-        return {.panels = {std::move(panel)}, .caption = std::move(caption)};
+        return {.panels = {std::move(panel)}};
     });
 }
 
 }  // namespace
 
 extern const FigureType kKymograph{.name = "kymograph",
-                                   .title = {"Deflection along the beam in time", "梁挠度的时空图"},
+                                   .title = "Deflection from the tangent at the root, along the beam and in time; squares: impacts",
                                    .refusal = needs_bending,
                                    .maker = prepare_kymograph,
                                    .keys = {"from", "to"}};

@@ -62,12 +62,11 @@ std::string point_text(const Swept& swept, std::uint64_t point, const ValueDigit
     const std::string symbol = symbol_of(axis.name);  // markup of a bare name is no formula
     std::string text = fmt::format("{} = {}{}", symbol.starts_with('$') ? symbol : axis.name, written,
                                    axis.unit == "1" ? "" : (axis.unit == "°" ? "" : "\u00A0") + axis.unit);
-    text += phrase(lang, ": ", "：");
+    text += ": ";
     if (kind_of(p) != AttractorClass::periodic) return text + class_label(kind_of(p), lang);
-    if (lang == Lang::zh) return text + fmt::format("周期 {} 圈，碰撞 {:g} 次", p.period, p.impacts_per_period);
     const auto plural = [](auto count) { return count == 1 ? "" : "s"; };
-    return text + fmt::format("period {} turn{}, {:g} impact{}", p.period, plural(p.period), p.impacts_per_period,
-                              plural(p.impacts_per_period));
+    return text + phrase(lang, "period {0} turn{1}, {2:g} impact{3}", p.period, plural(p.period), p.impacts_per_period,
+                         plural(p.impacts_per_period));
 }
 
 }  // namespace beamcam::scenes

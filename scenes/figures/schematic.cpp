@@ -220,35 +220,6 @@ class Drawing : private Sketch {
     double letter_, size_ = 1, unit_ = 1, theta_ = 0.78;
 };
 
-std::string schematic_caption(const Subject& subject) {
-    const auto& [p, units, lang, end] = subject;
-    const bool flexible = p.beam.model != sim::ModelKind::rigid;
-    std::string text = phrase(lang, "The system with its symbols, to scale", "系统示意图，按比例绘制");
-    if (flexible)
-        text += phrase(lang, " except for the deflection $v$($x$, $t$), which is exaggerated",
-                       "（挠度 $v$($x$, $t$) 放大）");
-    if (const double drawn = drawn_angle(p); drawn != start_angle(p))
-        text += phrase(lang, "{} the angle of the beam, which is drawn as {}°", "{}梁的角度（绘为 {}°）",
-                       !flexible && lang == Lang::en ? " except for" : phrase(lang, ", and for", ""),
-                       number(drawn * 180 / std::numbers::pi, 2));
-    text +=
-        phrase(lang,
-               ". The beam of length $L$ is clamped radially to the hub of radius $a$, which turns about $O$ by $θ$; "
-               "the frame $x$′$y$′ turns with it, $XY$ is fixed. ",
-               "。长度为 $L$ 的梁沿径向固支于半径为 $a$ 的轮毂，轮毂绕 $O$ 转过角 $θ$；坐标系 $x$′$y$′ "
-               "随之转动，$XY$ 固定。");
-    if (p.cam)
-        text +=
-            phrase(lang,
-                   "The disc of radius $R$ and centre $B$ turns about $C$, at the {}distance $D$ from $O$, with the "
-                   "speed $ω$ (clockwise positive) and the eccentricity $e$ = |$CB$|. ",
-                   "半径为 $R$、圆心为 $B$ 的圆盘以角速度 $ω$（顺时针为正）绕 $C$ 转动，$C$ 距 $O$ 的{}距离为 "
-                   "$D$，偏心距 "
-                   "$e$ = |$CB$|。",
-                   p.cam->centre.y == 0 ? "" : phrase(lang, "horizontal ", "水平"));
-    return text + facts(subject);
-}
-
 constexpr double kAspect = 0.98;
 
 // Of the page's shorter side the magnified disc's radius is about an eighth.
@@ -264,16 +235,15 @@ double letter_of(const FigureOutput& how) {
 
 FigureDrawing prepare_schematic(const Scene&, const FigureOutput& how, Studies&) {
     return [letter = letter_of(how)](const Subject& subject, const Results&) -> Figure {
-        return {.panels = {{.shapes = Drawing(subject.problem, letter).shapes()}},
-                .aspect = kAspect,
-                .caption = schematic_caption(subject),
-                .accuracy = accuracy({}, subject.lang)};
+        Figure figure{.panels = {{.shapes = Drawing(subject.problem, letter).shapes()}}, .aspect = kAspect};
+        add_caption(figure, std::vector{subject.problem});
+        return figure;
     };
 }
 
 }  // namespace
 
 extern const FigureType kSchematic{
-    "schematic", {"The system and its symbols", "系统与符号"}, no_refusal, prepare_schematic};
+    "schematic", "The system and its symbols, deflection exaggerated", no_refusal, prepare_schematic};
 
 }  // namespace beamcam::scenes

@@ -1,4 +1,4 @@
-// The parts of a series: its x axis, the simulations that it needs, its panels and its caption.
+// The parts of a series: its x axis, the simulations that it needs, its panels and its title.
 #pragma once
 
 #include <algorithm>
@@ -77,8 +77,6 @@ struct SeriesPlan {
     std::vector<Measured> measured = {};
     std::size_t measured_motion = 0;  // with which data are compared
 
-    bool horizon = true;  // curves are paler where θ is not reproducible
-
     bool has_sums() const {
         return std::ranges::any_of(keys.panels, [](const SeriesPanel& panel) { return !panel.sums.empty(); });
     }
@@ -94,9 +92,9 @@ void complete(SeriesPlan& plan, const Scene& scene, Studies& studies);
 
 // ---- the figure ---------------------------------------------------------------------------------------
 
-// A planned panel; with `keys.residuals` also a panel of the differences of the data. `weight`: of the lines.
+// A planned panel; with `keys.residuals` also a panel of the differences of the data.
 std::vector<render::figure::Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned,
-                                                 const Results& results, double weight);
+                                                 const Results& results);
 
 // Vertical lines of the panel at instants, where x is time or grows with it. Throws PictureError for a note at an event
 // that the motion does not have, or has outside of the interval.
@@ -106,11 +104,7 @@ std::vector<render::figure::Rule> series_rules(const SeriesPlan& plan, const Pla
 // Whether lines mark collisions because the impacts between these instants are too many to distinguish.
 bool marks_collisions(const sim::Result& result, double from, double to);
 
-// Names the channels and the x axis.
-std::string series_subject(const SeriesKeys& keys, Lang lang);
-
-// `subject`: the first sentence, without its full stop. `figure` must have its panels.
-std::string series_caption(const SeriesPlan& plan, const std::string& subject, const render::figure::Figure& figure,
-                           const Results& results);
+// Names the channels and the x axis, as markup.
+std::string series_subject(const SeriesKeys& keys);
 
 }  // namespace beamcam::scenes

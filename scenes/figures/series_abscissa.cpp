@@ -93,8 +93,8 @@ void SeriesAbscissa::share(Figure& figure, const sim::Problem& problem, const re
     Measure measure = measure_of(unit(channel, problem), largest, units);
     std::string symbol = render::print_symbol(channel);
     if (is_frequency()) measure = {1, "Hz"}, symbol = "$f$";
-    if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam", "凸轮相位");
-    if (is_turns()) measure = {1, ""}, symbol = phrase(lang_, "turns of the cam", "凸轮转数");
+    if (is_phase()) measure = {1, "(2π)"}, symbol = phrase(lang_, "phase of the cam");
+    if (is_turns()) measure = {1, ""}, symbol = phrase(lang_, "turns of the cam");
     for (Panel& each : figure.panels) {
         each.x.label = axis_label(symbol, measure.unit);
         if (range.high > range.low) each.x.from = range.low * measure.factor, each.x.to = range.high * measure.factor;

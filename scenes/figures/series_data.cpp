@@ -42,27 +42,6 @@ std::vector<Series> by_reliability(const Series& whole, const std::vector<double
     return parts;
 }
 
-std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
-                         double end, Lang lang) {
-    std::vector<std::string> times;
-    for (const auto& [name, result] : motions)
-        for (Lost v : unreliable(*result, end)) {
-            if (v.to <= from) continue;
-            v.from = std::max(v.from, from);
-            const std::string of = name.empty() ? "" : name + " ";
-            times.push_back(v.to < end ? phrase(lang, "{}from {} s to {} s", "{}{} s 至 {} s", of, number(v.from, 3),
-                                                number(v.to, 3))
-                                       : phrase(lang, "{}from {} s on", "{}{} s 之后", of, number(v.from, 3)));
-        }
-    if (times.empty()) return {};
-    return phrase(lang,
-                  "Drawn lighter, {}, $θ$ is not reproducible to 10^{{−6}} rad: a run at a tighter tolerance "
-                  "differs by more, because impacts multiply small differences. ",
-                  "以浅色绘制的部分（{}）$θ$ 不能重现到 10^{{−6}} "
-                  "rad：碰撞会放大微小差别，与更严容差的计算之差超过该值。",
-                  listed(times, lang));
-}
-
 // ---- measured or foreign data ---------------------------------------------------------------------------
 
 std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channel>& channels, double from, double to,
@@ -86,24 +65,6 @@ Series measured_series(const Measurement& data, std::vector<double> x, std::vect
             .line = line,
             .every_point = !line,
             .weight = 0.7};
-}
-
-std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const Subject& subject) {
-    const auto& [problem, units, lang, end] = subject;
-    std::string text;
-    for (const Measured& each : all)
-        for (const output::Agreement& a : agreements(each.data, result.tables[each.table], result)) {
-            const std::string symbol = render::print_symbol(a.channel);
-            const Measure shown = measure_in(units, sim::unit(a.channel, problem));
-            text += a.rows == 0
-                        ? phrase(lang,
-                                 "Data “{}”: at no reproducible instant {} has both a measured and a computed value. ",
-                                 "{}：没有任何可重现时刻同时具有 {} 的测量值与计算值。", each.data.label, symbol)
-                        : phrase(lang, "Data “{}”: at {} instants {} differs by {} (root mean square). ",
-                                 "{}，{} 个时刻：{} 的均方根差为 {}。", each.data.label, a.rows, symbol,
-                                 with_unit(number(shown.factor * a.rms, 2), shown.unit));
-        }
-    return text;
 }
 
 // ---- amplitude spectra ----------------------------------------------------------------------------------
@@ -134,6 +95,8 @@ sim::Table until(double highest, sim::Spectrum spectrum) {
 constexpr std::size_t kFewestMeasured = 16;  // below, Hann's window leaves hardly a line
 constexpr double kJitter = 0.02;             // of the step: clocks of instruments, and times with few digits
 
+}  // namespace
+
 bool equally_spaced(const std::vector<double>& times) {
     if (times.size() < kFewestMeasured) return false;
     const double step = (times.back() - times.front()) / static_cast<double>(times.size() - 1);
@@ -141,8 +104,6 @@ bool equally_spaced(const std::vector<double>& times) {
         if (std::abs(times[i] - times.front() - static_cast<double>(i) * step) > kJitter * step) return false;
     return true;
 }
-
-}  // namespace
 
 std::vector<double> spectrum_instants(const sim::Problem& problem, double from, double to) {
     // Without the last instant, which begins the next period of the transform.
@@ -173,30 +134,6 @@ std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channe
     if (!values || !equally_spaced(data.times)) return std::nullopt;
     const double step = (data.times.back() - data.times.front()) / static_cast<double>(data.times.size() - 1);
     return until(highest, sim::amplitude_spectrum(*values, step));
-}
-
-std::string measured_spectrum_text(const std::vector<Measured>& all, Lang lang) {
-    std::string text;
-    for (const Measured& each : all) {
-        const std::vector<double>& t = each.data.times;
-        text += equally_spaced(t)
-                    ? phrase(lang, "Data “{}”: {} samples, resolution {} Hz. ", "{}：{} 个样本，分辨率 {} Hz。",
-                             each.data.label, t.size(), number(1.5 / (t.back() - t.front()), 2))
-                    : phrase(lang, "Data “{}” have no spectrum: their instants are {}. ", "{}：{}，无频谱。",
-                             each.data.label,
-                             t.size() < kFewestMeasured ? phrase(lang, "too few", "时刻过少")
-                                                        : phrase(lang, "not equally spaced", "时刻不等距"));
-    }
-    return text;
-}
-
-std::string spectrum_text(const sim::Problem& problem, double from, double to, Lang lang) {
-    const int count = samples(problem, to - from);
-    return phrase(lang,
-                  "Amplitude spectrum of the interval from {} s to {} s less its mean, {} samples, Hann window, "
-                  "resolution {} Hz. ",
-                  "{} s 至 {} s 区间（去均值）的幅值谱，{} 个样本，Hann 窗，分辨率 {} Hz。", number(from, 4),
-                  number(to, 4), count, number(1.5 / (to - from), 2));
 }
 
 }  // namespace beamcam::scenes

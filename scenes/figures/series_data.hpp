@@ -28,10 +28,6 @@ std::vector<render::figure::Series> by_reliability(const render::figure::Series&
                                                    const std::vector<double>& times,
                                                    const std::vector<Lost>& intervals);
 
-// A sentence that names these intervals, by the names of the motions if there are several; empty: there are none.
-std::string horizon_text(const std::vector<std::pair<std::string, const sim::Result*>>& motions, double from,
-                         double end, Lang lang);
-
 // ---- measured or foreign data ---------------------------------------------------------------------------
 
 // Data with the table that holds the motion at their instants.
@@ -47,9 +43,6 @@ std::vector<Measured> measured(const Scene& scene, const std::vector<sim::Channe
 // Points, or a line if they are many. `x`, `y`: of the rows of the data, as drawn.
 render::figure::Series measured_series(const Measurement& data, std::vector<double> x, std::vector<double> y, int look);
 
-// "rig: 200 instants, root mean square difference of $θ$ 1.2×10^{−3} rad. "
-std::string agreement_text(const std::vector<Measured>& all, const sim::Result& result, const Subject& subject);
-
 // ---- amplitude spectra ----------------------------------------------------------------------------------
 
 // Equally spaced, so close that the vibrations of all modes are far below half of their rate.
@@ -58,9 +51,7 @@ std::vector<double> spectrum_instants(const sim::Problem& problem, double from, 
 sim::Table spectrum_table(const sim::Table& rows, std::optional<double> highest);
 // Of measured values, at their own rate, until `highest`; nothing where their instants are few or not equally spaced.
 std::optional<sim::Table> measured_spectrum(const Measurement& data, sim::Channel channel, double highest);
-// States the resolution of the spectra of the data, and which data have none.
-std::string measured_spectrum_text(const std::vector<Measured>& all, Lang lang);
-// States window, resolution and number of samples.
-std::string spectrum_text(const sim::Problem& problem, double from, double to, Lang lang);
+// Whether instants have the same distance, as spectra need.
+bool equally_spaced(const std::vector<double>& times);
 
 }  // namespace beamcam::scenes

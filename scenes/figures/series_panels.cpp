@@ -19,6 +19,8 @@ namespace {
 using render::Axis;
 using sim::Channel;
 
+constexpr double kCurveWeight = 0.8;  // of the lines
+
 // ---- values ---------------------------------------------------------------------------------------
 
 bool has_values(const sim::Table& table) {  // in its last channel
@@ -37,12 +39,11 @@ struct Side {
 
 class SeriesPanelMaker {
   public:
-    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results, double weight)
+    SeriesPanelMaker(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results)
         : plan_(plan),
           keys_(plan.keys.panels[planned.number]),
           planned_(planned),
           results_(results),
-          weight_(weight),
           first_(plan.motions[planned.motions.front()]) {}
 
     std::vector<Panel> make() {
@@ -143,12 +144,12 @@ class SeriesPanelMaker {
         if (sum.plus.size() > 1 && std::ranges::all_of(values, [](double v) { return v == 0; })) return;
         constexpr int kBlack = 6;
         const bool total = !sum.minus.empty();
-        Series curve{.label = sum.label,
+        Series curve{.label = phrase(plan_.lang, sum.label),
                      .x = plan_.abscissa.of(side.rows[i], plan_.motions[side.curves[i].motion].problem),
                      .y = values,
                      .look = total ? kBlack : curves_++,
                      .solid = total,
-                     .weight = total ? 1 : weight_};
+                     .weight = total ? 1 : kCurveWeight};
         curve.t = side.rows[i].values[0];
         plan_.abscissa.fold(curve);
         panel_.series.push_back(std::move(curve));
@@ -168,7 +169,7 @@ class SeriesPanelMaker {
                            .y = scaled(rows.values.back(), side.measure.factor),
                            .look = curves_++,
                            .right = side.right,
-                           .weight = weight_};
+                           .weight = kCurveWeight};
         std::vector<Series> parts = by_reliability(whole, rows.values[0], plan_.lost(*results_[motion.study]));
         if (parts.size() > 1) parts.front().label.clear();
         for (Series& part : parts) {
@@ -244,7 +245,6 @@ class SeriesPanelMaker {
     const SeriesPanel& keys_;
     const PlannedPanel& planned_;
     const Results& results_;
-    const double weight_;
     const SeriesMotion& first_;  // of the motions shown
 
     Panel panel_, differences_;
@@ -254,9 +254,8 @@ class SeriesPanelMaker {
 
 }  // namespace
 
-std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results,
-                                 double weight) {
-    return SeriesPanelMaker(plan, planned, results, weight).make();
+std::vector<Panel> series_panels(const SeriesPlan& plan, const PlannedPanel& planned, const Results& results) {
+    return SeriesPanelMaker(plan, planned, results).make();
 }
 
 }  // namespace beamcam::scenes

@@ -104,7 +104,7 @@ sim::Table SeriesPlan::rows(const SeriesCurve& curve, const Results& results) co
 }
 
 std::vector<Lost> SeriesPlan::lost(const sim::Result& result) const {
-    return abscissa.is_frequency() || !horizon ? std::vector<Lost>{} : unreliable(result, end);
+    return abscissa.is_frequency() ? std::vector<Lost>{} : unreliable(result, end);
 }
 
 void complete(SeriesPlan& plan, const Scene& scene, Studies& studies) {
@@ -112,7 +112,7 @@ void complete(SeriesPlan& plan, const Scene& scene, Studies& studies) {
     plan.motions = motions_of(scene, keys);
     for (SeriesMotion& motion : plan.motions) {
         motion.study = studies.of(motion.problem, plan.end);
-        if (plan.horizon) studies.horizon(motion.study);
+        studies.horizon(motion.study);
         if (std::ranges::any_of(keys.notes, [](const auto& n) { return n.at.kind == Instant::Kind::apex; }))
             studies.apexes(motion.study);
     }

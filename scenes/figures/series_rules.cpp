@@ -65,7 +65,7 @@ Rules series_rules(const SeriesPlan& plan, const PlannedPanel& panel, const Resu
     const double from = plan.keys.from, to = plan.end;
     if (plan.keys.impacts)
         all = impact_rules(result, from, to);
-    else if (panel.motions.size() == 1 && plan.horizon)
+    else if (panel.motions.size() == 1)
         all = horizon_rules(result, from, to);
     std::ranges::move(note_rules(plan.keys.notes, result, from, to, panel.number == 0), std::back_inserter(all));
     for (render::figure::Rule& rule : all) rule.at *= plan.abscissa.per_second(first.problem);

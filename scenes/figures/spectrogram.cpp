@@ -99,17 +99,6 @@ render::figure::Cells cells_of(const Spectrogram& s, double most, double factor)
     return cells;
 }
 
-std::string spectrogram_caption(sim::Channel channel, const Spectrogram& s, double rate, Lang lang) {
-    return phrase(
-        lang,
-        "{}: amplitude by frequency and time, a Hann window of {} s every {} s ({} samples per second), each "
-        "without its linear trend, resolution {} Hz; amplitudes below a thousandth of the largest are white. ",
-        "{}的时频幅值：Hann 窗长 {} s，间隔 {} s（每秒 {} 个样本），各窗去除线性趋势，分辨率 {} "
-        "Hz；小于最大值千分之一者不显示。",
-        series_subject({.panels = {{.channels = {channel}}}}, lang), number(s.window, 3), number(s.hop, 2),
-        number(rate, 4), number(1.5 / s.window, 2));
-}
-
 // The first one that the keys name, else the one that vibrates most.
 sim::Channel channel_of(const Scene& scene, const SeriesKeys& keys) {
     if (!keys.panels.empty() && !keys.panels.front().channels.empty()) return keys.panels.front().channels.front();
@@ -156,14 +145,16 @@ FigureDrawing prepare_spectrogram(const Scene& scene, const FigureOutput& how, S
             if (!highest) shorten(s, most * std::pow(10, -kDecades));
             Panel panel = spectrogram_panel(channel, s, most, measure_of(unit, most, subject.units));
             panel.x.from = from, panel.x.to = to;
-            return {.panels = {std::move(panel)}, .caption = spectrogram_caption(channel, s, rate, subject.lang)};
+            return {.title = fmt::format("{}: amplitude by frequency and time, Hann windows of {} s",
+                                         series_subject({.panels = {{.channels = {channel}}}}), number(s.window, 3)),
+                    .panels = {std::move(panel)}};
         });
 }
 
 }  // namespace
 
 extern const FigureType kSpectrogram{.name = "spectrogram",
-                                     .title = {"Amplitudes by frequency and time", "时频谱"},
+                                     .title = "Amplitudes by frequency and time",
                                      .refusal = no_refusal,
                                      .maker = prepare_spectrogram,
                                      .keys = {"channels", "from", "to", "window", "highest"}};

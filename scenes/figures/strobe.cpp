@@ -1,4 +1,5 @@
 // The mechanism at several instants, or a still picture of it at one, in lines.
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -131,17 +132,6 @@ Panel strobe_panel(const std::vector<sim::Pose>& poses, const sim::Problem& prob
     return {.shapes = sketch.take()};
 }
 
-std::string strobe_caption(std::size_t count, const ShownPoses& shown, Lang lang) {
-    return count == 1
-               ? phrase(lang, "The mechanism at {} s, deflection to scale. ", "{} s 时的机构，挠度按比例。",
-                        number(shown.from, 4))
-               : phrase(lang,
-                        "The mechanism at {} instants from {} s (pale) to {} s (dark), equally spaced, deflection "
-                        "to scale. ",
-                        "机构在 {} 个等距时刻的位置，自 {} s（浅）至 {} s（深），挠度按比例。", count,
-                        number(shown.from, 4), number(shown.to, 4));
-}
-
 FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studies& studies) {
     const bool one = how.series.to && *how.series.to == how.series.from;
     const ShownPoses shown = request_poses(scene, how, one ? 2 : kShownPoses, kPoseStations, studies);
@@ -153,9 +143,9 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studie
         // The shapes with a margin and room for labels.
         const double aspect =
             std::clamp(0.1 + 0.85 * (extent.y1 - extent.y0) / std::max(extent.x1 - extent.x0, 1e-12), 0.3, 1.1);
-        return {.panels = {std::move(panel)},
-                .aspect = aspect,
-                .caption = strobe_caption(poses.size(), shown, subject.lang)};
+        return {.title = one ? fmt::format("The mechanism at {} s, deflection to scale", number(shown.from, 4)) : "",
+                .panels = {std::move(panel)},
+                .aspect = aspect};
     };
     return figure_of_motion(shown.study, draw);
 }
@@ -163,7 +153,7 @@ FigureDrawing prepare_strobe(const Scene& scene, const FigureOutput& how, Studie
 }  // namespace
 
 extern const FigureType kStrobe{.name = "strobe",
-                                .title = {"The mechanism at several instants", "机构的多时刻叠加"},
+                                .title = "The mechanism at equally spaced instants, from pale to dark, deflection to scale",
                                 .refusal = no_refusal,
                                 .maker = prepare_strobe,
                                 .keys = {"from", "to", "at"}};

@@ -21,22 +21,13 @@ std::size_t Studies::of(const sim::Problem& problem, double end_time) {
     std::string key = motion_key(problem);
     const auto found = std::ranges::find(all_, key, &Study::key);
     const auto index = static_cast<std::size_t>(found - all_.begin());
-    if (found == all_.end()) {
-        users_.push_back(0);
-        all_.push_back({problem, std::move(key)});
-    }
+    if (found == all_.end()) all_.push_back({problem, std::move(key)});
     Study& study = all_[index];
-    ++users_[index];
-    study.request.enough.reset();
     if (study.label.empty() || end_time > study.request.end_time) {
         study.request.end_time = std::max(end_time, study.request.end_time);
         study.label = figure_;
     }
     return index;
-}
-
-void Studies::stop_after(std::size_t study, const sim::EventCounts& events) {
-    if (users_[study] == 1) request(study).enough = events;
 }
 
 std::size_t Studies::table(std::size_t study, const Instants& at, const std::vector<sim::ChannelKind>& channels) {

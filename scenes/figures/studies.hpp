@@ -54,8 +54,6 @@ class Studies {
     void apexes(std::size_t study) { request(study).apexes = true; }
     void zero_crossings(std::size_t study) { request(study).zero_crossings = true; }
     void may_fail(std::size_t study) { all_[study].may_fail = true; }
-    // Ends the study after these events, unless another figure uses it.
-    void stop_after(std::size_t study, const sim::EventCounts& events);
     void horizon(std::size_t study) { request(study).horizon = true; }
 
     sim::Request& request(std::size_t i) { return all_[i].request; }
@@ -64,7 +62,6 @@ class Studies {
   private:
     std::string figure_;
     std::vector<Study> all_;
-    std::vector<int> users_;  // of each
     std::vector<std::vector<std::pair<Instants, std::size_t>>> grids_;
 };
 
@@ -80,7 +77,6 @@ struct Results {
     std::optional<Swept> swept = {};  // for figures of sweeps
 
     const sim::Result* operator[](std::size_t study) const { return studies[study]; }
-    const sim::Result* find(std::optional<std::size_t> study) const { return study ? studies[*study] : nullptr; }
 };
 inline bool has_result(const sim::Result& result) { return result.counters.steps > 0 || !result.tables.empty(); }
 

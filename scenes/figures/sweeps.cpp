@@ -3,11 +3,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <map>
 #include <stdexcept>
 
 #include "render/base/error.hpp"
-#include "render/plot/channel_label.hpp"
+#include "render/draw/markup.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/figures/swept_points.hpp"
@@ -22,59 +21,8 @@ using sim::AttractorClass;
 
 // ---- captions -------------------------------------------------------------------------------------
 
-std::string span_text(const sim::CamSpan& span, Lang lang) {
-    if (span.time) return fmt::format("{:g} s", *span.time);
-    return phrase(lang, "{:g} turns of the cam", "凸轮 {:g} 转", span.turns);
-}
-
-// "θ₀ = 0.1 … 0.4 rad"
-std::string range_text(const std::string& key, double low, double high, const std::string& unit) {
-    const std::string last = with_unit(number(high, 6), unit), name = symbol_of(key);
-    return low == high ? fmt::format("{} = {}", name, last) : fmt::format("{} = {} … {}", name, number(low, 6), last);
-}
-
-std::string axes_text(const SweptPoints& points) {
-    std::string text;
-    for (std::size_t i = 0; i < points.axes().size(); ++i) {
-        const output::SweepAxis& axis = points.axis(i);
-        const auto [low, high] = std::ranges::minmax(axis.values);
-        text += range_text(axis.name, low, high, axis.unit);
-        if (low != high)
-            text += phrase(points.lang, " in {} values{}", "，共 {} 值{}", axis.values.size(),
-                           points.scale(i) == render::Scale::linear
-                               ? ""
-                               : phrase(points.lang, " of a logarithmic scale", "（对数分布）"));
-        text += phrase(points.lang, "; ", "；");
-    }
-    return text;
-}
-
-std::string sample_text(const SweptPoints& points) {
-    const sim::Sampling& s = points.scene.sweep->sampling;
-    const bool crossing = s.kind == sim::SampleKind::crossings;
-    if (!crossing && s.kind != sim::SampleKind::section)
-        return s.kind == sim::SampleKind::impacts ? phrase(points.lang, "at impacts", "碰撞时刻")
-                                                  : phrase(points.lang, "at apexes", "极点时刻");
-    const Measure in = measure_in(points.scene.units, crossing ? sim::unit(s.channel, points.scene.problem) : "rad");
-    const std::string level = with_unit(number(in.factor * s.level, 6), in.unit);
-    if (!crossing) return phrase(points.lang, "where the cam's angle is {}", "凸轮转角为 {} 处", level);
-    return phrase(points.lang, s.rising ? "where {} rises through {}" : "where {} falls through {}",
-                  s.rising ? "{} 升过 {} 处" : "{} 降过 {} 处", render::print_symbol(s.channel), level);
-}
-
 bool has_random_starts(const SweptPoints& points) {
     return std::ranges::count(points.scene.sweep->seeds.kinds, SeedKind::random) > 0;
-}
-
-// ": θ₀ = 0.1 … 0.4 rad, …"
-std::string random_text(const SweptPoints& points) {
-    std::vector<std::string> ranges;
-    for (const RandomKey& each : random_keys(*points.scene.sweep, points.scene.problem)) {
-        const Measure in =
-            measure_in(points.scene.units, si_unit(sim::number_key(points.scene.problem, each.key)->dimension));
-        ranges.push_back(range_text(each.key, in.factor * each.from, in.factor * each.to, in.unit));
-    }
-    return phrase(points.lang, " with {}", "：{}", listed(ranges, points.lang));
 }
 
 // The scene's problem at the ends of all ranges.
@@ -91,58 +39,12 @@ std::vector<sim::Problem> problems_at_ends(const SweptPoints& points) {
     return out;
 }
 
-std::string starts_text(const SweptPoints& points) {
-    std::string text;
-    for (std::uint64_t k = 0; k < std::min<std::uint64_t>(points.seeds(), 3); ++k) {
-        if (k > 0 && points.seed(k) == points.seed(k - 1)) continue;
-        text += (k > 0 ? phrase(points.lang, ", ", "、") : "") + look_of(points.seed(k)).label.in(points.lang);
-    }
-    if (points.seeds() > 3) text += fmt::format(" ({})", points.seeds());
-    return has_random_starts(points) ? text + random_text(points) : text;
-}
-
-// How many points are of each class.
-std::string class_counts(const std::map<AttractorClass, std::uint64_t>& kinds, Lang lang) {
-    std::vector<std::string> counts;
-    for (const auto& [kind, count] : kinds)
-        counts.push_back(phrase(lang, "{} {}", "{1} {0}", count, class_label(kind, lang)));
-    return phrase(lang, "{}. ", "{}。", listed(counts, lang));
-}
-
-std::string sweep_caption(const SweptPoints& points) {
-    std::map<AttractorClass, std::uint64_t> kinds;
-    int longest = 0;  // period
-    for (std::uint64_t k = 0; k < points.data.points(); ++k) {
-        if (!points.data.has(k)) continue;
-        const output::StoredPoint p = points.data.read(k);
-        ++kinds[kind_of(p)];
-        longest = std::max(longest, p.period);
-    }
-    const sim::Sampling& s = points.scene.sweep->sampling;
-    std::string text = axes_text(points);
-    text += phrase(points.lang, "samples {}; transient {}, then {} kept; starts: {}. Points: ",
-                   "样本：{}；舍去 {}，保留 {}；初值：{}。点数：", sample_text(points),
-                   span_text(s.transient, points.lang), span_text(s.keep, points.lang), starts_text(points));
-    text += class_counts(kinds, points.lang);
-    if (kinds.contains(AttractorClass::chaotic))
-        text +=
-            phrase(points.lang, "Samples of chaotic motions depend on their start, transient and number of periods. ",
-                   "混沌处的点是其初值、过渡与周期数的统计。");
-    if (!s.keep.time && longest > s.keep.turns)
-        text += phrase(points.lang, "Of periods longer than the kept turns, up to {}, only a part is sampled. ",
-                       "周期长于保留转数（最长 {} 转）时只取其一部分。", longest);
-    return text + phrase(points.lang, "Other parameters: ", "其他参数：") +
-           facts(subject_of(points.scene, points.lang), {.others = problems_at_ends(points)});
-}
-
 std::string tolerance_text(const SweptPoints& points) {
     const sim::Problem& problem = points.scene.problem;
     const bool closed =
         problem.beam.model == sim::ModelKind::rigid && problem.contact.model == sim::ContactModel::restitution;
-    return phrase(points.lang, "Relative tolerance {}{}.", "相对容差 {}{}。", one_digit(problem.solver.rtol),
-                  !closed ? ""
-                          : phrase(points.lang, ", or rounding where the rigid beam is followed in closed form",
-                                   "，刚性梁以闭式求解时为舍入误差"));
+    return fmt::format("Relative tolerance {}{}.", one_digit(problem.solver.rtol),
+                       closed ? ", or rounding where the rigid beam is followed in closed form" : "");
 }
 
 // ---- all samples in one plane ---------------------------------------------------------------------
@@ -187,11 +89,12 @@ figure::Figure sample_plane(const SweptPoints& points, const std::string& x, con
     if (all_empty(clouds))
         throw render::PictureError(
             "no point has a section to show: all rest, follow the cam, have left it or have not settled");
-    const auto axis = [&](std::size_t c, const char* en, const char* zh) -> render::Axis {
-        return {.label = column_label(points, c) + (next ? phrase(points.lang, en, zh) : "")};
+    const auto axis = [&](std::size_t c, const char* which) -> render::Axis {
+        const std::string label = column_label(points, c);
+        return {.label = next ? phrase(points.lang, which, label) : label};
     };
-    figure::Panel panel{.x = axis(cx, ", impact $k$", "，第 $k$ 次冲击"),
-                        .y = axis(cy, ", impact $k$ + 1", "，第 $k$ + 1 次冲击"),
+    figure::Panel panel{.x = axis(cx, "{}, impact $k$"),
+                        .y = axis(cy, "{}, impact $k$ + 1"),
                         .clouds = std::move(clouds),
                         .legend = figure::Legend::box,
                         .name = y};
@@ -241,32 +144,32 @@ figure::Figure draw_impact_map(const SweptPoints& points, const FigureOutput&) {
 }  // namespace
 
 extern const FigureType kBifurcation{.name = "bifurcation",
-                                     .title = {"Bifurcation diagram", "分岔图"},
+                                     .title = "Bifurcation diagram",
                                      .refusal = needs_one_key,
                                      .draw = bifurcation,
                                      .keys = {"value"}};
 extern const FigureType kBasins{.name = "basins",
-                                .title = {"Basins of attraction", "吸引域"},
+                                .title = "Basins of attraction",
                                 .refusal = needs_two_starts,
                                 .draw = key_map,
                                 .keys = {"value"}};
 extern const FigureType kMap{.name = "map",
-                             .title = {"Map of two keys", "双参数图"},
+                             .title = "Map of two keys",
                              .refusal = needs_two_keys,
                              .draw = key_map,
                              .keys = {"value"}};
 extern const FigureType kPoincare{
-    .name = "poincare", .title = {"Poincaré section", "Poincaré 截面"}, .refusal = needs_sweep, .draw = draw_poincare};
+    .name = "poincare", .title = "Poincaré section", .refusal = needs_sweep, .draw = draw_poincare};
 extern const FigureType kImpactMap{
-    .name = "impact-map", .title = {"Map of impacts", "碰撞映射"}, .refusal = needs_impacts, .draw = draw_impact_map};
+    .name = "impact-map", .title = "Map of impacts", .refusal = needs_impacts, .draw = draw_impact_map};
 
 FigureDrawing swept_figure(const FigureType& type, const FigureOutput& how) {
     return [&type, how](const Subject&, const Results& results) {
         if (!results.swept) throw std::logic_error("a figure of a sweep without its points");
         const SweptPoints points(*results.swept, how.lang);
         figure::Figure out = type.draw(points, how);
-        out.title = phrase(how.lang, "{} over {}", "{}：{}", type.title.in(how.lang), points.axis(0).name);
-        out.caption = sweep_caption(points) + (out.caption.empty() ? "" : " ") + out.caption;
+        out.title = fmt::format("{} over {}", type.title, render::escaped(points.axis(0).name));
+        add_caption(out, problems_at_ends(points));
         out.accuracy = tolerance_text(points);
         return out;
     };

@@ -17,25 +17,23 @@ using sim::AttractorClass;
 
 namespace {
 
-// How each class is drawn and called.
 struct ClassLook {
     AttractorClass kind;
     std::uint32_t color;
-    const char* zh;
 };
 constexpr ClassLook kClasses[] = {
-    {AttractorClass::rest, 0xF2F2F2, "静止"},         {AttractorClass::following, 0xD0D0D0, "跟随"},
-    {AttractorClass::periodic, 0x0072B2, "周期"},     {AttractorClass::quasi_periodic, 0x009E73, "准周期"},
-    {AttractorClass::chaotic, 0xD55E00, "混沌"},      {AttractorClass::aperiodic, 0xE69F00, "非周期"},
-    {AttractorClass::over_the_top, 0x404040, "翻越"}, {AttractorClass::unsettled, 0xF0E442, "未定"},
+    {AttractorClass::rest, 0xF2F2F2},         {AttractorClass::following, 0xD0D0D0},
+    {AttractorClass::periodic, 0x0072B2},     {AttractorClass::quasi_periodic, 0x009E73},
+    {AttractorClass::chaotic, 0xD55E00},      {AttractorClass::aperiodic, 0xE69F00},
+    {AttractorClass::over_the_top, 0x404040}, {AttractorClass::unsettled, 0xF0E442},
 };
 const ClassLook& look_of(AttractorClass kind) { return *std::ranges::find(kClasses, kind, &ClassLook::kind); }
 
 constexpr StartLook kStarts[] = {
-    {SeedKind::same, {"same start", "相同初值"}, "= "},
-    {SeedKind::carry_up, {"carried up", "递增延续"}, "→ "},
-    {SeedKind::carry_down, {"carried down", "递减延续"}, "← "},
-    {SeedKind::random, {"random starts", "随机初值"}, ""},
+    {SeedKind::same, "same start", "= "},
+    {SeedKind::carry_up, "carried up", "→ "},
+    {SeedKind::carry_down, "carried down", "← "},
+    {SeedKind::random, "random starts", ""},
 };
 constexpr std::string_view kApproach = "v_n_before";
 
@@ -71,15 +69,15 @@ std::size_t SweptPoints::column(const std::string& name) const {
 }
 
 Color color_of(AttractorClass kind) { return render::rgb(look_of(kind).color); }
-std::string class_label(AttractorClass kind, Lang lang) { return lang == Lang::en ? name(kind) : look_of(kind).zh; }
+std::string class_label(AttractorClass kind, Lang lang) { return phrase(lang, name(kind)); }
 
 const StartLook& look_of(SeedKind kind) { return *std::ranges::find(kStarts, kind, &StartLook::kind); }
 
 std::string column_label(const SweptPoints& points, std::size_t column) {
     const std::string& name = points.data.columns[column].name;
     const std::string unit = measure_in(points.scene.units, points.data.columns[column].unit).unit;
-    if (name == "cam_phase") return phrase(points.lang, "cam phase / turn", "凸轮相位 / 转");
-    if (name == kApproach) return axis_label(kApproachSpeed.in(points.lang), unit);
+    if (name == "cam_phase") return phrase(points.lang, "cam phase / turn");
+    if (name == kApproach) return axis_label(phrase(points.lang, "approach speed"), unit);
     return axis_label(symbol_of(name), unit);
 }
 

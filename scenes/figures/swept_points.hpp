@@ -46,7 +46,7 @@ std::string class_label(sim::AttractorClass kind, Lang lang);
 
 struct StartLook {
     SeedKind kind;
-    Translated label;
+    const char* label;
     const char* lane;  // beside the strip of classes, whose highest lane is the first start
 };
 const StartLook& look_of(SeedKind kind);

@@ -6,13 +6,14 @@
 
 namespace beamcam::scenes {
 
-// The scenes in the program, by name: those of this folder, then those of the paper's figures.
-struct EmbeddedScene {
+struct EmbeddedText {
     std::string_view name;  // "default", "paper/free-fall"
     std::string_view text;
-    bool is_of_paper() const { return name.starts_with("paper/"); }
     std::string_view summary() const;  // its first comment
 };
-std::span<const EmbeddedScene> embedded_scenes();
+// The scenes in the program, by name: those of the folder scenes, then those of the paper's figures.
+std::span<const EmbeddedText> embedded_scenes();
+// The presets of figures: "presets/energy".
+std::span<const EmbeddedText> embedded_preset_texts();
 
 }  // namespace beamcam::scenes

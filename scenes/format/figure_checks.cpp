@@ -5,6 +5,7 @@
 
 #include "render/draw/markup.hpp"
 #include "scenes/figures/figure_types.hpp"
+#include "scenes/figures/series_data.hpp"
 #include "scenes/figures/sweeps.hpp"
 #include "scenes/format/checks.hpp"
 #include "scenes/format/suggest.hpp"
@@ -73,8 +74,13 @@ bool shows(const SeriesPanel& panel, const Measurement& data) {
     return std::ranges::any_of(panel.channels, holds) || std::ranges::any_of(panel.right, holds);
 }
 
-// Warns about data that have channels of the panels but not the channel of the abscissa.
+// Warns about data that have channels of the panels but not the channel of the abscissa, or no spectrum.
 void warn_of_undrawn_data(ObjectReader& r, const SeriesKeys& series) {
+    for (const Measurement& data : r.context().scene.data)
+        if (series.against == "frequency" && !equally_spaced(data.times) &&
+            std::ranges::any_of(series.panels, [&](const SeriesPanel& panel) { return shows(panel, data); }))
+            r.warn("x", " = \"frequency\": the instants of the data {} are too few or not equally spaced; they are not drawn",
+                   in_quotes(data.label));
     const auto along = sim::channel_named(series.against);
     if (!along || along->kind == sim::ChannelKind::t || along->kind == sim::ChannelKind::cam_angle) return;
     for (const Measurement& data : r.context().scene.data)

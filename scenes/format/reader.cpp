@@ -13,6 +13,7 @@
 #include "scenes/format/description.hpp"
 #include "scenes/format/object_reader.hpp"
 #include "scenes/format/overrides.hpp"
+#include "scenes/format/presets.hpp"
 
 namespace beamcam::scenes {
 namespace {
@@ -53,6 +54,7 @@ struct CloseFile {
 bool read_only_output(const Node& output, const std::string& scene_name, const std::string& prefix, Scene& scene,
                       std::vector<Message>& messages) {
     Node list = array_node({output});
+    resolve_preset(list.items.front());
     list.place = output.place;
     const Node alone = object_node({{"outputs", std::move(list)}});
     scene.set_outputs({});
@@ -93,6 +95,7 @@ Reading read_scene(Source file, Node root, const std::vector<std::string>& overr
         reading.sources.push_back(override_source(text));
         apply_override(reading.root, text, reading.sources.size() - 1, reading.messages);
     }
+    if (Node* outputs = child(reading.root, "outputs")) std::ranges::for_each(outputs->items, resolve_preset);
     Scene scene = read_tree(reading.root, reading.sources.front(), name, reading.messages);
     std::ranges::stable_sort(reading.messages, {}, &Message::place);
     if (std::ranges::none_of(reading.messages, &Message::fatal)) reading.scene = std::move(scene);

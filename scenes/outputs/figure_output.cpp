@@ -6,6 +6,7 @@
 #include "render/plot/style.hpp"
 #include "scenes/figures/figure_types.hpp"
 #include "scenes/format/checks.hpp"
+#include "scenes/format/presets.hpp"
 #include "scenes/format/value_formats.hpp"
 #include "scenes/plan/output_times.hpp"
 #include "scenes/plan/planner.hpp"
@@ -49,13 +50,22 @@ static void visit(SceneVisitor& v, SeriesNote& note) {
     v.check([&note](ObjectReader& r) { check_markup(r, "text", note.text); });
 }
 
+// The figures that have a key, and their presets.
+static std::vector<std::string> names_with(std::string_view key) {
+    std::vector<std::string> names = figures_with(key);
+    for (const Preset& preset : embedded_presets())
+        if (const FigureType* type = figure_type(preset.figure()); type && type->takes(key))
+            names.push_back(preset.name);
+    return names;
+}
+
 // JSON Schema of the keys that only some figures have.
 static const std::string& constraint_of_figures() {
     static const std::string kText = [] {
         Node others = object_node();
         for (const std::string_view key : keys_of_figures())
             add(others, std::string(key),
-                object_node({{"properties", object_node({{"figure", object_node({{"enum", figures_with(key)}})}})}}));
+                object_node({{"properties", object_node({{"figure", object_node({{"enum", names_with(key)}})}})}}));
         return fmt::format(
             R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}}},
                 "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
@@ -138,7 +148,11 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
 void FigureOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, kFigureEndings),
             "Name of the file; by default the name of the figure with .pdf.");
-    v.choice(required("figure", "\"free-fall\""), figure, figure_names(), "Name of the figure.");
+    v.choice(required("figure", "\"free-fall\""), figure, names_of_figures_and_presets(),
+             "Name of the figure, or of a preset, whose keys the output then has besides its own.");
+    v.text(sim::written_if(!title.empty(), "title"), title,
+           "Title in the caption and the properties of the file; $θ$ is a formula.");
+    v.check([this](ObjectReader& r) { check_markup(r, "title", title); });
     v.choice("column", column, render::figure::column_names(),
              "The journal's column: width and font size of the figure.");
     v.number("dpi", dpi, sim::kPlainNumber, between(50, 2400),
@@ -148,20 +162,18 @@ void FigureOutput::visit(SceneVisitor& v) {
     v.choice("font", serif, {{false, "sans"}, {true, "serif"}},
              "Liberation Sans, similar to Arial, or Liberation Serif, similar to Times.");
     v.choice("theme", dark, {{false, "light"}, {true, "dark"}}, "Colours for white paper, or for dark slides.");
-    v.choice("lang", lang, kLanguages, "Language of labels and caption.");
+    v.choice("lang", lang, kLanguages, "Language of the labels.");
     v.number("width", width, dim::kLength,
              between(0.03, 1, "is outside 30 … 1000 mm; a plain number is in metres, \"90 mm\" says its unit"),
              "Width; by default that of the column.");
     v.number("height", series.height, dim::kLength,
              between(0.02, 1, "is outside 20 … 1000 mm; a plain number is in metres, \"60 mm\" says its unit"),
              "Height; by default it suits the panels.");
-    v.value("caption", file_format(caption_file, {".txt", ".md", ".tex"}),
-            "File for the caption: plain text and LaTeX, in .tex only LaTeX; by default none.");
+    v.value("caption", file_format(caption_file, {".txt", ".md"}),
+            "File for the caption: title, parameters that differ from the defaults, accuracy; by default none.");
     v.value("data", file_format(data_file, {".csv"}), "File for the numbers of the figure; by default none.");
     visit_series(v, series, figure);
     const FigureType* type = figure_type(figure);
-    v.integer(sim::written_if(type && type->takes("collision"), "collision"), collision, 1, 100'000,
-              "Of \"collision\": number of the collision, counted from 1.");
     v.text(sim::written_if(type && type->takes("value"), "value"), value,
            "Of \"bifurcation\": the column of the samples, by default \"v_n_before\" or \"theta\". Of \"map\" and "
            "\"basins\": \"class\", \"exponent\", \"impacts_per_period\", or a column, whose mean is shown.");

@@ -42,14 +42,14 @@ std::vector<Group> groups_of(const render::FilmSetup& film) {
 }
 
 std::string name_of(const Group& g, Lang lang) {
-    if (g.first == g.last) return phrase(lang, "Impact {}", "第 {} 次冲击", g.first + 1);
-    return phrase(lang, "Impacts {}–{}", "第 {}–{} 次冲击", g.first + 1, g.last + 1);
+    if (g.first == g.last) return phrase(lang, "Impact {}", g.first + 1);
+    return phrase(lang, "Impacts {}–{}", g.first + 1, g.last + 1);
 }
 
 std::string text_of(const Group& g, const render::FilmSetup& film, Lang lang) {
     std::string text = fmt::format("{} · t = {:.4f}", name_of(g, lang), film.impacts[g.first].t_start);
     text += g.last > g.first ? fmt::format(" … {:.4f} s", film.impacts[g.last].t_start) : " s";
-    if (g.force > 0) text += phrase(lang, " · up to {}", " · 最大 {}", render::quantity(g.force, "N"));
+    if (g.force > 0) text += phrase(lang, " · up to {}", render::quantity(g.force, "N"));
     return text;
 }
 
@@ -70,7 +70,7 @@ FilmTrack film_track(const render::FilmSetup& film, Lang lang) {
         out.subtitles.push_back({groups[i].from, std::min(next, std::max(groups[i].until, groups[i].from + kFilmShown)),
                                  text_of(groups[i], film, lang)});
         if (out.chapters.empty() && groups[i].from > 0)
-            out.chapters.push_back({0, groups[i].from, phrase(lang, "Start", "开始")});
+            out.chapters.push_back({0, groups[i].from, phrase(lang, "Start")});
         out.chapters.push_back({groups[i].from, next, name_of(groups[i], lang)});
     }
     for (const render::Callout& c : film.callouts)

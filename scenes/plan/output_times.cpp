@@ -28,7 +28,8 @@ using EventBounds = std::vector<std::optional<Instant>>;
 EventBounds bounds_of(const Pictures& p) { return {p.span.from_event, p.span.to_event}; }
 EventBounds bounds_of(const SeriesKeys& keys) { return {keys.from_event, keys.to_event, keys.at}; }
 
-// The events after which the run may end. The apex of a rebound is certain when the next collision begins. nullopt: the
+// The events after which the run may end. The end of a collision and the apex of a rebound are
+// certain when the next collision begins. nullopt: the
 // whole motion is needed.
 std::optional<sim::EventCounts> enough_for(const EventBounds& bounds) {
     sim::EventCounts enough;
@@ -50,6 +51,7 @@ std::optional<sim::EventCounts> enough_for(const EventBounds& bounds) {
             case Instant::Kind::collision:
                 raise(enough.collisions, each->number);
                 break;
+            case Instant::Kind::liftoff:
             case Instant::Kind::apex:
                 raise(enough.collisions, each->number + 1);
                 break;

@@ -101,7 +101,6 @@ const char* kind_without_scene(std::string_view ending) {
                                                                           {".tiff", "TIFF figure"},
                                                                           {".html", "page"},
                                                                           {".glb", "model"},
-                                                                          {".tex", "caption"},
                                                                           {".txt", "caption"},
                                                                           {".md", "caption"}};
     const auto found = std::ranges::find(kKinds, ending, &std::pair<std::string_view, const char*>::first);

@@ -186,6 +186,7 @@ struct FigureOutput {
     static constexpr OutputInputs kInputs{.title = true, .units = true, .data = true};
     std::string file;                 // of one of kFigureEndings
     std::string figure;               // its name, see figures/figure_types.hpp
+    std::string title = {};           // markup; empty: that of the figure
     std::string column = "elsevier";  // of a journal, see render/plot/style.hpp
     std::optional<double> width;      // [m]; nullopt: that of the column
     Lang lang = Lang::en;
@@ -194,7 +195,6 @@ struct FigureOutput {
     bool serif = false;         // serif font, as in LaTeX documents
     bool dark = false;          // dark theme, for slides
     SeriesKeys series;
-    int collision = 1;                    // number of the collision in the figure "collision", from 1
     std::string value = {};               // column of a sweep's diagram; empty: default
     std::string data_file, caption_file;  // empty: none
 

@@ -23,7 +23,7 @@ struct Size {
 // An instant of the motion: a time, the end, or an event counted from 1: the first touch of an impact or a collision,
 // the release of an impact, the apex of a rebound (the largest hub angle between two collisions).
 struct Instant {
-    enum class Kind { time, last, impact, collision, release, apex };
+    enum class Kind { time, last, impact, collision, release, liftoff, apex };
     Kind kind = Kind::time;
     double t = 0;    // [s], >= 0
     int number = 1;  // of the event
@@ -41,6 +41,7 @@ inline constexpr EventWord kEventWords[] = {{"impact", Instant::Kind::impact},
                                             {"collision", Instant::Kind::collision},
                                             {"apex", Instant::Kind::apex},
                                             {"release", Instant::Kind::release, true},
+                                            {"liftoff", Instant::Kind::liftoff, true},
                                             {"touch", Instant::Kind::impact, true}};
 std::string name_of(const Instant& at);  // "impact 3", "0.2 s"
 

@@ -178,6 +178,8 @@ std::optional<double> find_instant(const Instant& instant, const sim::Result& mo
             return pick(motion.collisions, &sim::Collision::t_start);
         case Instant::Kind::release:
             return pick(motion.impacts, &sim::Impact::t_end);
+        case Instant::Kind::liftoff:
+            return pick(motion.collisions, &sim::Collision::t_end);
         case Instant::Kind::apex:
             return pick(sim::rebounds(motion), &sim::Apex::t);
     }
@@ -186,11 +188,13 @@ std::optional<double> find_instant(const Instant& instant, const sim::Result& mo
 
 double instant_of(const Instant& instant, const sim::Result& motion) {
     if (const auto t = find_instant(instant, motion)) return *t;
-    const auto released =
-        std::ranges::count_if(motion.impacts, [](const sim::Impact& i) { return i.t_end.has_value(); });
+    const auto ended = [](const auto& all) {
+        return static_cast<std::size_t>(std::ranges::count_if(all, [](const auto& i) { return i.t_end.has_value(); }));
+    };
     const std::size_t count = instant.kind == Instant::Kind::apex        ? sim::rebounds(motion).size()
                               : instant.kind == Instant::Kind::collision ? motion.collisions.size()
-                              : instant.kind == Instant::Kind::release   ? static_cast<std::size_t>(released)
+                              : instant.kind == Instant::Kind::release   ? ended(motion.impacts)
+                              : instant.kind == Instant::Kind::liftoff   ? ended(motion.collisions)
                                                                          : motion.impacts.size();
     throw render::PictureError(
         fmt::format("{} does not occur: the motion has {} of them until {:g} s; a larger time.end, or \"to\" of a "

@@ -91,7 +91,7 @@ TEST(Examples, EachIsListedWithALineAndCopied) {
     const Finished list = shell(folder, "$BEAMCAM examples");
     ASSERT_EQ(list.code, 0);
     ASSERT_GE(embedded_scenes().size(), 17U);
-    for (const EmbeddedScene& scene : embedded_scenes()) {
+    for (const EmbeddedText& scene : embedded_scenes()) {
         const std::string name(scene.name);
         EXPECT_FALSE(scene.summary().empty()) << name;
         EXPECT_THAT(list.out, HasSubstr(name + " "));

@@ -115,11 +115,11 @@ TEST(Info, PagesModelsAndTheFilesBesideFiguresAreKnownByTheManifest) {
     folder.write("s.json", R"({"time": {"end": 0.3}})");
     ASSERT_EQ(shell(folder,
                     "for e in html glb; do $BEAMCAM render -q s.json -o a.$e || exit; done; "
-                    "$BEAMCAM figure -q s.json --channels theta -o f.svg --data f.csv --caption f.tex")
+                    "$BEAMCAM figure -q s.json --channels theta -o f.svg --data f.csv --caption f.txt")
                   .code,
               0);
     for (const auto& [file, kind] : {std::pair{"a.html", "page"}, std::pair{"a.glb", "model"},
-                                     std::pair{"f.csv", "table with texts"}, std::pair{"f.tex", "caption"}}) {
+                                     std::pair{"f.csv", "table with texts"}, std::pair{"f.txt", "caption"}}) {
         const Finished info = shell(folder, std::string("$BEAMCAM info ") + file);
         EXPECT_THAT(info.out, HasSubstr(fmt::format("{}: {}\n", file, kind))) << info.err;
         EXPECT_THAT(info.out, HasSubstr("made by        beamcam 0.")) << file;

@@ -6,10 +6,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <map>
 #include <set>
-#include <sstream>
 
+#include "output/data/table_reader.hpp"
 #include "render/draw/markup.hpp"
 #include "scenes/figures/axis_labels.hpp"
 #include "scenes/plan/plan.hpp"
@@ -47,38 +46,22 @@ TEST(Figures, ShareOneSimulationWithEachOtherAndWithTables) {
 }
 
 TEST(Figures, EqualPhysicsIsOneStudy) {
-    Studies studies;
-    const Scene s = scene_from("{}");
-    figure_type("speeds")->prepare(s, {}, studies);  // 0, 1 and 5 rad/s; the scene's own is 1
-    figure_type("energy")->prepare(s, {}, studies);
-    figure_type("contact-places")->prepare(s, in(Lang::zh), studies);
-    EXPECT_EQ(studies.take().size(), 3u);
+    // 0, 1 and 5 rad/s; the scene's own is 1.
+    const Plan p = plan(scene_from(R"({"outputs": [{"type": "figure", "figure": "speeds"},
+        {"type": "figure", "figure": "energy"}, {"type": "figure", "figure": "contact-places", "lang": "zh"}]})"));
+    EXPECT_TRUE(p.simulation);
+    EXPECT_EQ(p.others.size(), 2u);
 }
 
 TEST(Figures, HaveTheUnitsOfTheScene) {
     const Scene si = scene_from(R"({"time": {"end": 0.6}, "solver": {"rtol": 1e-6}})");
     Scene shown = si;
     shown.units = {.degrees = true, .speed = render::SpeedUnit::rpm};
-    const auto plain = [&](const Scene& s, const char* name) { return render::to_plain(figure_of(s, name).caption); };
-    for (const char* name : {"free-fall", "apex-modes", "models"}) {
-        const auto figure = figure_of(shown, name), same = figure_of(si, name);
-        ASSERT_EQ(figure.panels.size(), same.panels.size());
-        for (std::size_t k = 0; k < figure.panels.size(); ++k) {
-            EXPECT_THAT(figure.panels[k].y.label, ::testing::EndsWith(" / °")) << name;
-            const auto &degrees = figure.panels[k].series.front().y, &radians = same.panels[k].series.front().y;
-            for (std::size_t i = 0; i < radians.size(); i += 50)
-                if (!std::isnan(radians[i])) {
-                    EXPECT_NEAR(degrees[i], radians[i] * 180 / M_PI, 1e-12) << name;
-                }
-        }
-    }
-    EXPECT_NEAR(figure_of(shown, "free-fall").panels[0].insets[0].source->y_to,
-                figure_of(si, "free-fall").panels[0].insets[0].source->y_to * 180 / M_PI, 1e-12);
-    EXPECT_THAT(plain(si, "models"), ::testing::ContainsRegex("change the apex of the first rebound by [^ ]+ rad"));
-    EXPECT_THAT(plain(shown, "models"), ::testing::ContainsRegex("change the apex of the first rebound by [^ ]+°;"));
-    const auto speeds = figure_of(shown, "speeds");
-    EXPECT_THAT(speeds.caption, HasSubstr("$ω$ = 47.75 rpm"));
-    EXPECT_THAT(speeds.caption, Not(HasSubstr("rad s")));
+    const auto figure = figure_of(shown, "free-fall"), same = figure_of(si, "free-fall");
+    EXPECT_THAT(figure.panels[0].y.label, ::testing::EndsWith(" / °"));
+    const auto &degrees = figure.panels[0].series.front().y, &radians = same.panels[0].series.front().y;
+    for (std::size_t i = 0; i < radians.size(); i += 50) EXPECT_NEAR(degrees[i], radians[i] * 180 / M_PI, 1e-12);
+    EXPECT_NEAR(figure.panels[0].insets[0].source->y_to, same.panels[0].insets[0].source->y_to * 180 / M_PI, 1e-12);
 }
 
 TEST(Figures, DegreesFollowTheirNumberWithoutASpace) {
@@ -131,18 +114,6 @@ TEST(Figures, SchematicShowsARestingBeamOnTheCam) {
     EXPECT_FALSE(has(figure_of(scene_from(R"({"gravity": 0})"), "schematic"), "$g$"));
 }
 
-// Its angle has limits, its distance D is measured along X.
-TEST(Figures, ASchematicSaysWhereItIsNotToScale) {
-    const auto caption = [](const char* scene) { return figure_of(scene_from(scene), "schematic").caption; };
-    EXPECT_THAT(caption("{}"), Not(HasSubstr("drawn as")));
-    EXPECT_THAT(caption("{}"), HasSubstr("at the distance $D$ from $O$"));
-    EXPECT_THAT(caption(R"({"initial": {"angle": "120 deg"}, "cam": {"centre": [0.25, 0.01]}})"),
-                ::testing::AllOf(HasSubstr("exaggerated, and for the angle of the beam, which is drawn as 80°"),
-                                 HasSubstr("at the horizontal distance $D$ from $O$")));
-    EXPECT_THAT(caption(R"({"initial": {"angle": "120 deg"}, "beam": {"model": "rigid"}})"),
-                HasSubstr("to scale except for the angle of the beam"));
-}
-
 // The cam turns while the beam falls, so that the touch is far from where its first phase puts it.
 TEST(Figures, TheTrialMethodSearchesBesideItsFirstPoints) {
     const auto figure = figure_of(scene_from(R"({"hub": {"drive": {"type": "torque", "value": "1.5 N m"}},
@@ -165,23 +136,81 @@ TEST(Figures, OfEnergyFitOnASlide) {
     EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json energy --height 0.021 -o f.png").code, 3);
 }
 
-TEST(Figures, AnyCollisionIsShownInCloseUp) {
+TEST(Presets, ShowAnyCollisionInCloseUp) {
     const Folder folder;
     folder.write("s.json", R"({"beam": {"model": "rigid"}, "time": {"end": 1.2}})");
     const auto start = [&](int number) {
-        const Finished made = shell(folder, fmt::format("$BEAMCAM figure s.json collision --collision {} -o c{}.svg "
-                                                        "--caption c{}.txt",
-                                                        number, number, number));
+        const Finished made =
+            shell(folder, fmt::format("$BEAMCAM figure s.json collision --from collision:{0} --to liftoff:{0} -o c.svg "
+                                      "--data c.csv --force",
+                                      number));
         EXPECT_EQ(made.code, 0) << made.err;
-        const std::string caption = testing::slurp(folder / fmt::format("c{}.txt", number));
-        EXPECT_THAT(caption, HasSubstr(number == 1 ? "The first collision" : "The second collision"));
-        const std::string key = "t₁ = ";
-        return std::stod(caption.substr(caption.find(key) + key.size()));
+        return output::read_table(folder / "c.csv").columns.at(0).values.at(0);
     };
     EXPECT_LT(start(1), start(2));
-    const Finished none = shell(folder, "$BEAMCAM figure s.json collision --collision 99 -o n.svg");
+    const Finished none = shell(folder, "$BEAMCAM figure s.json collision --from collision:99 -o n.svg");
     EXPECT_EQ(none.code, 3);
-    EXPECT_THAT(none.err, HasSubstr("collision 99 does not occur: there are "));
+    EXPECT_THAT(none.err, HasSubstr("collision 99 does not occur: the motion has "));
+}
+
+TEST(Presets, AreListedWithTheFigures) {
+    const Folder folder;
+    folder.write("s.json", "{}");
+    const std::string list = shell(folder, "$BEAMCAM figure s.json --list").out;
+    for (const char* name : {"series", "schematic", "angle", "speeds", "tip-vibration", "energy", "phase", "collision",
+                             "apex-modes", "models"})
+        EXPECT_THAT("\n" + list, HasSubstr(fmt::format("\n{:<18} ", name)));
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json").out, list);
+    EXPECT_THAT(list, Not(HasSubstr("not for this scene: the hub")));
+    folder.write("n.json", R"({"cam": null})");
+    EXPECT_THAT(shell(folder, "$BEAMCAM figure n.json --list").out,
+                ::testing::ContainsRegex("speeds [^\n]*not for this scene"));
+}
+
+// The same bytes by its name, by its name in a scene, and by a file with its keys.
+TEST(Presets, OfOnesOwnWorkAsThoseOfTheProgram) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    folder.write("k.json", R"({"time": {"end": 0.4}, "outputs": [{"type": "figure", "figure": "energy", "file": "k.svg"}]})");
+    folder.write("mine.json", testing::slurp(BEAMCAM_TEST_DIR "/../scenes/presets/energy.json"));
+    const Finished made = shell(folder,
+                                "$BEAMCAM figure s.json energy -o a.svg -q && $BEAMCAM run k.json -q && "
+                                "$BEAMCAM figure s.json --preset mine.json -o b.svg -q");
+    ASSERT_EQ(made.code, 0) << made.err;
+    EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "b.svg"));
+    EXPECT_EQ(testing::slurp(folder / "a.svg"), testing::slurp(folder / "k.svg"));
+    folder.write("strobe.json", R"({"figure": "strobe", "title": "Until the touch", "to": "touch"})");
+    ASSERT_EQ(shell(folder, "$BEAMCAM figure s.json --preset strobe.json -o c.svg --caption c.txt -q").code, 0);
+    EXPECT_THAT(testing::slurp(folder / "c.txt"), StartsWith("Until the touch. "));
+}
+
+TEST(Presets, WithMistakesAreReported) {
+    const Folder folder;
+    folder.write("s.json", R"({"time": {"end": 0.4}})");
+    const auto refusal = [&](const char* preset) {
+        folder.write("mine.json", preset);
+        const Finished made = shell(folder, "$BEAMCAM figure s.json --preset mine.json -o a.svg");
+        EXPECT_NE(made.code, 0) << preset;
+        return made.err;
+    };
+    EXPECT_THAT(refusal(R"({"figure": "series", "chanels": ["theta"]})"), HasSubstr("chanels"));
+    EXPECT_THAT(refusal(R"({"figure": "serious", "channels": ["theta"]})"), HasSubstr("there is no figure \"serious\""));
+    EXPECT_THAT(refusal(R"({"channels": ["theta"]})"), HasSubstr("there is no figure"));
+    EXPECT_THAT(refusal("[1]"), HasSubstr("a preset is an object"));
+    EXPECT_THAT(refusal(R"({"figure": )"), HasSubstr("mine.json:1:"));
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json energy --preset mine.json -o a.svg").code, 2);
+    EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json --preset none.json -o a.svg").code, 6);
+}
+
+// The keys of the output stand before those of the preset.
+TEST(Presets, GiveKeysThatAnOutputCanReplace) {
+    const Scene scene = scene_from(R"({"time": {"end": 0.4}, "outputs": [
+        {"type": "figure", "figure": "angle", "title": "Mine", "to": 0.2}]})");
+    const auto& how = std::get<FigureOutput>(scene.outputs.front());
+    EXPECT_EQ(how.figure, "series");
+    EXPECT_EQ(how.file, "angle.pdf");
+    EXPECT_EQ(how.title, "Mine");
+    EXPECT_EQ(how.series.to, 0.2);
 }
 
 // Places along a beam of any size, in the unit that suits it; those of the paper in millimetres.
@@ -208,7 +237,7 @@ TEST(ContactPlaces, OfAnInstantAreOnePoint) {
     EXPECT_EQ(std::ranges::adjacent_find(first), first.end());  // with gaps where the contact is interrupted
 }
 
-TEST(Figures, EnergiesAreThoseThatTheSceneHas) {
+TEST(Presets, ShowTheEnergiesThatTheSceneHas) {
     const auto labels = [](const char* scene) {
         std::string all;
         const auto figure = figure_of(scene_from(scene), "energy");
@@ -217,42 +246,8 @@ TEST(Figures, EnergiesAreThoseThatTheSceneHas) {
     };
     EXPECT_EQ(labels(R"({"time": {"end": 0.4}})"),
               "kinetic; potential; bending and contact; lost; external work; sum − work; ");
-    EXPECT_EQ(labels(R"({"beam": {"model": "rigid"}, "time": {"end": 0.4}})"),
-              "kinetic; potential; contact; lost; external work; sum − work; ");
-    EXPECT_EQ(labels(R"({"cam": null, "time": {"end": 0.2}})"), "kinetic; potential; bending; sum − work; ");
     EXPECT_EQ(labels(R"({"cam": null, "gravity": 0, "initial": {"angular_velocity": 1}, "time": {"end": 0.1}})"),
-              "kinetic; sum − work; ");  // a straight beam that turns is not bent
-}
-
-// A torque lifts the beam against the cam from below: what follows is no rebound upwards.
-TEST(Figures, OnlyABeamThatFallsOntoTheCamHasARebound) {
-    const Scene
-        fallen = scene_from(R"({"beam": {"model": "rigid"}, "time": {"end": 0.6}})"),
-        lifted = scene_from(
-            R"({"beam": {"model": "rigid"}, "hub": {"drive": {"type": "torque", "value": 1.5}}, "time": {"end": 1.5}})");
-    const auto apex = [](const Scene& scene) {
-        sim::Request request;
-        request.end_time = scene.end_time;
-        request.apexes = true;
-        const sim::Result result = sim::simulate(scene.problem, request);
-        EXPECT_FALSE(result.impacts.empty());
-        return rebound_apex(scene.problem, result, scene.end_time);
-    };
-    ASSERT_TRUE(apex(fallen));
-    EXPECT_GT(*apex(fallen), 0.4);
-    EXPECT_FALSE(apex(lifted));
-}
-
-TEST(Studies, StopAfterEventsUnlessAnotherFigureNeedsThem) {
-    Studies studies;
-    const sim::Problem problem;
-    const std::size_t alone = studies.of(problem, 1);
-    studies.stop_after(alone, {.collisions = 1});
-    EXPECT_TRUE(studies.request(alone).enough);
-    EXPECT_EQ(studies.of(problem, 1), alone);
-    EXPECT_FALSE(studies.request(alone).enough);
-    studies.stop_after(alone, {.collisions = 1});
-    EXPECT_FALSE(studies.request(alone).enough);
+              "kinetic; potential; sum − work; ");  // a straight beam that turns is not bent
 }
 
 TEST(Figures, PrintedSlopeJumpsAndTheCorrectedDoesNot) {
@@ -319,36 +314,8 @@ TEST(Figures, BeyondTheHorizonIsPaleAndStated) {
     const auto figure = figure_of(scene_from(R"({"time": {"end": 2.2}})"), "angle");
     ASSERT_EQ(figure.panels[0].series.size(), 2u);
     EXPECT_TRUE(figure.panels[0].series[0].faded);
-    EXPECT_THAT(figure.caption, HasSubstr("not reproducible"));
+    EXPECT_THAT(figure.accuracy, HasSubstr("not reproducible"));
     EXPECT_EQ(figure.panels[0].series[0].x.front(), figure.panels[0].series[1].x.back());
-}
-
-TEST(Figures, ModelsAreComparedInTheSameShapes) {
-    SKIP_UNDER_SANITIZERS();
-    const auto figure = figure_of(scene_from(R"({"cam": {"speed": 0}, "time": {"end": 0.7}})"), "models");
-    ASSERT_EQ(figure.panels.size(), 3u);
-    std::map<std::string, double> largest;
-    for (std::size_t k : {1u, 2u})
-        for (const auto& s : figure.panels[k].series) largest[fmt::format("{} {}", k, s.label)] = s.y.back();
-    EXPECT_GT(largest.at("1 paper"), 0);
-    EXPECT_LT(largest.at("1 paper"), 1e-2);
-    EXPECT_GT(largest.at("2 second-order, hub–beam shapes"), 0.03);  // the basis, by itself
-    EXPECT_EQ(largest.count("1 exact"), 0u);
-    const std::string caption = render::to_plain(figure.caption);
-    EXPECT_THAT(caption, HasSubstr("2×10⁻⁵ rad between eq. (4) and first-order"));
-    EXPECT_THAT(caption, HasSubstr("by 0.042 rad; this is an effect of the shapes"));
-}
-
-// Ten seconds of impacts in the models whose contact takes Runge–Kutta steps would be a minute of computing.
-TEST(Figures, ModelsEndWhereTheirWorkIsSpentAndSaySo) {
-    SKIP_UNDER_SANITIZERS();
-    const auto figure = figure_of(scene_from(R"({"solver": {"max_steps": 2000}, "time": {"end": 10}})"), "models");
-    EXPECT_GT(figure.panels[0].x.to, 0.3);
-    EXPECT_LT(figure.panels[0].x.to, 2);
-    EXPECT_THAT(render::to_plain(figure.caption), HasSubstr("Curves end where the computing budget"));
-    for (std::size_t k : {1u, 2u})
-        for (const auto& s : figure.panels[k].series)
-            for (const double x : s.x) EXPECT_LE(x, figure.panels[0].x.to) << s.label;
 }
 
 // Also what a figure computes beside the scene must be possible: without the cam nothing rests on it.
@@ -380,16 +347,14 @@ TEST(Figures, OptionsOfOtherFiguresAreNamedAsTheyWereGiven) {
     for (const std::string option :
          {"--low 1", "--high 1", "--title x", "--log", "--lines 1", "--right theta", "--panels", "--note 1=x",
           "--compare s.json", "--impacts", "--residuals", "--x-low 1"})
-        EXPECT_THAT(refusal("phase " + option),
+        EXPECT_THAT(refusal("schematic " + option),
                     StartsWith("beamcam: " + option.substr(0, option.find(' ')) + " belongs to the figure \"series\""));
-    EXPECT_THAT(refusal("energy --collision 2"),
-                StartsWith("beamcam: --collision belongs to the figure \"collision\""));
 }
 
 TEST(Figures, AskWhetherTheVariantsTheyComputeArePossible) {
     // A type that removes the cam without asking.
     const FigureType careless{
-        "careless", {"", ""}, no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureDrawing {
+        "careless", "", no_refusal, [](const Scene& s, const FigureOutput&, Studies& studies) -> FigureDrawing {
             studies.of(without_cam(s.problem), s.end_time);
             return {};
         }};
@@ -406,7 +371,7 @@ TEST(Figures, WhatASceneHasNotIsReported) {
     EXPECT_EQ(list.code, 0);
     EXPECT_THAT(list.out, HasSubstr("schematic"));
     EXPECT_THAT(list.out, HasSubstr("no cam"));
-    const Finished rejected = shell(folder, "$BEAMCAM figure s.json collision -o a.pdf");
+    const Finished rejected = shell(folder, "$BEAMCAM figure s.json contact-places -o a.pdf");
     EXPECT_EQ(rejected.code, 3);
     EXPECT_THAT(rejected.err, HasSubstr("no cam"));
     folder.write("t.json", R"({"time": {"end": 0.01}})");
@@ -422,18 +387,8 @@ constexpr const char* kLight = R"({"beam": {"length": 0.5, "area": 1.5e-4, "seco
     "cam": {"centre": [0.2, 0], "radius": 0.05, "eccentricity": 0.01, "speed": 12.566},
     "contact": {"stiffness": 3.4e10, "restitution": 0.6, "offset": "half-depth"}, "time": {"end": 0.5}})";
 
-TEST(Figures, DoWithoutTheMotionsThatTheyChoseThemselves) {
-    SKIP_UNDER_SANITIZERS();
-    const Folder folder;
-    folder.write("s.json", kLight);
-    const Finished apex = shell(folder, "$BEAMCAM figure s.json apex-modes -o a.svg --data a.csv");
-    EXPECT_EQ(apex.code, 0) << apex.err;
-    EXPECT_THAT(apex.err, HasSubstr("cut short, first-order, 6 modes"));
-    EXPECT_GT(std::filesystem::file_size(folder / "a.svg"), 1000u);
-}
-
 // 80 µs of contact among the rows of half a second.
-TEST(Figures, ACollisionReachesItsPeak) {
+TEST(Presets, OfACollisionReachItsPeak) {
     SKIP_UNDER_SANITIZERS();
     const Folder folder;
     folder.write("s.json", kLight);
@@ -441,15 +396,12 @@ TEST(Figures, ACollisionReachesItsPeak) {
     const Finished printed = shell(
         folder, R"($BEAMCAM simulate s.json --impacts - | sed -n 's/.*"force_peak": \([0-9.e+-]*\).*/\1/p' | head -1)");
     const double peak = std::stod(printed.out);
-    // panel, series, quantity and value of x, quantity and value of y
+    const output::ColumnTable drawn = output::read_table(folder / "c.csv");
+    const auto force = std::ranges::find(drawn.columns, "F / kN", [](const auto& column) { return column.name; });
+    ASSERT_NE(force, drawn.columns.end());
     double highest = 0;
-    std::istringstream rows(testing::slurp(folder / "c.csv"));
-    for (std::string line; std::getline(rows, line);) {
-        std::vector<std::string> cells;
-        std::istringstream in(line);
-        for (std::string cell; std::getline(in, cell, ',');) cells.push_back(cell);
-        if (cells.size() >= 6 && cells[1] == "force") highest = std::max(highest, std::stod(cells[5]));
-    }
+    for (const double v : force->values)
+        if (std::isfinite(v)) highest = std::max(highest, 1e3 * v);
     EXPECT_GT(peak, 1000);
     EXPECT_GE(highest, 0.995 * peak);
 }

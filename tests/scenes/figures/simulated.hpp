@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "scenes/figures/figure_types.hpp"
+#include "scenes/format/reader.hpp"
 #include "tests/scenes/support.hpp"
 
 namespace beamcam::scenes::testing {
@@ -47,10 +48,14 @@ inline FigureOutput in(Lang lang) {
     return how;
 }
 
+// A figure or a preset by its name.
 inline render::figure::Figure figure_of(const Scene& s, const char* name, Lang lang = Lang::en) {
-    FigureOutput how = in(lang);
-    how.figure = name;
-    return simulated(s, how);
+    const Node output =
+        object_node({{"type", "figure"}, {"figure", name}, {"lang", lang == Lang::en ? "en" : "zh"}});
+    Scene scene = s;
+    std::vector<Message> messages;
+    if (!read_only_output(output, "s.json", "", scene, messages)) throw std::runtime_error(messages.front().text);
+    return simulated(scene, std::get<FigureOutput>(scene.outputs.front()));
 }
 
 }  // namespace beamcam::scenes::testing

@@ -76,28 +76,7 @@ TEST(Diagram, ShowsSectionsAsPointsAndOtherClassesAsMarksAlone) {
     EXPECT_EQ(figure.panels[0].clouds.at(0).y, (std::vector<double>{1, 2, 1, 2, 1, 2, 1, 2}));
     EXPECT_THAT(figure.panels[1].cells.at(0).colors, SizeIs(8));
     EXPECT_THAT(figure.panels[1].swatches, SizeIs(8));
-    EXPECT_THAT(figure.caption, HasSubstr("transient 200 turns of the cam"));
-    EXPECT_THAT(figure.caption, HasSubstr("starts: same start. Points: 1 rest, 1 following"));
-    EXPECT_THAT(figure.caption, HasSubstr("1 over-the-top"));
-    EXPECT_THAT(figure.caption, HasSubstr("Samples of chaotic motions"));
     EXPECT_THAT(figure.accuracy, HasSubstr("tolerance"));
-}
-
-TEST(Diagram, SaysOfWhichMotionsItDrawsExponentsAlone) {
-    const SweepGrid speeds = grid(kEightSpeeds);
-    using enum AttractorClass;
-    const auto caption = [&](const std::vector<AttractorClass>& kinds) {
-        output::SweepData points = data(speeds, kinds);
-        points.read = [read = points.read](std::uint64_t k) {
-            output::StoredPoint p = read(k);
-            p.exponent = 0.1;
-            return p;
-        };
-        return diagram("bifurcation", speeds, points, "v_n_before").caption;
-    };
-    EXPECT_THAT(caption({periodic, chaotic}), EndsWith("where it is known and finite."));
-    EXPECT_THAT(caption({periodic, unsettled}),
-                EndsWith("where it is known and finite, also of motions whose samples are not drawn (unsettled)."));
 }
 
 TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
@@ -105,25 +84,17 @@ TEST(Diagram, LeavesOutOfItsCaptionWhatTheSweepVaries) {
     const SweepGrid swept = grid(
         R"({"over": [{"key": "cam.eccentricity", "values": [1e-3, 3e-3]}, {"key": "gravity", "values": [9.81]}],
             "sample": "apexes", "seed": {"random": 5}})");
-    const std::string caption = diagram("map", swept, data(swept, {periodic}), "class").caption;
-    EXPECT_THAT(caption, StartsWith("$e$ = 1 … 3 mm in 2 values; $g$ = 9.81 m s^{−2}; samples at apexes; "));
-    EXPECT_THAT(caption, HasSubstr("random starts (5) with $θ_{0}$ = 0.785398 … 1.0854 rad, $\\dot{θ}_{0}$ = −1 … 1"));
-    for (const char* fact : {"$e$ = 0", "$θ$(0)", "released at rest"}) EXPECT_THAT(caption, Not(HasSubstr(fact)));
-    EXPECT_THAT(caption, HasSubstr("$R$ = 0.1 m"));
+    const auto figure = diagram("map", swept, data(swept, {periodic}), "class");
+    EXPECT_EQ(figure.title, "Map of two keys over cam.eccentricity");
+    for (const char* key : {"eccentricity", "initial."}) EXPECT_THAT(figure.caption, Not(HasSubstr(key)));
+}
 
-    // What is left of a statement whose number varies.
-    const SweepGrid restitution = grid(R"({"over": [{"key": "contact.restitution", "values": [0.4, 0.6]}]})");
-    EXPECT_THAT(diagram("bifurcation", restitution, data(restitution, {rest}), "v_n_before").caption,
-                HasSubstr("lankarani-nikravesh, no friction"));
-
+// Cells reach half-way to the next value on a logarithmic scale.
+TEST(Diagram, HasCellsAroundTheValuesOfItsScale) {
+    using enum AttractorClass;
     const SweepGrid inertia = grid(R"({"over": [{"key": "hub.inertia", "from": 0.1, "to": 10, "count": 3,
         "spacing": "log"}], "sample": {"section": "theta", "at": 0.5}})");
-    const render::figure::Figure figure = diagram("bifurcation", inertia, data(inertia, {rest}), "v_n_before");
-    EXPECT_THAT(figure.caption, StartsWith("hub.inertia = 0.1 … 10 kg m^{2} in 3 values of a logarithmic scale; "
-                                           "samples where $θ$ rises through 0.5 rad; "));
-    EXPECT_THAT(figure.caption, Not(HasSubstr("I_{\\r{h}}$ =")));
-    // Cells reach half-way to the next value on that scale.
-    EXPECT_THAT(figure.panels.back().cells.at(0).x,
+    EXPECT_THAT(diagram("bifurcation", inertia, data(inertia, {rest}), "v_n_before").panels.back().cells.at(0).x,
                 ElementsAre(DoubleNear(std::pow(10, -1.5), 1e-15), DoubleNear(std::pow(10, -0.5), 1e-15),
                             DoubleNear(std::pow(10, 0.5), 1e-14), DoubleNear(std::pow(10, 1.5), 1e-13)));
 }
@@ -134,7 +105,6 @@ TEST(Diagram, HasALinearAxisWhereALogarithmOfItsValuesIsMissing) {
     const render::figure::Figure figure = diagram("bifurcation", swept, data(swept, {rest}), "v_n_before");
     EXPECT_EQ(figure.panels.back().x.scale, render::Scale::linear);
     EXPECT_THAT(figure.panels.back().cells.at(0).x, ElementsAre(-0.5, 0.5, 5.5, 14.5));
-    EXPECT_THAT(figure.caption, Not(HasSubstr("logarithmic")));
 }
 
 TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
@@ -155,19 +125,6 @@ TEST(Diagram, HasAStripOfTheExponentsThatAreKnown) {
     EXPECT_EQ(figure.panels[1].clouds.at(0).y, (std::vector<double>{-2, 3}));
     EXPECT_EQ(figure.panels[1].rules.at(0).at, 0);
     EXPECT_EQ(figure.panels[1].x.from, figure.panels[2].x.from);
-    EXPECT_THAT(figure.caption, HasSubstr("largest Lyapunov exponent"));
-}
-
-TEST(Diagram, StatesTheOtherNumbersWhereOneOfAPairVaries) {
-    const auto caption = [](const char* key) {
-        const SweepGrid swept = grid(fmt::format(R"({{"over": [{{"key": "{}", "values": [1.5, 1.6]}}]}})", key));
-        return render::to_plain(
-            diagram("bifurcation", swept, data(swept, {AttractorClass::periodic}), "v_n_before").caption);
-    };
-    EXPECT_THAT(caption("cam.centre.1"), HasSubstr("C_x = 0.25 m, R"));
-    EXPECT_THAT(caption("contact.exponent"), HasSubstr("K = 10⁸ N m^(−n), lankarani"));
-    EXPECT_THAT(caption("contact.stiffness"), HasSubstr("n = 1.5, lankarani"));
-    EXPECT_THAT(caption("gravity"), HasSubstr("C = (0.25, 0) m"));
 }
 
 TEST(Diagram, WithoutSectionsInventsNoNumbers) {
@@ -176,7 +133,6 @@ TEST(Diagram, WithoutSectionsInventsNoNumbers) {
     const auto figure = diagram("bifurcation", speeds, data(speeds, {following, over_the_top}), "v_n_before");
     ASSERT_THAT(figure.panels, SizeIs(2));
     EXPECT_FALSE(figure.panels[0].y.numbered);
-    EXPECT_THAT(figure.caption, HasSubstr("No motion has a section to draw."));
     EXPECT_EQ(figure.panels[0].title, "No samples to draw; motions: following, over-the-top");
     EXPECT_THAT(missing_data(figure), ElementsAre("no points"));
     EXPECT_THAT(missing_data(diagram("bifurcation", speeds, data(speeds, {periodic}), "v_n_before")), SizeIs(0));
@@ -237,13 +193,12 @@ TEST(GrowingDiagram, NamesAPointByTheSymbolAndUnitOfItsAxis) {
     EXPECT_THAT(text(decades + "4001", 3333), StartsWith("$ω$ = 21.53\u00A0rad/s"));
 }
 
-// Diagrams have the units in which the scene gives angles and speeds, and so have their captions.
+// Diagrams have the units in which the scene gives angles and speeds.
 TEST(Diagram, HasTheUnitsOfTheScene) {
     const SweepGrid speeds = grid(R"({"over": [{"key": "cam.speed", "values": ["300 rpm", "400 rpm"]}]})");
     const auto one = diagram("bifurcation", speeds, data(speeds, {AttractorClass::periodic}), "");
     EXPECT_EQ(one.panels[0].x.label, "$ω$ / rpm");
     EXPECT_NEAR(one.panels[0].clouds[0].x.back(), 400, 1e-9);
-    EXPECT_THAT(one.caption, HasSubstr("300 … 400 rpm"));
     const SweepGrid both = grid(R"({"over": [{"key": "cam.speed", "values": ["300 rpm", "400 rpm"]},
                                              {"key": "cam.eccentricity", "values": ["1 mm", "2 mm"]}]})");
     const auto two = diagram("map", both, data(both, {AttractorClass::periodic}), "");
@@ -305,7 +260,6 @@ TEST(Diagram, OfBranchesHasTheImpactsOfASweepBeneath) {
     EXPECT_THAT(figure.panels[0].series, SizeIs(1));
     EXPECT_EQ(figure.panels[0].x.from, 0.5);  // the range that was asked for
     EXPECT_EQ(figure.panels[0].x.to, 3);
-    EXPECT_THAT(figure.caption, HasSubstr("Dots: impacts of a sweep"));
 }
 
 // The pieces of a curve between its gaps.
@@ -365,7 +319,6 @@ TEST(Diagram, OfBranchesHasTheUnitsOfTheScene) {
     EXPECT_NEAR(figure.panels[0].series[0].x[0], 300, 1e-9);
     EXPECT_NEAR(figure.panels[0].clouds[0].x[0], 300, 1e-9);
     EXPECT_NEAR(figure.panels[0].marks[0].x, 300, 1e-9);
-    EXPECT_THAT(figure.caption, HasSubstr("SN 300."));
 }
 
 // In a cascade only the first labels have room; beside it each other change has its own label.
@@ -478,7 +431,6 @@ TEST(Diagram, ColoursAMapByANumberOfItsPoints) {
     EXPECT_EQ(panel.cells.at(0).colors[3].a, 0);
     EXPECT_EQ(panel.color_bar->to, 2);
     EXPECT_FALSE(panel.color_bar->is_signed);
-    EXPECT_THAT(figure.caption, HasSubstr("White"));
     // Numbers of both signs, −1 to 2: white is 0, and as much below it is as dark as above.
     some.read = [read = some.read](std::uint64_t k) {
         output::StoredPoint p = read(k);
@@ -514,7 +466,6 @@ TEST(Diagram, SpeaksChinese) {
     const auto figure = diagram("bifurcation", speeds, data(speeds, {AttractorClass::chaotic}), "cam_phase", Lang::zh);
     EXPECT_EQ(figure.panels.at(0).y.label, "凸轮相位 / 转");
     EXPECT_EQ(figure.panels.at(1).swatches.at(0).label, "混沌");
-    EXPECT_THAT(figure.caption, HasSubstr("混沌 8"));
 }
 
 TEST(Diagram, PairsEachImpactWithTheNext) {
@@ -548,7 +499,7 @@ TEST(Diagram, IsAFileWithItsCaption) {
         ASSERT_EQ(done.code, 0) << done.err;
         EXPECT_GT(testing::slurp(folder / (std::string("d.") + ending)).size(), 3000u);
     }
-    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("transient 30 turns"));
+    EXPECT_THAT(testing::slurp(folder / "c.txt"), HasSubstr("Bifurcation diagram over cam.speed. Parameters in SI units: beam.model = rigid, contact.model = "));
 }
 
 TEST(Diagram, AndTheSamplesAreOutputsOfAScene) {

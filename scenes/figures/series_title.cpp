@@ -1,0 +1,38 @@
+// The title of a series.
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <cctype>
+
+#include "render/plot/channel_label.hpp"
+#include "scenes/figures/series.hpp"
+
+namespace beamcam::scenes {
+namespace {
+
+std::string channel_text(const sim::Channel& channel) {
+    std::string text = sim::row(channel.kind).label.words;
+    text.front() = static_cast<char>(std::tolower(static_cast<unsigned char>(text.front())));
+    return fmt::format("{} {}", text, render::print_symbol(channel));
+}
+
+}  // namespace
+
+std::string series_subject(const SeriesKeys& keys) {
+    std::vector<std::string> words;
+    for (const SeriesPanel& panel : keys.panels) {
+        for (const SeriesSum& sum : panel.sums) words.push_back(sum.label);
+        for (const auto* side : {&panel.channels, &panel.right}) {
+            if (side == &panel.channels && !panel.sums.empty()) continue;
+            for (const sim::Channel& channel : *side) words.push_back(channel_text(channel));
+        }
+    }
+    std::string all = fmt::format("{}", fmt::join(words, ", "));
+    all.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(all.front())));
+    if (keys.against == "phase") return all + " against the phase of the cam";
+    const auto against = sim::channel_named(keys.against);
+    if (!against || against->kind == sim::ChannelKind::t) return all;
+    return fmt::format("{} against {}", all, channel_text(*against));
+}
+
+}  // namespace beamcam::scenes
