@@ -104,13 +104,11 @@ std::optional<std::string> refusal_of(const FigureType& type, const Scene& scene
     if (auto why = type.refusal(scene)) return why;
     Studies studies;
     type.prepare(scene, {}, studies);
-    for (const Study& study : studies.take()) {
-        if (study.may_fail) continue;
+    for (const Study& study : studies.take())
         for (const sim::Issue& finding : sim::validate(study.problem))
             if (finding.fatal)
                 return fmt::format("it computes a variant of the scene too, in which {}: {}", finding.path,
                                    finding.message);
-    }
     return std::nullopt;
 }
 

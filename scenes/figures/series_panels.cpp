@@ -162,9 +162,10 @@ class SeriesPanelMaker {
         const std::string& symbol = side.symbols[i / shown];
         const sim::Table& rows = side.rows[i];
         const bool one_channel = keys_.channels.size() == 1 && keys_.right.empty();
+        const std::string label = phrase(plan_.lang, motion.label);
         const Series whole{.label = shown == 1    ? symbol
-                                    : one_channel ? motion.label
-                                                  : fmt::format("{}, {}", motion.label, symbol),
+                                    : one_channel ? label
+                                                  : fmt::format("{}, {}", label, symbol),
                            .x = plan_.abscissa.of(rows, motion.problem),
                            .y = scaled(rows.values.back(), side.measure.factor),
                            .look = curves_++,

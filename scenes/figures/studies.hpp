@@ -22,9 +22,6 @@ struct Study {
     sim::Request request = {};
     std::string label = {};  // the figure that needs the longest run; of a compared motion its label
     bool of_scene = false;   // the scene's own physics; for the plan
-    // A physics that the figure chose: if it cannot be integrated to the end, its result holds the part that was
-    // reached, or nothing, and the figure omits the rest.
-    bool may_fail = false;
 };
 
 // Equally spaced instants, both ends included.
@@ -53,7 +50,6 @@ class Studies {
     std::size_t point(std::size_t study, double x, const Instants& at);
     void apexes(std::size_t study) { request(study).apexes = true; }
     void zero_crossings(std::size_t study) { request(study).zero_crossings = true; }
-    void may_fail(std::size_t study) { all_[study].may_fail = true; }
     void horizon(std::size_t study) { request(study).horizon = true; }
 
     sim::Request& request(std::size_t i) { return all_[i].request; }
@@ -71,14 +67,13 @@ struct Swept {
     const output::SweepData* data;
 };
 
-// By study. A figure reads only what it requested, and checks `has_result` of a study that may fail.
+// By study. A figure reads only what it requested.
 struct Results {
     std::vector<const sim::Result*> studies = {};
     std::optional<Swept> swept = {};  // for figures of sweeps
 
     const sim::Result* operator[](std::size_t study) const { return studies[study]; }
 };
-inline bool has_result(const sim::Result& result) { return result.counters.steps > 0 || !result.tables.empty(); }
 
 // A channel of a table; throws std::logic_error if it was not requested.
 const std::vector<double>& column(const sim::Table& table, sim::ChannelKind channel);

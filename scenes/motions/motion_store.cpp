@@ -14,11 +14,6 @@
 namespace beamcam::scenes {
 namespace {
 
-std::string describe(const sim::Problem& problem) {
-    if (problem.beam.model == sim::ModelKind::rigid) return name(problem.beam.model);
-    return fmt::format("{}, {}", name(problem.beam.model), counted(problem.beam.modes, "mode"));
-}
-
 double latest(std::span<const sim::Request> requests) {
     double until = 0;
     for (const sim::Request& request : requests) until = std::max(until, end_of(request));
@@ -48,8 +43,8 @@ class ProgressSum {
 }  // namespace
 
 std::size_t MotionStore::request(const sim::Problem& problem, std::vector<sim::Request> requests,
-                                 const std::string& label, bool may_fail) {
-    requests_.push_back({motion_key(problem), problem, std::move(requests), label, may_fail, {}, {}});
+                                 const std::string& label) {
+    requests_.push_back({motion_key(problem), problem, std::move(requests), label, {}, {}});
     return requests_.size() - 1;
 }
 
@@ -96,25 +91,11 @@ void MotionStore::compute(const Group& group, const sim::Progress& progress) {
             next = end;
         }
     };
-    // Distributes partial results if all requests allow that.
-    const auto leave_out = [&](std::string_view why, std::vector<sim::Result> reached) {
-        if (!std::ranges::all_of(group, &MotionRequest::may_fail)) return false;
-        if (!reached.empty()) why = why.substr(0, why.find(';'));  // the remedy applies to the scene's own motion only
-        const bool nothing = reached.empty();
-        if (nothing) reached.resize(requests.size());
-        reached.front().warnings = {
-            fmt::format("{}, {}: {}", nothing ? "left out" : "cut short", describe(first.problem), why)};
-        hand_out(std::move(reached), &MotionRequest::results);
-        return true;
-    };
     try {
         hand_out(integrate(first.problem, requests, progress), &MotionRequest::results);
     } catch (const sim::SolverError& error) {
-        if (leave_out(error.what(), error.partials)) return;
         if (!error.partials.empty()) hand_out(error.partials, &MotionRequest::partial);
         throw;
-    } catch (const std::invalid_argument& error) {  // an impossible problem of a figure
-        if (!leave_out(error.what(), {})) throw;
     }
 }
 

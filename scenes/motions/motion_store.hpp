@@ -22,10 +22,8 @@ class MotionStore {
     // `progress` must outlive this.
     MotionStore(Progress& progress, const Options& options) : progress_(progress), options_(options) {}
 
-    // Requests results of a motion and returns the number of the request. `label` precedes its warnings. `may_fail`: if
-    // all requests for the motion have it, a failure is a warning, and the results are partial or empty.
-    std::size_t request(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {},
-                        bool may_fail = false);
+    // Requests results of a motion and returns the number of the request. `label` precedes its warnings.
+    std::size_t request(const sim::Problem& problem, std::vector<sim::Request> requests, const std::string& label = {});
     // Computes all requests. Throws what sim::simulate throws.
     void compute();
     // One result for each sim::Request, with the same bits as in a run for it alone.
@@ -44,7 +42,6 @@ class MotionStore {
         sim::Problem problem;
         std::vector<sim::Request> requests;
         std::string label;
-        bool may_fail = false;
         std::vector<sim::Result> results, partial;
     };
     using Group = std::vector<MotionRequest*>;  // the requests for one motion

@@ -56,7 +56,7 @@ void PlanMotions::request_others() {
     for (const FigureFile& f : plan_.figures)
         for (const Study& study : f.studies)
             if (!study.of_scene)
-                others_.push_back(motions_.request(study.problem, {study.request}, f.file, study.may_fail));
+                others_.push_back(motions_.request(study.problem, {study.request}, f.file));
 }
 
 PlanResults PlanMotions::take_results() {

@@ -16,14 +16,7 @@ inline render::figure::Figure simulated(const Scene& scene, const FigureOutput& 
     Studies studies;
     const FigureMaker make = figure_type(how.figure)->prepare(scene, how, studies);
     std::vector<sim::Result> made;
-    for (const Study& study : studies.take()) {
-        try {
-            made.push_back(sim::simulate(study.problem, study.request));
-        } catch (const sim::SolverError& error) {
-            if (!study.may_fail) throw;
-            made.push_back(error.partials.at(0));
-        }
-    }
+    for (const Study& study : studies.take()) made.push_back(sim::simulate(study.problem, study.request));
     Results results;
     for (const sim::Result& result : made) results.studies.push_back(&result);
     return make(results);
