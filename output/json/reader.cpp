@@ -40,7 +40,7 @@ class CountingIterator {
 // Builds the tree from the calls of nlohmann's parser, which stops where one of them returns false.
 class TreeBuilder {
   public:
-    TreeBuilder(std::string_view text, std::size_t source) : text_(text), source_(source) {
+    explicit TreeBuilder(std::string_view text) : text_(text) {
         if (text_.starts_with(kByteOrderMark)) end_ = kByteOrderMark.size();
     }
 
@@ -69,7 +69,7 @@ class TreeBuilder {
         token();
         Open& object = open_.back();
         object.key = checked(name);
-        object.key_place = {source_, begin_};
+        object.key_place = {0, begin_};
         const Member* first = object.node.find(object.key);
         object.is_duplicate = first;
         if (first) report_duplicate(object.key, first->key_place.offset);
@@ -113,7 +113,7 @@ class TreeBuilder {
         token();
         if (static_cast<int>(open_.size()) >= kDeepestScene)
             return fail(begin_, fmt::format("more than {} nested brackets; a scene needs only a few", kDeepestScene));
-        node.place = {source_, begin_};
+        node.place = {0, begin_};
         open_.push_back({std::move(node), {}, {}});
         last_ = Last::bracket;
         return true;
@@ -148,8 +148,7 @@ class TreeBuilder {
     }
 
     bool put(Node&& node) {
-        node.place = {source_, begin_};
-        node.end = end_;
+        node.place = {0, begin_};
         last_ = Last::value;
         if (open_.empty())
             result_.root = std::move(node);
@@ -167,7 +166,7 @@ class TreeBuilder {
         return std::move(value);
     }
 
-    void report(std::string text) { result_.messages.push_back({{source_, begin_}, std::move(text), true}); }
+    void report(std::string text) { result_.messages.push_back({{0, begin_}, std::move(text), true}); }
 
     void report_duplicate(const std::string& key, std::size_t first) {
         const bool shown = result_.messages.size() < kMostDescribed;  // to find the line of each takes quadratic time
@@ -176,14 +175,14 @@ class TreeBuilder {
     }
 
     bool fail(std::size_t at, std::string text) {
-        mistake_ = {{source_, at}, std::move(text), true};
+        mistake_ = {{0, at}, std::move(text), true};
         return false;
     }
 
     // The parser stopped at a token that does not fit, or inside one that is not whole.
     Message mistake_after_the_last_token() const {
         const auto message = [&](std::size_t offset, std::string text) {
-            return Message{{source_, offset}, std::move(text), true};
+            return Message{{0, offset}, std::move(text), true};
         };
         const std::string_view word = first_word(text_.substr(begin_));
         if (last_ == Last::word && !nlohmann::json::accept(word)) return message(begin_, mistake_in_word(word));
@@ -206,7 +205,6 @@ class TreeBuilder {
     }
 
     std::string_view text_;
-    std::size_t source_;
     Parsed result_;
     std::optional<Message> mistake_;
     std::size_t taken_ = 0;            // bytes that the parser took
@@ -215,14 +213,14 @@ class TreeBuilder {
     std::vector<Open> open_;
 };
 
-// Why a text of at most `largest` bytes is not JSON at all; empty: it may be.
-std::optional<Message> encoding_problem(std::string_view text, std::size_t source, std::size_t largest) {
+// Why the text is not JSON at all; empty: it may be.
+std::optional<Message> encoding_problem(std::string_view text) {
     const auto message = [&](std::size_t offset, std::string problem) {
-        return Message{{source, offset}, std::move(problem), true};
+        return Message{{0, offset}, std::move(problem), true};
     };
-    if (text.size() > largest)
+    if (text.size() > kLargestScene)
         return message(0, fmt::format("the file has {} bytes, but a scene has at most {}; name the scene file",
-                                      text.size(), largest));
+                                      text.size(), kLargestScene));
     if (text.starts_with("\xFF\xFE") || text.starts_with("\xFE\xFF"))
         return message(0, "the file is UTF-16; save it as UTF-8");
     if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos)
@@ -251,12 +249,12 @@ std::string without_trailing_commas(std::string_view text) {
 
 }  // namespace
 
-Parsed parse(std::string_view text, std::size_t source, std::size_t largest) {
-    if (auto message = encoding_problem(text, source, largest)) return {Node(), {std::move(*message)}, false};
-    Parsed parsed = TreeBuilder(text, source).read();
+Parsed parse(std::string_view text) {
+    if (auto message = encoding_problem(text)) return {Node(), {std::move(*message)}, false};
+    Parsed parsed = TreeBuilder(text).read();
     if (parsed.is_json) return parsed;
     const std::string without = without_trailing_commas(text);
-    return without == text ? parsed : TreeBuilder(without, source).read();
+    return without == text ? parsed : TreeBuilder(without).read();
 }
 
 Node node_of(std::string_view json) { return parse(json).root; }

@@ -24,7 +24,6 @@ class Members {
     Member* find(std::string_view key);
     Member& add(Member member);  // at the end; `find` returns the first of equal keys
 
-    const Member& back() const;
     std::size_t size() const;
     bool empty() const { return all_.empty(); }
     auto begin() const { return all_.begin(); }
@@ -62,8 +61,7 @@ struct Node {
     }
 
     Kind kind = Kind::null;
-    Place place;          // first byte of the value
-    std::size_t end = 0;  // offset of the byte after it
+    Place place;  // first byte of the value
     bool boolean = false;
     double number = 0;
     std::string text;         // the value of a string; a number as it was written
@@ -81,7 +79,6 @@ struct Member {
     Node value;
 };
 
-inline const Member& Members::back() const { return all_.back(); }
 inline std::size_t Members::size() const { return all_.size(); }
 
 Node array_node(std::vector<Node> items = {});
@@ -120,8 +117,8 @@ struct Parsed {
 constexpr std::size_t kLargestScene = 64u << 20;  // [byte]: a drive table of a million points
 constexpr int kDeepestScene = 64;                 // nested brackets
 
-// `source`: index that the positions carry. `largest`: more bytes are an error.
-Parsed parse(std::string_view text, std::size_t source = 0, std::size_t largest = kLargestScene);
+// All positions are in source 0.
+Parsed parse(std::string_view text);
 // Parses JSON that the program itself contains.
 Node node_of(std::string_view json);
 
