@@ -88,15 +88,6 @@ Node extrema_of(const sim::Result& result, const std::vector<sim::Channel>& chan
     return map;
 }
 
-// Also at nodes within steps, if the extrema of the residual were computed.
-double largest_residual(const sim::Result& result, const std::vector<sim::Channel>& channels) {
-    double largest = result.energy_residual_max;
-    for (std::size_t i = 0; i < channels.size(); ++i)
-        if (channels[i].kind == sim::ChannelKind::energy_residual)
-            largest = std::max({largest, result.extrema[i].max, -result.extrema[i].min});
-    return largest;
-}
-
 void add_reproducibility(const sim::Result& result, Node& out) {
     add(out, "reproducible_until", result.reproducible_until);
     add(out, "not_reproducible", array_node(result.not_reproducible, [](const sim::Interval& lost) {
@@ -194,7 +185,7 @@ std::string summary_json(const sim::Problem& problem, const sim::Result& result,
                             {"wall_seconds", result.wall_seconds},
                             {"events", object_node({{"theta_zero", std::move(zeros)}})},
                             {"extrema", extrema_of(result, extrema)},
-                            {"energy_residual_max", largest_residual(result, extrema)},
+                            {"energy_residual_max", result.energy_residual_max},
                             {"energy_scale", result.energy_scale},
                             {"impacts", result.impacts.size()},
                             {"collisions", result.collisions.size()}});

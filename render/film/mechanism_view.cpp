@@ -28,10 +28,10 @@ void MechanismView::place_camera() {
         const bool named = context.members() > 1 && !ghosts && has_names(box, unit);
         const double label = !named ? 0 : (box.h > 200 * unit ? 38 : 28) * unit;
         look.camera = extent.camera({box.x, box.y + label, box.w, box.h - label}, unit);
-        look.depth = std::max(problem().beam.depth, 7 * unit / look.camera.scale);
+        look.depth = std::max(beam_depth(problem().beam), 7 * unit / look.camera.scale);
     };
     as_deep_as(context.extent);
-    if (look.depth > problem().beam.depth) as_deep_as(view_extent_of(context, look.depth));
+    if (look.depth > beam_depth(problem().beam)) as_deep_as(view_extent_of(context, look.depth));
     marks = unit;  // the same for all mechanisms
     for (const sim::Problem* p : context.extent.problems) marks = std::min(marks, mark_unit(*p, look.camera, unit));
 }

@@ -72,7 +72,7 @@ class Model {
           problem_(context_.motion(0).problem),
           length_(problem_.beam.length),
           wide_(kWide * length_),
-          depth_(std::max(problem_.beam.depth, kThinnest * length_)) {
+          depth_(std::max(beam_depth(problem_.beam), kThinnest * length_)) {
         double first = context_.at(0);
         for (int k = 0; k < context_.frames(); ++k) {
             poses_.push_back(context_.pose(0, k));

@@ -190,7 +190,7 @@ std::string json_text(std::string_view plain) {
 std::string html_page(const FilmSetup& setup) {
     const FilmContext context(std::make_shared<const FilmSetup>(setup));
     const sim::Problem& problem = context.motion(0).problem;
-    const double length = problem.beam.length, depth = std::max(problem.beam.depth, 0.008 * length);
+    const double length = problem.beam.length, depth = std::max(beam_depth(problem.beam), 0.008 * length);
     double thickness = depth;
     std::vector<Instant> all;
     for (int k = 0; k < context.frames(); ++k) all.push_back(instant_of(context, k, depth, thickness));

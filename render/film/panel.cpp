@@ -213,6 +213,15 @@ void FilmContext::check() const {
     }
 }
 
+// At the instant of a touch the gap is zero but for rounding, and so is the force.
+sim::Pose FilmContext::pose(int member, int frame) const {
+    constexpr double kForceRounding = 1e-9;  // of the film's largest force
+    sim::Pose out = motion(member).pose(static_cast<std::size_t>(frame));
+    if (out.nearest && out.nearest->force < kForceRounding * largest_force)
+        out.nearest->force = out.nearest->friction = 0;
+    return out;
+}
+
 void FilmContext::choose_scales() {
     double moment = 0, force = 0;
     factor = std::numeric_limits<double>::infinity();

@@ -55,7 +55,7 @@ struct FilmContext {
     const Motion& motion(int member) const {
         return member == 0 ? static_cast<const Motion&>(*setup) : setup->others[static_cast<std::size_t>(member - 1)];
     }
-    sim::Pose pose(int member, int frame) const { return motion(member).pose(static_cast<std::size_t>(frame)); }
+    sim::Pose pose(int member, int frame) const;  // without forces that are rounding
     // For a motion without a cam: one that has a cam, whose section position the drawing takes over. Otherwise null.
     const sim::Problem* section_reference(int member) const;
     double at(int frame) const { return times[static_cast<std::size_t>(frame)]; }  // [s]

@@ -74,7 +74,7 @@ ViewExtent view_extent_of(const FilmContext& context, double least_depth) {
         const Motion& one = context.motion(m);
         extent.problems.push_back(&one.problem);
         // Ghosts have the depth of the first beam.
-        const double depth = std::max((ghosts ? context.motion(0) : one).problem.beam.depth, least_depth);
+        const double depth = std::max(beam_depth((ghosts ? context.motion(0) : one).problem.beam), least_depth);
         const double factor = one.problem.beam.model == sim::ModelKind::rigid ? 1 : context.factor;
         const auto show = [&](const sim::Pose& pose, bool tip_only) {
             const DrawnBeam beam = drawn_beam(one.problem, pose, factor, depth, context.section_reference(m));

@@ -223,7 +223,7 @@ double clear_factor(const Problem& problem, std::size_t frames, const std::funct
                     double factor) {
     const auto clear = [&](double n) {
         for (std::size_t k = 0; k < frames; ++k)
-            if (!drawn_beam(problem, pose_of(k), n, problem.beam.depth).clear) return false;
+            if (!drawn_beam(problem, pose_of(k), n, beam_depth(problem.beam)).clear) return false;
         return true;
     };
     while (factor > 1 && !clear(factor)) factor = round_down_125(factor * 0.999);

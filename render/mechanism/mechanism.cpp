@@ -153,8 +153,8 @@ double mark_unit(const sim::Problem& problem, const Camera& camera, double unit)
 
 // Covers the corners of the beam's root, within limits, and stays outside the circle that the disc sweeps.
 double hub_radius(const sim::Problem& problem, const Camera& camera, double unit) {
-    const double offset = problem.cam ? sim::contact_offset(problem) : problem.beam.depth / 2;
-    const double corner = 1.06 * std::max(offset, problem.beam.depth - offset) * camera.scale;
+    const double offset = problem.cam ? sim::contact_offset(problem) : beam_depth(problem.beam) / 2;
+    const double corner = 1.06 * std::max(offset, beam_depth(problem.beam) - offset) * camera.scale;
     const double marks = mark_unit(problem, camera, unit);
     double boss = std::clamp(corner, 19 * marks, 36 * marks);
     if (problem.cam) {

@@ -12,7 +12,7 @@ std::string heading(ChannelKind kind, Lang lang) {
 }
 
 std::string subscript(sim::Channel channel) {
-    return channel.kind == ChannelKind::q ? std::to_string(channel.index) : sim::row(channel.kind).label.subscript;
+    return sim::traits(channel.kind).of_mode ? std::to_string(channel.index) : sim::row(channel.kind).label.subscript;
 }
 
 std::string print_symbol(sim::Channel channel) {
@@ -20,8 +20,8 @@ std::string print_symbol(sim::Channel channel) {
     const std::string below = subscript(channel);
     const std::string symbol = label.rate ? fmt::format("\\dot{{{}}}", label.symbol) : label.symbol;
     if (below.empty()) return fmt::format("${}$", symbol);
-    return channel.kind == ChannelKind::q ? fmt::format("${}_{{{}}}$", symbol, below)
-                                          : fmt::format("${}_{{\\r{{{}}}}}$", symbol, below);
+    return sim::traits(channel.kind).of_mode ? fmt::format("${}_{{{}}}$", symbol, below)
+                                             : fmt::format("${}_{{\\r{{{}}}}}$", symbol, below);
 }
 
 }  // namespace beamcam::render

@@ -15,8 +15,8 @@ namespace {
 struct SimulateArguments {
     Common common;
     std::string scene;
-    std::optional<std::string> trajectory, shapes, impacts, summary;
-    KeyOptions rate{"trajectory"}, times{"trajectory"}, channels{"trajectory"};
+    std::optional<std::string> trajectory, shapes, impacts, summary, state;
+    KeyOptions rate{"trajectory"}, times{"trajectory"}, channels{"trajectory"}, state_at{"state"};
     bool horizon = false;
 };
 
@@ -38,6 +38,16 @@ ShapesOutput shapes_output(const SimulateArguments& args, const Scene& scene) {
     return shapes;
 }
 
+StateOutput state_output(const SimulateArguments& args, const Scene& scene) {
+    const std::string file = args.state.value_or("-");
+    require_ending_or_stdout("--output", file, {".json"});
+    if (!args.state_at.any()) throw UsageError("--output is the file of --state-at; give the instant");
+    auto state = std::get<StateOutput>(
+        read_output(object_node({{"type", StateOutput::kType}}), {&args.state_at}, scene, args.scene, args.common));
+    state.file = file;
+    return state;
+}
+
 // Without a file name the table goes to standard output if its options were given, else the summary.
 std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene& scene) {
     std::vector<Output> outputs;
@@ -49,6 +59,7 @@ std::vector<Output> simulate_outputs(const SimulateArguments& args, const Scene&
         require_ending_or_stdout("--impacts", *args.impacts, {".json", ".csv"});
         outputs.push_back(ImpactsOutput{*args.impacts});
     }
+    if (args.state || args.state_at.any()) outputs.push_back(state_output(args, scene));
     if (args.summary || outputs.empty() || args.horizon) {
         const std::string file = args.summary.value_or("-");
         require_ending_or_stdout("--summary", file, {".json"});
@@ -80,16 +91,19 @@ void add_simulate(Grammar& grammar) {
     const auto [app, args] = grammar.command<SimulateArguments>(
         "simulate", "Compute a motion without pictures; without options, print the summary", act);
     app.examples = {"simulate fall.json --trajectory fall.csv --channels theta,contact_force --rate 500",
-                    "simulate fall.json --impacts impacts.json --summary -"};
+                    "simulate fall.json --impacts impacts.json --summary -",
+                    "simulate fall.json --state-at 0.45 -o later.json"};
     add_scene(app, args.scene, args.common);
     app.option("--trajectory", &args.trajectory, "FILE",
                "Table of channels against time, .csv or .npz; - is standard output (CSV)");
     app.option("--shapes", &args.shapes, "FILE", "Deflection along the beam against time, .csv or .npz");
-    args.rate.add(app, "--rate", "rate", "HZ", "Of --trajectory and --shapes (default: 1000).");
+    args.rate.add(app, "--rate", "rate", "HZ", "Of --trajectory (default: adaptive) and --shapes (default: 1000).");
     args.times.add_list(app, "--times", "times", "T,T,...", "In place of --rate.");
     args.channels.add_list(app, "--channels", "channels", "CHANNEL,...", "Of --trajectory.");
     app.option("--impacts", &args.impacts, "FILE",
                "Impacts and collisions, .json or .csv; - is standard output (JSON)");
+    args.state_at.add(app, "--state-at", "at", "T", "Write a scene that continues the motion.");
+    app.option("-o,--output", &args.state, "FILE", "File of --state-at, .json (default: standard output)");
     app.option("--summary", &args.summary, "FILE",
                "Counts, extreme values and energy balance, .json; - is standard output");
     app.flag("--horizon", args.horizon,

@@ -38,7 +38,7 @@ void add_bodies(const sim::Pose& pose, const sim::Problem& problem, Sketch& to, 
                 0.6);
     }
     if (problem.hub.radius > 0) to.disc({0, 0}, problem.hub.radius, kSteel, kOutline);
-    const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, problem.beam.depth);
+    const render::DrawnBeam beam = render::drawn_beam(problem, pose, 1, beam_depth(problem.beam));
     std::vector<Vec2> outline;
     for (std::size_t i = 0; i < beam.line.size(); ++i) outline.push_back(beam.face(i));
     for (std::size_t i = beam.line.size(); i-- > 0;) outline.push_back(beam.back(i));

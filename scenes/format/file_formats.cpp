@@ -57,11 +57,24 @@ void visit_file(SceneVisitor& v, std::string& file, std::initializer_list<const 
     });
 }
 
+static void visit_times(SceneVisitor& v, std::vector<double>& times) {
+    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
+    v.exclusive("rate", "times");
+}
+
 void visit_rows(SceneVisitor& v, double& rate, std::vector<double>& times) {
     v.number(sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
              "Rows at the times k/rate, and at the end.");
-    v.numbers("times", times, sim::dimension::kTime, kFromStart, {1}, "Rows at exactly these times, in this order.");
-    v.exclusive("rate", "times");
+    visit_times(v, times);
+}
+
+void visit_rows(SceneVisitor& v, std::optional<double>& rate, std::vector<double>& times) {
+    v.number(
+        sim::written_if(times.empty(), "rate"), rate, sim::dimension::kFrequency, sim::kPositive,
+        "Rows at the times k/rate, and at the end. \"adaptive\": as many rows as linear interpolation in time needs "
+        "to follow every channel within 0.2 % of its range; two rows at one time are the sides of a jump.",
+        "adaptive");
+    visit_times(v, times);
 }
 
 void visit_exaggeration(SceneVisitor& v, std::optional<double>& factor, const char* meaning) {

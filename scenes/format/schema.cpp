@@ -53,10 +53,12 @@ Node panel_schema() {
 Node channel_schema() {
     std::vector<std::string> names;
     for (const sim::Channel& channel : sim::all_channels({}))
-        if (channel.kind != sim::ChannelKind::q) names.push_back(name(channel));
-    return object_node({{"anyOf", array_node({object_node({{"enum", names}}),
-                                              node_of(R"({"description": "A coordinate of the beam, q1 … qN.",
-        "type": "string", "pattern": "^q[1-9][0-9]*$"})")})}});
+        if (!sim::traits(channel.kind).of_mode) names.push_back(name(channel));
+    return object_node(
+        {{"anyOf",
+          array_node({object_node({{"enum", names}}),
+                      node_of(R"({"description": "A coordinate of the beam, q1 … qN, or its rate, q1_dot … qN_dot.",
+        "type": "string", "pattern": "^q[1-9][0-9]*(_dot)?$"})")})}});
 }
 
 class SchemaWriter {

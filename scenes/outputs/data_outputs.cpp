@@ -1,4 +1,4 @@
-// Outputs with numbers of the motion or of the sweep: "trajectory", "shapes", "impacts", "summary", "sweep".
+// Outputs with numbers of the motion or of the sweep: "trajectory", "shapes", "impacts", "state", "summary", "sweep".
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,9 @@ void TrajectoryOutput::visit(SceneVisitor& v) {
     v.value("channels", channels_format(channels),
             "Columns, in this order; the time is always the first. By default all channels.");
     visit_rows(v, rate, times);
-    v.check([this](ObjectReader& r) { limit_rows(r, rate, 1); });
+    v.check([this](ObjectReader& r) {
+        if (rate) limit_rows(r, *rate, 1);
+    });
 }
 
 namespace {
@@ -47,12 +49,20 @@ void TrajectoryOutput::plan(Planner& planner, std::size_t output) const {
     std::vector<sim::Channel> columns = channels.empty() ? all_channels(scene.problem) : channels;
     const sim::Channel t{sim::ChannelKind::t, 0};
     if (std::ranges::find(columns, t) == columns.end()) columns.insert(columns.begin(), t);
-    std::vector<double> instants = times.empty() ? rows(0, scene.end_time, rate) : times;
+    constexpr int kPieces = 1000;    // of an adaptive table, each of which is halved where the motion needs it
+    constexpr double kStray = 2e-3;  // of a channel's range: two pixels of a curve that is 1000 pixels high
+    const bool adaptive = times.empty() && !rate;
+    std::vector<double> instants =
+        times.empty() ? rows(0, scene.end_time, rate.value_or(kPieces / scene.end_time)) : times;
     planner.simulate_until(*std::ranges::max_element(instants));
 
     DataFile data{output, file, kType, {}};
-    data.content = counted(instants.size(), "row");
+    data.content = adaptive ? "rows that follow the motion" : counted(instants.size(), "row");
     const std::size_t index = planner.add_table(std::move(instants), std::move(columns));
+    sim::TableRequest& table = planner.request().tables[index];
+    table.adaptive = adaptive;
+    table.stray = kStray;
+    if (times.empty()) table.rate = rate;
     data.table = index;
     data.write = [index](const DataSource& from) { return write_table(from, from.run.tables[index]); };
     planner.add(std::move(data));
@@ -107,6 +117,29 @@ void ImpactsOutput::plan(Planner& planner, std::size_t output) const {
     planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write, .holds_events = true});
 }
 
+// ---- "state": a scene that continues the motion from an instant.
+
+void StateOutput::visit(SceneVisitor& v) {
+    visit_file(v, file, {".json"}, "-state.json");
+    v.number("at", at, sim::dimension::kTime, kFromStart, "The instant; it is the time 0 of the scene in the file.");
+}
+
+void StateOutput::plan(Planner& planner, std::size_t output) const {
+    Scene next;
+    next.end_time = planner.scene().end_time > at ? planner.scene().end_time - at : planner.scene().end_time;
+    std::vector<double>& states = planner.request().states;
+    states.push_back(at);
+    const auto write = [next, index = states.size() - 1, at = at](const DataSource& from) {
+        Scene scene = next;
+        scene.problem = from.run.states[index].value();
+        const std::string json = to_json(scene);
+        from.file ? output::write_file(*from.file, json) : output::print_json(json);
+        return fmt::format("state at {:g} s", at);
+    };
+    planner.simulate_until(at);
+    planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write});
+}
+
 // ---- "summary": counts, extrema, energy balance and warnings of the run, and the work for all outputs.
 
 void SummaryOutput::visit(SceneVisitor& v) {
@@ -137,7 +170,8 @@ void SummaryOutput::plan(Planner& planner, std::size_t output) const {
     planner.request().zero_crossings = true;
     if (planner.request().extrema.empty())
         for (const sim::Channel& channel : all_channels(planner.scene().problem))
-            if (channel.kind != sim::ChannelKind::t) planner.request().extrema.push_back(channel);
+            if (channel.kind != sim::ChannelKind::t && channel.kind != sim::ChannelKind::q_dot)
+                planner.request().extrema.push_back(channel);
     if (horizon) planner.require_horizon();
     planner.add(DataFile{.output = output, .file = file, .type = kType, .write = write, .reports_work = true});
 }

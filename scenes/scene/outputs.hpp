@@ -69,8 +69,8 @@ struct TrajectoryOutput {
     static constexpr OutputInputs kInputs{};
     std::string file;                    // .csv or .npz
     std::vector<sim::Channel> channels;  // in this order, always after the time
-    double rate = 1000;                  // [Hz]: rows k/rate and the end, unless `times` is given
-    std::vector<double> times;           // [s]: rows in this order
+    std::optional<double> rate;          // [Hz]: rows k/rate and the end; absent: rows that follow the motion
+    std::vector<double> times;           // [s]: rows in this order; replaces `rate` unless empty
 
     Extent extent() const { return times.empty() ? Extent::scene : Extent::keys; }
     void visit(SceneVisitor& v);
@@ -95,6 +95,18 @@ struct ImpactsOutput {
     std::string file;  // .json or .csv
 
     Extent extent() const { return Extent::run; }
+    void visit(SceneVisitor& v);
+    void plan(Planner& planner, std::size_t output) const;
+};
+// A scene that continues the motion from an instant.
+struct StateOutput {
+    static constexpr const char *kType = "state",
+                                *kMeaning = "A scene that continues the motion from an instant, which is its time 0.";
+    static constexpr OutputInputs kInputs{};
+    std::string file;  // .json
+    double at = 0;     // [s]
+
+    Extent extent() const { return Extent::scene; }
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
@@ -207,7 +219,7 @@ struct FigureOutput {
     void visit(SceneVisitor& v);
     void plan(Planner& planner, std::size_t output) const;
 };
-using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, SweepOutput,
-                            SweepFilmOutput, SummaryOutput>;
+using Output = std::variant<PictureOutput, FigureOutput, TrajectoryOutput, ShapesOutput, ImpactsOutput, StateOutput,
+                            SweepOutput, SweepFilmOutput, SummaryOutput>;
 
 }  // namespace beamcam::scenes

@@ -1,6 +1,8 @@
 // Numerical constants of the models of the beam, each with its reason.
 #pragma once
 
+#include <cstddef>
+
 namespace beamcam::sim {
 
 inline constexpr int kShapePlaces = 101;        // points of a natural mode: a polyline of 20 waves looks smooth
@@ -11,5 +13,10 @@ inline constexpr double kUncoupledDamping =
 inline constexpr double kLostInertia = 1e-9;  // of the straight beam's inertia: anything less counts as not positive
 // Of the length, or rad: step of the finite differences of centrifugal forces. Their error is of fourth order, 1e-12.
 inline constexpr double kDeflectionDifference = 1e-3;
+// Tables: fewer values do not show that they are multiples of a step; and the largest distance from a multiple, as a
+// share of the step, to which a table in text rounds its values.
+inline constexpr std::size_t kFewestSteppedValues = 20;
+inline constexpr double kStepError = 0.15;
+inline constexpr double kLeastLogSmoothing = -14;  // of the dimensionless λ: the spline passes through the points
 
 }  // namespace beamcam::sim

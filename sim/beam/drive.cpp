@@ -4,6 +4,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "sim/beam/table_smoothing.hpp"
+
 namespace beamcam::sim {
 namespace {
 
@@ -34,23 +36,40 @@ std::size_t interval(const std::vector<double>& t, double at) {
     return static_cast<std::size_t>(after - t.begin()) - 1;
 }
 
-}  // namespace
-
-bool is_prescribed(const Drive& drive) {
-    return std::holds_alternative<ConstantSpeed>(drive) || std::holds_alternative<SpinUp>(drive) ||
-           std::holds_alternative<AngleTable>(drive);
+// θ̇ = (Ω/T)(s − sin(ks)/k), k = 2π/T, at the time s after the spin-up began (S22).
+HubMotion spun_up(const SpinUp& law, double s) {
+    const double T = law.duration, k = 2 * std::numbers::pi / T, slope = law.speed / T;
+    if (s <= 0) return {};
+    if (s >= T) return {law.speed * (s - 0.5 * T), law.speed, 0};
+    return {slope * (0.5 * s * s - (1 - std::cos(k * s)) / (k * k)), slope * (s - std::sin(k * s) / k),
+            slope * (1 - std::cos(k * s))};
 }
 
-bool is_independent_of_time(const Drive& drive) {
-    return std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive);
+}  // namespace
+
+Drive later(const Drive& drive, double t) {
+    Drive out = drive;
+    const auto move = [t](std::vector<double>& times) {
+        for (double& each : times) each -= t;
+    };
+    std::visit(Overloaded{[&](HarmonicTorque& law) {
+                              const double turns = law.frequency * t;
+                              law.phase += 2 * std::numbers::pi * (turns - std::floor(turns));
+                          },
+                          [&](TorqueTable& law) { move(law.t); }, [&](AngleTable& law) { move(law.t); },
+                          [&](SpinUp& law) { law.start -= t; }, [](auto&) {}},
+               out);
+    return out;
 }
 
 DriveLaw::DriveLaw(const Drive& drive, double start_angle)
     : drive_(drive), start_(start_angle), prescribed_(is_prescribed(drive)) {
     has_torque_ = !prescribed_ && !std::holds_alternative<FreeDrive>(drive);
-    if (const auto* law = std::get_if<SpinUp>(&drive)) kinks_ = {law->duration};
+    if (const auto* law = std::get_if<SpinUp>(&drive)) kinks_ = {law->start, law->start + law->duration};
     if (const auto* law = std::get_if<TorqueTable>(&drive)) kinks_ = law->t;
-    if (const auto* law = std::get_if<AngleTable>(&drive)) {
+    if (auto* law = std::get_if<AngleTable>(&drive_)) {
+        const double error = law->smooth.value_or(table_step(law->theta).value_or(0) / std::sqrt(12.0));
+        law->theta = smoothed(law->t, law->theta, error);
         kinks_ = law->t;
         spline_ = natural_spline(law->t, law->theta);
     }
@@ -81,11 +100,9 @@ HubMotion DriveLaw::motion(double t) const {
                 return HubMotion{start_ + law.speed * t, law.speed, 0};
             },
             [&](const SpinUp& law) {
-                // θ̇ = (Ω/T)(t − sin(kt)/k), k = 2π/T (S22)
-                const double T = law.duration, k = 2 * std::numbers::pi / T, slope = law.speed / T;
-                if (t >= T) return HubMotion{start_ + law.speed * (t - 0.5 * T), law.speed, 0};
-                return HubMotion{start_ + slope * (0.5 * t * t - (1 - std::cos(k * t)) / (k * k)),
-                                 slope * (t - std::sin(k * t) / k), slope * (1 - std::cos(k * t))};
+                HubMotion m = spun_up(law, t - law.start);
+                m.angle += start_ - spun_up(law, -law.start).angle;
+                return m;
             },
             [&](const AngleTable& law) {
                 const double at = std::clamp(t, law.t.front(), law.t.back());

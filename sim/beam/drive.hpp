@@ -11,6 +11,9 @@ struct HubMotion {
     double angle = 0, rate = 0, acceleration = 0;  // [rad], [rad/s], [rad/s²]
 };
 
+// The drive whose clock starts at `t` of this one's.
+Drive later(const Drive& drive, double t);
+
 class DriveLaw {
   public:
     DriveLaw(const Drive& drive, double start_angle);
@@ -26,7 +29,7 @@ class DriveLaw {
     double start_;
     bool prescribed_, has_torque_;
     std::vector<double> kinks_;
-    std::vector<double> spline_;  // second derivatives of an angle table
+    std::vector<double> spline_;  // second derivatives of an angle table (S93)
 };
 
 }  // namespace beamcam::sim

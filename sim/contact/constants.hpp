@@ -8,8 +8,5 @@ inline constexpr double kZeroFactor = 1e-9;
 // A bristle whose time constant c/k is below this share of the time to the deepest point of an impact at 1 m/s follows
 // its force without lag: to resolve the lag would take a thousand steps and more in each contact.
 inline constexpr double kShortestLag = 1e-3;
-// For D below this the restitution equation is evaluated by its series: the closed form would cancel.
-inline constexpr double kSeriesFactor = 0.02;
-inline constexpr double kPoleMargin = 1e-15;  // of 1/c or 1/D, where the logarithm of that equation diverges
 
 }  // namespace beamcam::sim

@@ -29,9 +29,6 @@ struct NormalLaw {
     double factor(double rate, double approach) const { return 1 + damping * rate / approach; }
 };
 
-// State of stick-slip friction: stick, or slip towards +t or −t.
-enum class FrictionState { stick, slide_plus, slide_minus };
-
 struct FrictionLaw {
     double kinetic = 0, limit = 0;      // μ, μ_s [–]
     double slip_speed = 1e-3;           // v_s of Coulomb friction [m/s]

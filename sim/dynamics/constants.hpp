@@ -40,6 +40,8 @@ inline constexpr double kFollowingDifference = 5e-3, kLeavingDifference = 1e-5;
 inline constexpr double kLeastFiniteRestitution = 0.01;  // for dissipation laws with D → ∞ as c → 0
 inline constexpr double kStartGap =
     1e-12;  // of the length, at least of 1 m: smaller overlaps at the start are rounding
+inline constexpr double kContinuedGap = 1e-9;   // of the same: beam and cam that are said to touch are no farther apart
+inline constexpr double kFarRestitution = 0.2;  // of the pre-set restitution from that of impacts: worth a warning
 
 // ---- the causes of a failure ----
 // Beyond these limits the assumption of small deflections is the most probable cause.

@@ -20,6 +20,17 @@ double set_shape_coordinates(System& system, const std::vector<double>& coordina
     return alpha / hub[0];
 }
 
+void continue_contact(const System& system, const InitialContact& contact, InitialState& state) {
+    state.continued = contact;
+    state.phase.gap_offset = contact.gap_offset;
+    if (!contact.touching) return;
+    state.phase.touching = true;
+    state.phase.held = system.problem().contact.model == ContactModel::restitution;
+    state.phase.approach = contact.approach_speed;
+    state.phase.friction = contact.friction;
+    if (system.has_bristle()) state.y[static_cast<std::size_t>(2 * system.coordinates())] = contact.bristle;
+}
+
 }  // namespace
 
 InitialState initial_state(const Problem& problem) { return initial_state(System(problem)); }
@@ -36,6 +47,7 @@ InitialState initial_state(const System& original) {
     switch (problem.initial.shape) {
         case InitialShape::straight:
             xi[0] -= set_shape_coordinates(system, problem.initial.q, xi);
+            if (problem.initial.contact) continue_contact(system, *problem.initial.contact, state);
             break;
         case InitialShape::static_equilibrium: {
             const HeldBeam held = held_beam(original, xi[0]);
@@ -68,9 +80,9 @@ InitialState initial_state(const System& original) {
     return state;
 }
 
-Initial initial_of(const System& original, const std::vector<double>& y) {
+Initial initial_of(const System& original, const std::vector<double>& y, double t) {
     System system(original);
-    system.set_state(0, y.data());
+    system.set_state(t, y.data());
     const auto rates = y.begin() + system.coordinates();
     Initial initial;
     initial.angle = system.model().hub_angle();
@@ -78,6 +90,21 @@ Initial initial_of(const System& original, const std::vector<double>& y) {
     initial.q.assign(y.begin() + 1, rates);
     initial.q_dot.assign(rates + 1, rates + system.coordinates());
     return initial;
+}
+
+Problem continued(const System& system, double t, const std::vector<double>& y) {
+    Problem next = system.problem();
+    next.initial = initial_of(system, y, t);
+    next.hub.drive = later(next.hub.drive, t);
+    if (next.cam) next.cam->phase = system.cam(t).angle;
+    const Phase& phase = system.phase();
+    if (phase.touching || phase.gap_offset != 0)
+        next.initial.contact = {.touching = phase.touching,
+                                .approach_speed = phase.approach,
+                                .friction = phase.friction,
+                                .bristle = system.bristle(y.data()),
+                                .gap_offset = phase.gap_offset};
+    return next;
 }
 
 }  // namespace beamcam::sim

@@ -1,4 +1,5 @@
-// Validation of a problem: all errors and warnings at once.
+#include "sim/dynamics/validate.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "sim/base/counted.hpp"
+#include "sim/beam/table_smoothing.hpp"
 #include "sim/dynamics/constants.hpp"
 #include "sim/dynamics/initial.hpp"
 #include "sim/dynamics/system.hpp"
@@ -40,14 +42,34 @@ void check_table(Issues& out, const char* t_path, const char* v_path, const std:
         }
 }
 
+// The second derivative of a table is that of its steps where the steps explain most of it.
+void check_angle_table(Issues& out, const AngleTable& d) {
+    const std::size_t before = out.list.size();
+    check_table(out, "hub.drive.t", "hub.drive.theta", d.t, d.theta, 2);
+    if (out.list.size() > before || d.smooth.value_or(1) > 0) return;
+    const std::optional<double> step = table_step(d.theta);
+    if (!d.smooth && !step)
+        out.error("hub.drive.smooth",
+                  "\"auto\" needs values that are multiples of a step, and these are not; give the root mean square of "
+                  "their errors, such as \"0.01 deg\"");
+    if (!d.smooth || !step) return;
+    const Roughness rough = roughness(d.t, d.theta, *step);
+    if (rough.is_dominated_by_steps())
+        out.warning(
+            "hub.drive.theta",
+            fmt::format("the values are multiples of {:.4g} rad, and these steps make most of the table's second "
+                        "derivative ({:.3g} of {:.3g} rad/s²): the hub would follow the steps; use \"smooth\": "
+                        "\"auto\"",
+                        *step, std::min(rough.by_steps, rough.found), rough.found));
+}
+
 void check_hub(Issues& out, const Problem& p) {
     if (p.beam.length > 0 && std::isfinite(p.hub.radius) && !(p.hub.radius > -p.beam.length))
         out.error("hub.radius", fmt::format("must be larger than minus the beam's length ({:g} m), is {:g} m",
                                             -p.beam.length, p.hub.radius));
     if (const auto* d = std::get_if<TorqueTable>(&p.hub.drive))
         check_table(out, "hub.drive.t", "hub.drive.torque", d->t, d->torque, 1);
-    if (const auto* d = std::get_if<AngleTable>(&p.hub.drive))
-        check_table(out, "hub.drive.t", "hub.drive.theta", d->t, d->theta, 2);
+    if (const auto* d = std::get_if<AngleTable>(&p.hub.drive)) check_angle_table(out, *d);
 }
 
 void check_beam(Issues& out, const Problem& p) {
@@ -77,6 +99,15 @@ void check_contact(Issues& out, const Problem& p) {
                   fmt::format("the law {} has no finite damping at 0: give at least {:g} (is {:g}) or use one of {}",
                               name(c.damping), kLeastFiniteRestitution, c.restitution, fmt::join(others, ", ")));
     }
+    if (c.model == ContactModel::compliant && c.damping != DampingLaw::none && p.cam && c.restitution >= 0 &&
+        c.restitution <= 1) {
+        const double effective = effective_restitution(c.damping, c.restitution);
+        if (std::fabs(effective - c.restitution) > kFarRestitution)
+            out.warning("contact.restitution",
+                        fmt::format("the law {} gives impacts the restitution {:.2g} for {:g}; \"damping\": "
+                                    "\"zhang-sharf\" gives {:g}",
+                                    name(c.damping), effective, c.restitution, c.restitution));
+    }
     if (const auto* f = std::get_if<StickSlipFriction>(&c.friction))
         if (f->static_coefficient && *f->static_coefficient >= 0 && !(*f->static_coefficient >= f->coefficient))
             out.error(
@@ -91,6 +122,18 @@ void check_cam(Issues& out, const Problem& p) {
             "cam.eccentricity",
             fmt::format("must be smaller than the cam's radius {:g} m, is {:g} m: the axis would lie outside the disc",
                         cam.radius, cam.eccentricity));
+}
+
+// True if the motion continues a contact; the gap is then that of the contact.
+bool check_continued_contact(Issues& out, const Problem& p, double gap) {
+    const std::optional<InitialContact>& contact = p.initial.contact;
+    if (!contact || !contact->touching) return false;
+    const double farthest = kContinuedGap * std::max(1.0, p.beam.length);
+    if (gap > farthest || (gap < -farthest && p.contact.model == ContactModel::restitution))
+        out.error("initial.contact", fmt::format("beam and cam do not touch at the start: the gap is {:.3g} m; remove "
+                                                 "\"contact\", or give the state that belongs to it",
+                                                 gap));
+    return true;
 }
 
 struct StartGap {
@@ -148,7 +191,9 @@ void check_geometry(Issues& out, const Problem& p) {
     if (p.initial.shape == InitialShape::resting) return;
     try {
         const bool straight = p.initial.shape == InitialShape::straight && p.initial.q.empty();
-        const auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
+        auto [gap, x] = straight ? straight_gap(p) : gap_at_start(p);
+        if (p.initial.contact) gap += p.initial.contact->gap_offset;
+        if (check_continued_contact(out, p, gap)) return;
         if (gap < -kStartGap * std::max(1.0, p.beam.length))
             out.error(
                 std::holds_alternative<AngleTable>(p.hub.drive) ? "hub.drive.theta" : "initial.angle",
@@ -160,6 +205,14 @@ void check_geometry(Issues& out, const Problem& p) {
     } catch (const StepFailure& failure) {
         out.error("initial.shape", failure.what());
     }
+}
+
+void check_given_contact(Issues& out, const Problem& p) {
+    if (!p.initial.contact) return;
+    if (!p.cam) out.error("initial.contact", "the scene has no cam; give a cam, or remove it");
+    if (p.initial.shape != InitialShape::straight)
+        out.error("initial.contact",
+                  fmt::format("the shape \"{}\" determines the contact; use \"straight\"", name(p.initial.shape)));
 }
 
 void check_given_shapes(Issues& out, const Problem& p) {
@@ -274,6 +327,7 @@ std::vector<Issue> validate(const Problem& problem) {
                       "a beam whose angle is prescribed does not rest on the cam; use \"straight\" or \"static\"");
     }
     check_given_shapes(out, problem);
+    check_given_contact(out, problem);
     if (out.list.empty()) check_products(out, problem);
     const bool sane = out.list.empty();
     if (sane && problem.cam) check_geometry(out, problem);

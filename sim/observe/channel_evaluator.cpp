@@ -94,6 +94,12 @@ double ChannelEvaluator::value_of_coordinates(Channel channel, double t, const d
     return theta;
 }
 
+// The rates follow the coordinates in the state.
+double ChannelEvaluator::rate_of_mode(int index) const {
+    const int n = system_.coordinates();
+    return index < n ? y_[static_cast<std::size_t>(n + index)] : kNan;
+}
+
 double ChannelEvaluator::value(Channel channel) {
     if (is_of_coordinates(channel)) return value_of_coordinates(channel, t_, y_.data());
     if (traits(channel.kind).needs_cam && !system_.has_cam()) return kNan;
@@ -103,6 +109,8 @@ double ChannelEvaluator::value(Channel channel) {
             break;
         case ChannelKind::theta:
             return model().hub_angle();
+        case ChannelKind::q_dot:
+            return rate_of_mode(channel.index);
         case ChannelKind::theta_dot:
             return model().hub_rate();
         case ChannelKind::tip_deflection:

@@ -40,6 +40,7 @@ class ChannelEvaluator {
   private:
     System::EnergyBalance balance_without_beam();  // perhaps with the beam's energies
     double ledger(Ledger entry) const { return y_[static_cast<std::size_t>(system_.controlled + entry)]; }
+    double rate_of_mode(int index) const;
     double tip(ChannelKind kind);
     double place_on_rim();
     double separation(ChannelKind kind);

@@ -7,24 +7,25 @@ namespace beamcam::sim {
 
 std::string name(Channel channel) {
     std::string text = row(channel.kind).name;
-    if (channel.kind == ChannelKind::q) text += std::to_string(channel.index);
+    if (traits(channel.kind).of_mode) text.insert(1, std::to_string(channel.index));
     return text;
 }
 
 const char* unit(Channel channel, const Problem& problem) {
-    if (channel.kind == ChannelKind::q && problem.beam.model == ModelKind::exact) return "rad";
+    if (traits(channel.kind).of_mode && problem.beam.model == ModelKind::exact)
+        return channel.kind == ChannelKind::q ? "rad" : "rad/s";
     return row(channel.kind).unit;
 }
 
 std::optional<Channel> channel_named(std::string_view text) {
     for (const ChannelRow& e : kChannels)
-        if (e.kind != ChannelKind::q && text == e.name) return Channel{e.kind, 0};
-    if (text.size() > 1 && text.front() == 'q' && text[1] != '0') {
-        int index = 0;
-        const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), index);
-        if (error == std::errc() && end == text.data() + text.size() && index >= 1)
-            return Channel{ChannelKind::q, index};
-    }
+        if (!e.traits.of_mode && text == e.name) return Channel{e.kind, 0};
+    int index = 0;
+    if (text.size() < 2 || text.front() != 'q' || text[1] == '0') return std::nullopt;
+    const auto [end, error] = std::from_chars(text.data() + 1, text.data() + text.size(), index);
+    if (error != std::errc() || index < 1) return std::nullopt;
+    for (const ChannelKind kind : {ChannelKind::q, ChannelKind::q_dot})
+        if (name({kind, index}) == text) return Channel{kind, index};
     return std::nullopt;
 }
 
@@ -32,8 +33,8 @@ std::vector<Channel> all_channels(const Problem& problem) {
     const int modes = problem.beam.model == ModelKind::rigid ? 0 : problem.beam.modes;
     std::vector<Channel> channels;
     for (const ChannelRow& e : kChannels) {
-        if (e.kind != ChannelKind::q) channels.push_back({e.kind, 0});
-        for (int i = 1; e.kind == ChannelKind::q && i <= modes; ++i) channels.push_back({e.kind, i});
+        if (!e.traits.of_mode) channels.push_back({e.kind, 0});
+        for (int i = 1; e.traits.of_mode && i <= modes; ++i) channels.push_back({e.kind, i});
     }
     return channels;
 }

@@ -27,6 +27,7 @@ struct ChannelTraits {
     bool needs_gap = false;             // in contact
     bool needs_vibration_work = false;  // what damping and drive do to the vibration
     bool of_gap = false;                // a function of the gap and its rate; but for the gap, zero in flight
+    bool of_mode = false;               // of one modal coordinate: its name contains the number of the mode
     bool of_hub = false;
     bool of_tip = false;
     bool of_beam_energy = false;
@@ -63,17 +64,17 @@ constexpr const ChannelTraits& traits(ChannelKind kind) { return row(kind).trait
 
 struct Channel {
     ChannelKind kind = ChannelKind::t;
-    int index = 0;  // of q, from 1
+    int index = 0;  // of the mode of q and q_dot, from 1
     bool operator==(const Channel&) const = default;
 };
 
 inline constexpr double kNan = std::numeric_limits<double>::quiet_NaN();  // the value of an undefined channel
 
-std::string name(Channel channel);                          // "theta", "q1"
+std::string name(Channel channel);                          // "theta", "q1", "q1_dot"
 const char* unit(Channel channel, const Problem& problem);  // "rad", "m", "" for none
-// The channel of that name, or nothing; the index of q is not checked against the problem.
+// The channel of that name, or nothing; the number of a mode is not checked against the problem.
 std::optional<Channel> channel_named(std::string_view name);
-// Every channel of this problem in the order of the rows (q1…qN expanded).
+// Every channel of this problem in the order of the rows (q1…qN, q1_dot…qN_dot expanded).
 std::vector<Channel> all_channels(const Problem& problem);
 
 // The angle by which two computations of one motion are compared: θ; where the hub's is prescribed, the tip's

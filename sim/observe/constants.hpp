@@ -49,6 +49,8 @@ inline constexpr double kSlopeProbe = 1e-3;  // of the penetration: the slope of
 // ---- curves ----
 inline constexpr int kMostCurveHalvings = 8;     // of the piece between two rows
 inline constexpr long kMostCurveRows = 400'000;  // 10 MB of three channels; more than a page resolves
+inline constexpr int kMostRowHalvings = 16;      // of the piece between two rows of an adaptive table
+inline constexpr double kRowRounding = 1e-9;     // of a channel's natural size: differences that rows do not show
 inline constexpr double kBesideMiddle = 0.31;    // of a piece: no vibration has a node here and in the middle
 
 // ---- records ----
@@ -65,6 +67,7 @@ inline constexpr double kSummedShare = 0.1;
 inline constexpr double kChatterShare = 1e-3;
 
 // ---- warnings ----
+inline constexpr double kMissedPeak = 0.95;       // of the largest force: rows that reach less miss it
 inline constexpr double kLedgerTolerances = 10;   // times rtol: the accuracy of `auto`; a larger error is a warning
 inline constexpr double kEnergyRounding = 1e-12;  // of the energy scale
 inline constexpr double kReportedGap = 1e-10;     // of the length, left at an event: 1000 times rounding

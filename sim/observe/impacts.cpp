@@ -66,6 +66,15 @@ void ImpactRecorder::release(double t, const double* y, const ContactState& c) {
     collision.restitution = restitution(collision.v_n_before, c.gap_rate);
 }
 
+void ImpactRecorder::remember(double t, Initial& initial) const {
+    if (result_.collisions.empty()) return;
+    const Collision& collision = result_.collisions.back();
+    if (!open_ && !(t - collision.t_end.value_or(t) < collision_gap(evaluator_.system().problem()))) return;
+    if (!initial.contact) initial.contact = {.touching = false};
+    initial.contact->first_approach = std::max(0.0, -collision.v_n_before);
+    if (collision.t_end) initial.contact->last_release = *collision.t_end - t;
+}
+
 // Impulses and losses of the open impact up to the state y.
 void ImpactRecorder::settle(const double* y) {
     Impact& impact = result_.impacts.back();

@@ -12,6 +12,8 @@ class ImpactRecorder {
 
     void touch(double t, const double* y, const ContactState& contact);
     void release(double t, const double* y, const ContactState& contact);
+    // Adds the present collision to the contact of a motion that continues this one from `t` [s].
+    void remember(double t, Initial& initial) const;
     // The run ends at (t, y).
     void finish(double t, const double* y);
     // The impact that is not released yet; null in flight.

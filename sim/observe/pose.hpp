@@ -8,7 +8,7 @@
 
 namespace beamcam::sim {
 
-// The foot of the perpendicular from the cam centre B on the centre line (PHYSICS "Geometry").
+// The foot of the perpendicular from the cam centre B on the centre line (S24).
 struct Nearest {
     double x = 0;         // arc position on the beam, 0…L [m]
     double s = 0;         // arc on the disc, counter-clockwise from its mark [m], 0…2πR

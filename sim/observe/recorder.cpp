@@ -1,9 +1,12 @@
 #include "sim/observe/recorder.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "sim/dynamics/initial.hpp"
 #include "sim/observe/crossings.hpp"
 #include "sim/observe/extrema.hpp"
 #include "sim/observe/warnings.hpp"
@@ -18,6 +21,7 @@ double end_of(const Request& request) {
     for (const TableRequest& table : request.tables) extend(table.times);
     for (const PoseRequest& poses : request.poses) extend(poses.times);
     for (const PointRequest& points : request.points) extend(points.times);
+    extend(request.states);
     return end;
 }
 
@@ -32,6 +36,7 @@ Recorder::Recorder(const System& system, const Request& request, const std::func
       y_(static_cast<std::size_t>(system.size)) {
     constexpr double kInfinity = std::numeric_limits<double>::infinity();
     if (request.impact_peaks) summary_.impact.emplace();
+    result_.states.resize(request.states.size());
     result_.extrema.assign(request.extrema.size(), {kInfinity, 0, -kInfinity, 0});
 }
 
@@ -66,6 +71,7 @@ void Recorder::record(const SegmentInterval& s, const SegmentSummary* known) {
     const bool lasts = s.to > s.from;
     if (!lasts && !s.last) return;
     samples_.step(s);
+    take_states(s);
     if (impacts_.open()) samples_.contact_step(s);
     if (lasts) find_events(s, known);
     if (known)
@@ -80,6 +86,16 @@ void Recorder::record(const SegmentInterval& s, const SegmentSummary* known) {
     // In contact the balance depends on how the gap was found.
     const bool shared = !known && !evaluator_.system().phase().touching;
     if (lasts) extrema_->step(s, shared ? &evaluator_.energy_balance() : nullptr, result_.extrema);
+}
+
+void Recorder::take_states(const SegmentInterval& s) {
+    for (std::size_t i = 0; i < request_.states.size(); ++i) {
+        const double t = request_.states[i];
+        if (result_.states[i] || s.ends_before(t)) continue;
+        s.segment->value(std::max(t, s.from), y_.data());
+        Problem& next = result_.states[i].emplace(continued(evaluator_.system(), t, y_));
+        if (next.contact.approach_floor.policy == ApproachFloorPolicy::first_touch) impacts_.remember(t, next.initial);
+    }
 }
 
 void Recorder::find_peaks(const SegmentInterval& s, const SegmentSummary* known) {
@@ -156,6 +172,12 @@ void Recorder::finish(double t, const double* y, const RunStatistics& statistics
     RunStatistics all = statistics;
     all.fallbacks.searches = extrema_->incomplete();
     result_.warnings = warnings(problem, result_, all, summary_.largest_elastic);
+    warn_of_missed_peaks(request_, result_);
+    if (samples_.has_full_table())
+        result_.warnings.push_back(fmt::format(
+            "an adaptive table has reached its limit of {} rows between those at equal times: it does not follow the "
+            "motion to its end; choose fewer channels, an earlier end, or a rate",
+            kMostCurveRows));
 }
 
 }  // namespace beamcam::sim

@@ -38,6 +38,7 @@ class Recorder {
     Result& result() { return result_; }
 
   private:
+    void take_states(const SegmentInterval& s);
     void find_peaks(const SegmentInterval& s, const SegmentSummary* known);
     void find_events(const SegmentInterval& s, const SegmentSummary* known);
     void note_balance();

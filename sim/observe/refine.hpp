@@ -1,54 +1,35 @@
-// Chooses instants of a plane curve so that straight pieces between them follow it: a piece is halved until the curve
-// stays near it.
+// Chooses instants of a motion so that straight pieces between them follow it: a piece is halved until the motion stays
+// near it in its middle and beside it.
 #pragma once
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "sim/base/vec2.hpp"
 #include "sim/observe/constants.hpp"
 
 namespace beamcam::sim {
 
-class CurveRefiner {
+// The distance of a plane curve from a piece, each direction by its range so far.
+class PlaneCurve {
   public:
-    // `drawn`: ends of the drawn abscissae. Finite ones are those of the range; pieces outside are not halved.
-    explicit CurveRefiner(std::pair<double, double> drawn) : drawn_(drawn) {}
+    using Point = Vec2;
+    // `drawn`: ends of the drawn abscissae. Finite ones are those of the range; pieces outside are not halved. `stray`:
+    // the largest distance from a piece, as a share of the range.
+    PlaneCurve(std::pair<double, double> drawn, double stray) : drawn_(drawn), most_(stray) {}
 
-    // Between the instants a < b. `at(t)` is the curve; `keep(t)` receives the added instants, in order. `stray`: the
-    // largest distance from a piece, as a share of the range so far.
-    template <class At, class Keep>
-    void refine(double a, double b, double stray, At&& at, Keep&& keep) {
-        most_ = stray;
-        halve(a, seen(at(a)), b, seen(at(b)), kMostCurveHalvings, at, keep);
-    }
-
-  private:
-    template <class At, class Keep>
-    void halve(double a, Vec2 from, double b, Vec2 to, int halvings, At& at, Keep& keep) {
-        const double middle = 0.5 * (a + b);
-        if (halvings == 0 || added_ >= kMostCurveRows || !(middle > a && middle < b)) return;
-        const Vec2 aside = seen(at(a + kBesideMiddle * (b - a))), centre = seen(at(middle));
-        if (std::max({from.x, centre.x, to.x}) < drawn_.first || std::min({from.x, centre.x, to.x}) > drawn_.second)
-            return;
-        // Where the curve has no value the distance is NaN and nothing is refined.
-        if (!(std::max(stray(centre, from, to), stray(aside, from, to)) > most_)) return;
-        halve(a, from, middle, centre, halvings - 1, at, keep);
-        ++added_;
-        keep(middle);
-        halve(middle, centre, b, to, halvings - 1, at, keep);
-    }
-
-    Vec2 seen(Vec2 p) {
+    void see(Vec2 p) {
         low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
         high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
-        return p;
     }
-
-    // Distance of p from the piece, each direction by its range.
-    double stray(Vec2 p, Vec2 from, Vec2 to) const {
+    bool is_outside(Vec2 from, Vec2 centre, Vec2 to) const {
+        return std::max({from.x, centre.x, to.x}) < drawn_.first || std::min({from.x, centre.x, to.x}) > drawn_.second;
+    }
+    // False where the curve has no value.
+    bool strays(Vec2 from, Vec2 to, Vec2 p, double) const {
         const auto end = [](double drawn, double seen) { return std::isfinite(drawn) ? drawn : seen; };
         const Vec2 range{end(drawn_.second, high_.x) - end(drawn_.first, low_.x), high_.y - low_.y};
         const auto scaled = [&](Vec2 v) {
@@ -57,13 +38,82 @@ class CurveRefiner {
         const Vec2 along = scaled(to - from), off = scaled(p - from);
         const double length = dot(along, along),
                      share = length > 0 ? std::clamp(dot(off, along) / length, 0.0, 1.0) : 0;
-        return norm(off - along * share);
+        return norm(off - along * share) > most_;
     }
 
+  private:
     static constexpr double kInfinity = std::numeric_limits<double>::infinity();
     std::pair<double, double> drawn_;
+    double most_;
     Vec2 low_{kInfinity, kInfinity}, high_{-kInfinity, -kInfinity};
-    double most_ = 0;
+};
+
+// The error of linear interpolation in time, of several channels, each by its range so far.
+class ChannelLines {
+  public:
+    using Point = std::vector<double>;
+    // `rounding`: of each channel, a difference that does not matter; infinite: the channel is not followed.
+    ChannelLines(std::vector<double> rounding, double stray)
+        : rounding_(std::move(rounding)),
+          most_(stray),
+          low_(rounding_.size(), std::numeric_limits<double>::infinity()),
+          high_(rounding_.size(), -std::numeric_limits<double>::infinity()) {}
+
+    void see(const Point& p) {
+        for (std::size_t c = 0; c < p.size(); ++c)
+            low_[c] = std::min(low_[c], p[c]), high_[c] = std::max(high_[c], p[c]);
+    }
+    bool is_outside(const Point&, const Point&, const Point&) const { return false; }
+    // `share`: of the piece's time at p.
+    bool strays(const Point& from, const Point& to, const Point& p, double share) const {
+        for (std::size_t c = 0; c < p.size(); ++c)
+            if (std::fabs(p[c] - std::lerp(from[c], to[c], share)) > most_ * (high_[c] - low_[c]) + rounding_[c])
+                return true;
+        return false;
+    }
+
+  private:
+    std::vector<double> rounding_;
+    double most_;
+    Point low_, high_;
+};
+
+template <class Measure>
+class PieceRefiner {
+  public:
+    using Point = typename Measure::Point;
+    PieceRefiner(Measure measure, int halvings) : measure_(std::move(measure)), halvings_(halvings) {}
+
+    const Measure& measure() const { return measure_; }
+    bool is_full() const { return added_ >= kMostCurveRows; }
+
+    // Between the instants a < b. `at(t)` is the motion; `keep(t, point)` receives the added instants, in order.
+    template <class At, class Keep>
+    void refine(double a, double b, At&& at, Keep&& keep) {
+        halve(a, seen(at(a)), b, seen(at(b)), halvings_, at, keep);
+    }
+
+  private:
+    template <class At, class Keep>
+    void halve(double a, const Point& from, double b, const Point& to, int halvings, At& at, Keep& keep) {
+        const double middle = 0.5 * (a + b);
+        if (halvings == 0 || is_full() || !(middle > a && middle < b)) return;
+        const Point aside = seen(at(a + kBesideMiddle * (b - a))), centre = seen(at(middle));
+        if (measure_.is_outside(from, centre, to)) return;
+        if (!measure_.strays(from, to, centre, 0.5) && !measure_.strays(from, to, aside, kBesideMiddle)) return;
+        halve(a, from, middle, centre, halvings - 1, at, keep);
+        ++added_;
+        keep(middle, centre);
+        halve(middle, centre, b, to, halvings - 1, at, keep);
+    }
+
+    Point seen(Point p) {
+        measure_.see(p);
+        return p;
+    }
+
+    Measure measure_;
+    int halvings_;
     long added_ = 0;
 };
 

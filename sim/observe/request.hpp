@@ -1,4 +1,4 @@
-// Requests to a simulation: tables, poses, points, extrema and events.
+// Requests to a simulation: tables, poses, points, states, extrema and events.
 #pragma once
 
 #include <cstddef>
@@ -20,9 +20,13 @@ struct TableRequest {
     // Abscissa and ordinate of a curve: rows are added between the times until straight pieces between neighbouring
     // rows follow it. All rows are then in the order of time.
     std::optional<std::pair<Channel, Channel>> curve = {};
-    double stray = 0.01;  // distance of the curve from the pieces, as a share of its range
+    double stray = 0.01;  // distance of the motion from the pieces, as a share of its range
     // Ends of the abscissae that are drawn; no rows are added outside.
     std::pair<double, double> drawn{-std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    // Rows are added until linear interpolation between neighbouring rows follows every channel but the energy
+    // residual. They are in the order of time; two rows at one instant are the sides of a jump.
+    bool adaptive = false;
+    std::optional<double> rate = {};  // [Hz] of equally spaced rows: a warning tells that they miss impacts
 };
 struct PoseRequest {
     std::vector<double> times;  // [s]
@@ -51,6 +55,7 @@ struct Request {
     std::vector<Channel> extrema;                 // searched on the dense output
     bool apexes = false, zero_crossings = false;  // of θ; each searches every ripple of the hub
     bool impact_peaks = true;                     // the largest force and penetration of each impact, by a search
+    std::vector<double> states;                   // [s]: Result::states at these times
     bool horizon = false;  // intervals in which θ is reproducible (horizon.hpp); costs further runs
     // The run ends early at the event that completes these counts.
     std::optional<EventCounts> enough = {};

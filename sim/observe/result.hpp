@@ -78,12 +78,14 @@ struct Result {
     std::vector<Table> tables;              // one per TableRequest
     std::vector<std::vector<Pose>> poses;   // one per PoseRequest, in the order of its times, then those in contact
     std::vector<std::vector<Vec2>> points;  // one per PointRequest [m]
+    // The problems that continue the motion from Request::states; absent: not reached.
+    std::vector<std::optional<Problem>> states;
     std::vector<Impact> impacts;
     std::vector<Collision> collisions;
     std::vector<ZeroCrossing> theta_zero;
     std::vector<Apex> apexes;
     std::vector<Extremum> extrema;   // one per Request::extrema
-    double energy_residual_max = 0;  // at the ends of steps [J]; at nodes within: the extremum of that channel
+    double energy_residual_max = 0;  // [J] largest magnitude at the ends of steps and, in contact, at their thirds
     double energy_scale = 0;         // [J]
     // With Request::horizon:
     std::optional<double> reproducible_until;       // the first loss, or the end [s]

@@ -2,12 +2,38 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <limits>
 #include <numeric>
+#include <string_view>
+#include <type_traits>
 
 #include "sim/observe/constants.hpp"
+#include "sim/problem/constants.hpp"
 
 namespace beamcam::sim {
+
+namespace {
+
+// Differences of each channel that are rounding, from the mass and length of the beam and the time of its fall.
+std::vector<double> rounding_of(const std::vector<Channel>& channels, const Problem& problem) {
+    const Beam& beam = problem.beam;
+    const double g = problem.gravity == 0 ? kEarthGravity : std::fabs(problem.gravity);
+    const double length = beam.length, mass = beam.line_density() * length, rate = std::sqrt(g / length);
+    const std::pair<std::string_view, double> sizes[] = {
+        {"m", length},   {"m/s", length * rate},  {"m/s^2", g}, {"rad", 1}, {"rad/s", rate},
+        {"N", mass * g}, {"J", mass * g * length}};
+    std::vector<double> out;
+    for (const Channel& channel : channels) {
+        double size = channel.kind == ChannelKind::energy_residual ? std::numeric_limits<double>::infinity() : 1;
+        for (const auto& [of, natural] : sizes)
+            if (of == unit(channel, problem)) size *= natural;
+        out.push_back(kRowRounding * size);
+    }
+    return out;
+}
+
+}  // namespace
 
 SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluator, Result& result,
                                SharedSamples* shared)
@@ -21,7 +47,11 @@ SampleRecorder::SampleRecorder(const Request& request, ChannelEvaluator& evaluat
         table_cursors_.push_back(ascending(table.times));
         result_.tables.push_back({table.channels, {}});
         result_.tables.back().values.assign(table.channels.size(), std::vector<double>(table.times.size(), kNan));
-        refined_.push_back({CurveRefiner(table.drawn), {}, std::vector<std::vector<double>>(table.channels.size())});
+        const std::vector<double> rounding = rounding_of(table.channels, evaluator.system().problem());
+        refined_.push_back({{PlaneCurve(table.drawn, table.stray), kMostCurveHalvings},
+                            {ChannelLines(rounding, table.stray), kMostRowHalvings},
+                            {},
+                            std::vector<std::vector<double>>(table.channels.size())});
     }
     for (const PoseRequest& poses : request.poses) {
         pose_cursors_.push_back(ascending(poses.times));
@@ -78,7 +108,7 @@ void SampleRecorder::step(const SegmentInterval& s) {
     std::vector<std::size_t> before;
     for (const Cursor& cursor : table_cursors_) before.push_back(cursor.next);
     sample_tables(s);
-    refine_curves(s, before);
+    refine_tables(s, before);
     for (std::size_t i = 0; i < request_.poses.size(); ++i)
         sweep(request_.poses[i].times, pose_cursors_[i], s, [&](double t, std::size_t row) { put_pose(s, t, i, row); });
     for (std::size_t i = 0; i < request_.points.size(); ++i) {
@@ -119,55 +149,91 @@ void SampleRecorder::sample_tables(const SegmentInterval& s) {
     }
 }
 
-void SampleRecorder::refine_curves(const SegmentInterval& s, const std::vector<std::size_t>& before) {
-    for (std::size_t i = 0; i < request_.tables.size(); ++i)
-        if (request_.tables[i].curve && !request_.tables[i].times.empty()) refine_curve(s, i, before[i]);
+void SampleRecorder::refine_tables(const SegmentInterval& s, const std::vector<std::size_t>& before) {
+    for (std::size_t i = 0; i < request_.tables.size(); ++i) {
+        const TableRequest& table = request_.tables[i];
+        if (table.times.empty()) continue;
+        if (table.adaptive)
+            refine_table(s, i, before[i], refined_[i].lines, [&](double t) { return row(s, t, table.channels); });
+        if (!table.curve) continue;
+        const std::vector<Channel> curve{table.curve->first, table.curve->second};
+        refine_table(s, i, before[i], refined_[i].curve, [&](double t) {
+            const std::vector<double>& point = row(s, t, curve);
+            return Vec2{point[0], point[1]};
+        });
+    }
 }
 
 // Between the times of the table and the ends of the interval, where the motion may jump: both ends are rows.
-void SampleRecorder::refine_curve(const SegmentInterval& s, std::size_t i, std::size_t before) {
+template <class Refiner, class At>
+void SampleRecorder::refine_table(const SegmentInterval& s, std::size_t i, std::size_t before, Refiner& refiner,
+                                  At&& at) {
     const TableRequest& table = request_.tables[i];
     const Cursor& cursor = table_cursors_[i];
     const double from = std::max(s.from, table.times[cursor.order.front()]),
                  to = std::min(s.to, table.times[cursor.order.back()]);
     if (!(to > from)) return;
     RefinedRows& rows = refined_[i];
-    const std::vector<Channel> curve{table.curve->first, table.curve->second};
-    const auto at = [&](double t) {
-        const std::vector<double>& point = row(s, t, curve);
-        return Vec2{point[0], point[1]};
-    };
-    const auto keep = [&](double t) {
+    const auto put = [&](double t, const std::vector<double>& values) {
         rows.times.push_back(t);
-        const std::vector<double>& values = row(s, t, table.channels);
         for (std::size_t c = 0; c < values.size(); ++c) rows.values[c].push_back(values[c]);
     };
-    keep(from);
+    const auto keep = [&](double t, const typename Refiner::Point& point) {
+        if constexpr (std::is_same_v<typename Refiner::Point, std::vector<double>>)
+            put(t, point);
+        else
+            put(t, row(s, t, table.channels));
+    };
+    put(from, row(s, from, table.channels));
     double reached = from;
     for (std::size_t k = before; k <= cursor.next; ++k) {
         const double t = k < cursor.next ? std::clamp(table.times[cursor.order[k]], from, to) : to;
         if (!(t > reached)) continue;
-        rows.refiner.refine(reached, t, table.stray, at, keep);
+        refiner.refine(reached, t, at, keep);
         reached = t;
     }
-    keep(to);
+    put(to, row(s, to, table.channels));
 }
 
 void SampleRecorder::finish() {
     for (std::size_t i = 0; i < refined_.size(); ++i) {
         const RefinedRows& rows = refined_[i];
         if (rows.times.empty()) continue;
-        std::vector<double> times = request_.tables[i].times;
-        times.insert(times.end(), rows.times.begin(), rows.times.end());
-        const std::vector<std::size_t> order = ascending(times).order;
+        std::vector<double> times = rows.times;
+        std::vector<std::vector<double>> values = rows.values;
         Table& table = result_.tables[i];
-        for (std::size_t c = 0; c < table.values.size(); ++c) {
-            std::vector<double> all = table.values[c];
-            all.insert(all.end(), rows.values[c].begin(), rows.values[c].end());
+        times.insert(times.end(), request_.tables[i].times.begin(), request_.tables[i].times.end());
+        for (std::size_t c = 0; c < values.size(); ++c) {
+            values[c].insert(values[c].end(), table.values[c].begin(), table.values[c].end());
             table.values[c].clear();
-            for (const std::size_t row : order) table.values[c].push_back(all[row]);
         }
+        for (const std::size_t row : kept_rows(i, times, values))
+            for (std::size_t c = 0; c < values.size(); ++c) table.values[c].push_back(values[c][row]);
     }
+}
+
+// In the order of time. Of an adaptive table, one row of each instant, or both sides of a jump.
+std::vector<std::size_t> SampleRecorder::kept_rows(std::size_t i, const std::vector<double>& times,
+                                                   const std::vector<std::vector<double>>& values) const {
+    const std::vector<std::size_t> order = ascending(times).order;
+    if (!request_.tables[i].adaptive) return order;
+    const auto point = [&](std::size_t row) {
+        std::vector<double> out;
+        for (const std::vector<double>& channel : values) out.push_back(channel[row]);
+        return out;
+    };
+    std::vector<std::size_t> kept;
+    for (std::size_t first = 0, end = 0; first < order.size(); first = end) {
+        while (end < order.size() && times[order[end]] == times[order[first]]) ++end;
+        kept.push_back(order[first]);
+        const std::vector<double> before = point(order[first]), after = point(order[end - 1]);
+        if (refined_[i].lines.measure().strays(before, before, after, 0)) kept.push_back(order[end - 1]);
+    }
+    return kept;
+}
+
+bool SampleRecorder::has_full_table() const {
+    return std::ranges::any_of(refined_, [](const RefinedRows& rows) { return rows.lines.is_full(); });
 }
 
 void SampleRecorder::put_pose(const SegmentInterval& s, double t, std::size_t i, std::size_t row) {

@@ -24,6 +24,7 @@ class SampleRecorder {
     void contact_step(const SegmentInterval& s);
     // Merges the rows between the times of curves with those at the times.
     void finish();
+    bool has_full_table() const;  // the rows of an adaptive table were too many
 
   private:
     struct Cursor {
@@ -35,8 +36,11 @@ class SampleRecorder {
     // Valid until the next call.
     const std::vector<double>& row(const SegmentInterval& s, double t, const std::vector<Channel>& channels);
     void sample_tables(const SegmentInterval& s);
-    void refine_curves(const SegmentInterval& s, const std::vector<std::size_t>& before);
-    void refine_curve(const SegmentInterval& s, std::size_t table, std::size_t before);
+    void refine_tables(const SegmentInterval& s, const std::vector<std::size_t>& before);
+    template <class Refiner, class At>
+    void refine_table(const SegmentInterval& s, std::size_t table, std::size_t before, Refiner& refiner, At&& at);
+    std::vector<std::size_t> kept_rows(std::size_t table, const std::vector<double>& times,
+                                       const std::vector<std::vector<double>>& values) const;
     void put_pose(const SegmentInterval& s, double t, std::size_t request, std::size_t row);
     // Calls visit(t, row) for each of the times in the interval.
     template <class F>
@@ -48,8 +52,9 @@ class SampleRecorder {
     SharedSamples* shared_;
     std::vector<double> y_, row_;
     std::vector<Cursor> table_cursors_, pose_cursors_, point_cursors_;
-    struct RefinedRows {  // between the times of a table with a curve
-        CurveRefiner refiner;
+    struct RefinedRows {  // between the times of a table with a curve, or of an adaptive one
+        PieceRefiner<PlaneCurve> curve;
+        PieceRefiner<ChannelLines> lines;
         std::vector<double> times;
         std::vector<std::vector<double>> values;  // by channel
     };

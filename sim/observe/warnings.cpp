@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "sim/base/counted.hpp"
@@ -68,6 +69,26 @@ void warn_of_floor(const Problem& problem, const Result& result, const RunStatis
                         statistics.floored, result.impacts.size(), problem.contact.approach_floor.value));
 }
 
+struct MissedPeaks {
+    long between = 0;               // impacts without a row
+    long all = 0;                   // impacts with a force, within the table's time
+    double in_rows = 0, truth = 0;  // largest force [N]
+};
+
+MissedPeaks missed_peaks(const std::vector<double>& times, const std::vector<double>* force, const Result& result) {
+    MissedPeaks out;
+    for (const Impact& impact : result.impacts) {
+        if (!impact.force_peak || !(impact.t_start >= times.front() && impact.t_start < times.back())) continue;
+        const auto row = std::ranges::lower_bound(times, impact.t_start);
+        ++out.all;
+        if (impact.t_end && (row == times.end() || *row > *impact.t_end)) ++out.between;
+        out.truth = std::max(out.truth, *impact.force_peak);
+    }
+    for (std::size_t row = 0; force && row < force->size(); ++row)
+        if ((*force)[row] > out.in_rows) out.in_rows = (*force)[row];
+    return out;
+}
+
 // Departures from the request, and events that could not be resolved.
 void warn_of_fallbacks(const Problem& problem, const Result& result, const RunStatistics& statistics,
                        std::vector<std::string>& out) {
@@ -124,6 +145,31 @@ std::vector<std::string> warnings(const Problem& problem, const Result& result, 
     warn_of_floor(problem, result, statistics, out);
     warn_of_fallbacks(problem, result, statistics, out);
     return out;
+}
+
+void warn_of_missed_peaks(const Request& request, Result& result) {
+    for (std::size_t i = 0; i < request.tables.size(); ++i) {
+        const TableRequest& table = request.tables[i];
+        const auto column = [&](ChannelKind kind) { return std::ranges::find(table.channels, kind, &Channel::kind); };
+        const auto force = column(ChannelKind::contact_force);
+        const bool of_contact = force != table.channels.end() ||
+                                column(ChannelKind::friction_force) != table.channels.end() ||
+                                column(ChannelKind::energy_contact) != table.channels.end();
+        if (!table.rate || !of_contact || result.tables[i].rows() == 0) continue;
+        const auto index = static_cast<std::size_t>(force - table.channels.begin());
+        const std::vector<double>* forces = force == table.channels.end() ? nullptr : &result.tables[i].values[index];
+        const MissedPeaks missed = missed_peaks(table.times, forces, result);
+        const bool low = forces && missed.in_rows < kMissedPeak * missed.truth;
+        if (missed.between == 0 && !low) continue;
+        std::string text = fmt::format("in a table with rows every {:g} s", 1 / *table.rate);
+        if (missed.between > 0)
+            text += fmt::format(" {} of {} fall between the rows{}", missed.between, counted(missed.all, "impact"),
+                                forces ? "," : "");
+        if (forces)
+            text +=
+                fmt::format(" the largest contact_force is {:.3g} N, {:.3g} N in truth", missed.in_rows, missed.truth);
+        result.warnings.push_back(text + ": use \"rate\": \"adaptive\"");
+    }
 }
 
 }  // namespace beamcam::sim

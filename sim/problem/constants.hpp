@@ -4,6 +4,7 @@
 namespace beamcam::sim {
 
 // ---- derived values ----
+inline constexpr double kPaperDepth = 0.0368;  // [m] depth of the beam with the default section
 inline constexpr double kCollisionGap = 0.02;  // [s] "auto" for a beam of 1 m on Earth
 inline constexpr double kEarthGravity = 9.81;  // [m/s²] in place of a gravity of zero
 

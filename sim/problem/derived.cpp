@@ -9,6 +9,15 @@
 
 namespace beamcam::sim {
 
+bool is_prescribed(const Drive& drive) {
+    return std::holds_alternative<ConstantSpeed>(drive) || std::holds_alternative<SpinUp>(drive) ||
+           std::holds_alternative<AngleTable>(drive);
+}
+
+bool is_independent_of_time(const Drive& drive) {
+    return std::holds_alternative<FreeDrive>(drive) || std::holds_alternative<ConstantTorque>(drive);
+}
+
 Basis resolved_basis(const Problem& problem) {
     if (problem.beam.basis != Basis::automatic) return problem.beam.basis;
     if (is_prescribed(problem.hub.drive) || problem.beam.model == ModelKind::paper) return Basis::cantilever;
@@ -30,7 +39,15 @@ double collision_gap(const Problem& problem) {
     return problem.contact.collision_gap.value_or(kCollisionGap * std::sqrt(problem.beam.length * kEarthGravity / g));
 }
 
-double contact_offset(const Problem& problem) { return problem.contact.offset.value_or(0.5 * problem.beam.depth); }
+// The paper's beam is drawn with the depth that its section was made with, 0.1 % more than √(12 I/A).
+double beam_depth(const Beam& beam) {
+    if (beam.area == Beam{}.area && beam.second_moment == Beam{}.second_moment) return beam.depth.value_or(kPaperDepth);
+    return beam.depth.value_or(std::sqrt(12 * beam.second_moment / beam.area));
+}
+
+double contact_offset(const Problem& problem) {
+    return problem.contact.offset.value_or(0.5 * beam_depth(problem.beam));
+}
 
 CamPose cam_pose(const Cam& cam, double t) {
     CamPose pose;

@@ -31,11 +31,18 @@ static void visit(Visitor& v, ConstantSpeed& d) {
 static void visit(Visitor& v, SpinUp& d) {
     v.number(required("speed", "4"), d.speed, dim::kAngularSpeed, kAny, "Final angular speed Ω.");
     v.number(required("duration", "15"), d.duration, dim::kTime, kPositive, "Duration T of the spin-up.");
+    v.number("start", d.start, dim::kTime, kAny,
+             "Time at which the spin-up begins; negative where it began before this motion.");
 }
 
 static void visit(Visitor& v, AngleTable& d) {
     v.numbers(required("t", "[0, 1, 2]"), d.t, dim::kTime, kAny, {2}, "Times, strictly increasing.");
     v.numbers(required("theta", "[0, 0.5, 0]"), d.theta, dim::kAngle, kAny, {2}, "Hub angle at each time.");
+    v.number("smooth", d.smooth, dim::kAngle, kNotNegative,
+             "Root mean square of the errors in \"theta\": the spline is the smoothest one within them. \"auto\": the "
+             "table's values are multiples of a step, as an encoder's, with errors of step/√12. 0: the spline passes "
+             "through all points.",
+             "auto");
 }
 
 static void visit(Visitor& v, Drive& drive) {
@@ -73,8 +80,10 @@ static void visit(Visitor& v, Beam& beam) {
     v.number("youngs_modulus", beam.youngs_modulus, dim::kPressure, kPositive, "Young's modulus E.");
     v.number("poisson_ratio", beam.poisson_ratio, dim::kNone, kPoissonRatio,
              "Poisson's ratio ν; used by the Hertz stiffness only.");
-    v.number("depth", beam.depth, dim::kLength, kPositive,
-             "Depth h of the cross-section; drawn, and used by the contact offset \"half-depth\".");
+    v.number(
+        derived("depth"), beam.depth, dim::kLength, kPositive,
+        "Depth h of the cross-section; drawn, and used by the contact offset \"half-depth\". By default √(12 I/A), "
+        "that of a rectangle; for the default area and second moment 36.8 mm.");
     v.choice("model", beam.model, "Beam model, from rigid to the exact elastica.");
     v.choice("basis", beam.basis,
              "Shape functions; auto: cantilever for a prescribed drive and for the model paper, else hub-beam.");
@@ -118,8 +127,7 @@ static void visit(Visitor& v, StickSlipFriction& f) {
              "Static coefficient of friction μ_s, at least μ; by default μ.");
     v.number("stiffness", f.stiffness, dim::kSpringStiffness, kPositive,
              "Stiffness of the bristle; by default derived from the contact stiffness.");
-    v.number("damping", f.damping, dim::kSpringDamping, kNotNegative,
-             "Damping of the bristle; by default derived from its stiffness.");
+    v.number("damping", f.damping, dim::kSpringDamping, kNotNegative, "Damping of the bristle; by default 0.");
 }
 
 static void visit(Visitor& v, Friction& friction) {
@@ -161,6 +169,23 @@ static void visit(Visitor& v, Contact& contact) {
 
 // ---- initial state, solver -------------------------------------------------------------------
 
+static void visit(Visitor& v, InitialContact& contact) {
+    v.boolean("touching", contact.touching,
+              "The beam touches the cam; false: it flies, between two touches of a collision.");
+    v.number("approach_speed", contact.approach_speed, dim::kSpeed, kPositive,
+             "Approach speed of the present touch, by which the dissipation law divides; of compliant contact.");
+    v.choice("friction", contact.friction,
+             "State of stick-slip friction: stick, or slip along or against the tangent.");
+    v.number("bristle", contact.bristle, dim::kLength, kAny, "Deflection of the bristle of stick-slip friction.");
+    v.number("gap_offset", contact.gap_offset, dim::kLength, kAny,
+             "Added to the gap, which was zero at the last touch or release but for rounding errors.");
+    v.number("first_approach", contact.first_approach, dim::kSpeed, kNotNegative,
+             "Approach speed of the collision's first touch; of the approach floor \"first-touch\".");
+    v.number("last_release", contact.last_release, dim::kTime,
+             {-Range::kInfinity, 0, false, false, "is after the start"},
+             "Time of the collision's last release, not positive; of the approach floor \"first-touch\".");
+}
+
 static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
     const bool angles = model == ModelKind::exact;
     v.number("angle", initial.angle, dim::kAngle, kAny, "Hub angle θ(0), counter-clockwise from the horizontal.");
@@ -168,12 +193,16 @@ static void visit_initial(Visitor& v, Initial& initial, ModelKind model) {
              "Angular velocity of the hub; the beam rotates rigidly with it.");
     v.choice("shape", initial.shape,
              "straight: undeformed; static: equilibrium with a fixed hub; resting: equilibrium on the cam.");
-    v.numbers(written_if(!initial.q.empty(), "q"), initial.q, angles ? dim::kAngle : dim::kLength, kAny, {0, 40},
-              "Coordinates of the first shape functions (channels q1, q2 …) in place of a straight beam; in rad for "
-              "the model "
-              "\"exact\". With \"angle\", \"angular_velocity\" and \"q_dot\" this is the complete state.");
+    v.numbers(
+        written_if(!initial.q.empty(), "q"), initial.q, angles ? dim::kAngle : dim::kLength, kAny, {0, 40},
+        "Coordinates of the first shape functions (channels q1, q2 …) in place of a straight beam; in rad for "
+        "the model "
+        "\"exact\". With \"angle\", \"angular_velocity\", \"q_dot\" and, in contact, \"contact\" this is the complete "
+        "state; `beamcam simulate --state-at` writes it.");
     v.numbers(written_if(!initial.q_dot.empty(), "q_dot"), initial.q_dot, angles ? dim::kAngularSpeed : dim::kSpeed,
-              kAny, {0, 40}, "Time derivatives of q.");
+              kAny, {0, 40}, "Time derivatives of q (channels q1_dot, q2_dot …).");
+    v.object(written_if(initial.contact.has_value(), "contact"), initial.contact,
+             "The contact in which the motion continues another one; null: it begins in flight.");
 }
 
 static void visit(Visitor& v, Solver& solver) {

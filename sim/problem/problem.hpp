@@ -30,13 +30,17 @@ struct TorqueTable {             // linear between the points, constant outside 
 struct ConstantSpeed {
     double speed = 0;  // [rad/s], positive counter-clockwise
 };
-struct SpinUp {           // θ̇ = (Ω/T)(t − (T/2π) sin(2πt/T)) up to T, then Ω   (Kane, Ryan & Banerjee 1987)
+struct SpinUp {  // θ̇ = (Ω/T)(s − (T/2π) sin(2πs/T)), s = t − start, up to s = T, then Ω (Kane et al. 1987)
     double speed = 0;     // Ω [rad/s]
     double duration = 1;  // T [s], > 0
+    double start = 0;     // [s]; negative: the spin-up began before t = 0
 };
-struct AngleTable {             // natural cubic spline through the points, linear outside them
+struct AngleTable {             // natural cubic spline, linear outside the points
     std::vector<double> t;      // [s], strictly increasing, at least two
     std::vector<double> theta;  // [rad]
+    // Root mean square of the errors in `theta`, >= 0 [rad]: the spline is the smoothest one that stays within them
+    // (S93). 0: it passes through the points. Absent: the errors are those of the table's steps.
+    std::optional<double> smooth = 0;
 };
 using Drive = std::variant<FreeDrive, ConstantTorque, HarmonicTorque, TorqueTable, ConstantSpeed, SpinUp, AngleTable>;
 
@@ -76,7 +80,7 @@ struct Beam {
     double density = 2766.7;            // ρ [kg/m³], > 0
     double youngs_modulus = 6.8952e10;  // E [Pa], > 0
     double poisson_ratio = 0.3;         // ν [–], −1 < ν < 0.5; Hertz stiffness only
-    double depth = 0.0368;              // h [m], > 0; for drawing and the contact offset "half-depth"
+    std::optional<double> depth;  // h [m], > 0; drawn, and for the contact offset "half-depth"; absent: beam_depth
     ModelKind model = ModelKind::first_order;
     Basis basis = Basis::automatic;      // automatic: cantilever for prescribed drive and `paper`, else hub-beam
     int modes = 2;                       // N, 1…40; ignored by `rigid`
@@ -108,7 +112,7 @@ inline std::span<const Named<ContactModel>> names(ContactModel) {
     return all;
 }
 
-// The names are beside the formulas, in contact/dissipation.cpp.
+// The names are beside the formulas, in dissipation.cpp.
 enum class DampingLaw {
     none,
     hunt_crossley,
@@ -134,6 +138,14 @@ struct CoulombFriction {
     double coefficient = 0.2;  // μ [–], >= 0
     double slip_speed = 1e-3;  // v_s [m/s], > 0: regularization of compliant contact
 };
+// State of stick-slip friction: stick, or slip towards +t or −t.
+enum class FrictionState { stick, slide_plus, slide_minus };
+inline std::span<const Named<FrictionState>> names(FrictionState) {
+    using enum FrictionState;
+    static constexpr Named<FrictionState> all[] = {
+        {stick, "stick"}, {slide_plus, "slide-plus"}, {slide_minus, "slide-minus"}};
+    return all;
+}
 struct StickSlipFriction {
     double coefficient = 0.2;                  // μ, kinetic [–], >= 0
     std::optional<double> static_coefficient;  // μ_s >= μ; absent: μ
@@ -176,12 +188,24 @@ inline std::span<const Named<InitialShape>> names(InitialShape) {
         {straight, "straight"}, {static_equilibrium, "static"}, {resting, "resting"}};
     return all;
 }
+// The contact at t = 0 of a motion that continues another one: the part of its state that is not in the coordinates.
+struct InitialContact {
+    bool touching = true;                           // false: in flight, within a collision
+    double approach_speed = 1e-3;                   // δ̇₋ of this touch [m/s], > 0; compliant contact
+    FrictionState friction = FrictionState::stick;  // of stick-slip friction
+    double bristle = 0;                             // z [m]
+    double gap_offset = 0;                          // added to the gap since the last event [m] (S25)
+    // Of the approach floor `first-touch`: approach speed of the collision's first touch [m/s], and the instant of its
+    // last release [s], <= 0.
+    std::optional<double> first_approach = {}, last_release = {};
+};
 struct Initial {
     double angle = 0.78539816339744830962;  // θ(0) [rad], of the hub
     double angular_velocity = 0;            // of the hub, θ̇(0) [rad/s]
     InitialShape shape = InitialShape::straight;
     std::vector<double> q = {},
                         q_dot = {};  // coordinates and rates of the first shapes (only `straight`); others are 0
+    std::optional<InitialContact> contact = {};  // only `straight`; absent: the motion begins in flight
 };
 
 enum class Method { automatic, exponential, rk8, cvode_adams, cvode_bdf, arkode_erk };
@@ -213,6 +237,7 @@ struct Problem {
 
 Basis resolved_basis(const Problem& problem);      // never `automatic`
 double contact_stiffness(const Problem& problem);  // K; Hertz's from the materials (S29) [N/m^n]
+double beam_depth(const Beam& beam);               // h; by default √(12 I/A), that of a rectangle [m]
 double contact_offset(const Problem& problem);     // d [m]
 double collision_gap(const Problem& problem);      // "auto": proportional to the time of a fall, √(L/g) [s]
 double first_clamped_frequency(const Beam& beam);  // 3.516 √(EI/ρA)/L² [rad/s]
@@ -234,21 +259,18 @@ inline Vec2 disc_centre(const Cam& cam, double t) { return cam_pose(cam, t).disc
 double impact_depth(double exponent, double stiffness, double mass, double speed);
 // Dissipation factor D of F = Kδⁿ(1 + D δ̇/δ̇₋) for the pre-set restitution (S31).
 double damping_factor(DampingLaw law, double restitution);
+// The restitution of an impact by that law, which differs from the pre-set one but for zhang-sharf (S31).
+double effective_restitution(DampingLaw law, double restitution);
 
 // Changes model, basis and number of shapes. Added shapes take the last damping ratio; initial coordinates are kept as
 // far as they mean the same.
 void set_shapes(Problem& problem, ModelKind model, Basis basis, int modes);
 
+// A finding of `validate` (dynamics/validate.hpp).
 struct Issue {
     std::string path;     // scene key, "cam.eccentricity"
     std::string message;  // cause, value and remedy
     bool fatal = true;    // false: a warning
 };
-// All issues at once: values outside the ranges above, impossible combinations (cam over the hub, overlap at the start,
-// e >= R, hub-beam basis with a prescribed drive, …), and warnings such as a cam that the beam cannot reach. Simulates
-// nothing.
-std::vector<Issue> validate(const Problem& problem);
-// Throws std::invalid_argument with the first fatal issue.
-void require_valid(const Problem& problem);
 
 }  // namespace beamcam::sim

@@ -16,8 +16,7 @@ inline constexpr double kLongStep = 1e3;  // [rad] of the fastest vibration: aft
 // shorter than kSureProjection, which a brief phase can be, the limit grows with the square of the ratio.
 inline constexpr long kFirstProjection = 20000;
 inline constexpr double kSureProjection = 30000, kHopeless = 100;
-inline constexpr double kUnboundedDeflection =
-    1e60;  // of the length: not a deflection of a beam, but far from overflow
+inline constexpr double kUnboundedDeflection = 1e3;  // of the length, or rad: not a deflection of a beam
 
 // ---- event location ----
 // Subintervals of one step: the usual maximum, which resolves polynomials of degree twelve, and the limit at which the

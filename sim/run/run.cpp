@@ -76,7 +76,7 @@ void Run::start() {
     started_ = true;
     output_.begin(state_);
     integrator_->stop_at(next_kink());
-    if (state_.phase.touching) transitions_.start_in_contact();
+    transitions_.start(initial.continued ? &*initial.continued : nullptr);
     resume();
 }
 
@@ -175,8 +175,10 @@ void Run::check_budget() {
 
 // Stops before the numbers of a diverging solution overflow.
 void Run::check_deflection() const {
+    const double unit =
+        problem_.beam.model == ModelKind::exact ? 1 : problem_.beam.length;  // its coordinates are angles
     for (std::size_t i = 1; i < static_cast<std::size_t>(dynamics_.coordinates()); ++i)
-        if (!(std::fabs(state_.y[i]) < kUnboundedDeflection * problem_.beam.length))
+        if (!(std::fabs(state_.y[i]) < kUnboundedDeflection * unit))
             throw StepFailure("the deflection grows without bound");
 }
 

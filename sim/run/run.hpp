@@ -49,8 +49,8 @@ class Run {
     RunStatistics statistics() const;
     std::string explain(const StepFailure& failure);
 
-    const Problem& problem_;
-    const Progress& progress_;
+    const Problem problem_;
+    const Progress progress_;
     const InitialState* start_;
     System dynamics_;
     SegmentProbe probe_;

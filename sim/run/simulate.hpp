@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "sim/dynamics/validate.hpp"
 #include "sim/observe/request.hpp"
 #include "sim/observe/result.hpp"
 #include "sim/problem/problem.hpp"

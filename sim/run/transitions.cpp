@@ -8,9 +8,20 @@
 
 namespace beamcam::sim {
 
-void Transitions::start_in_contact() {
-    start_friction();
-    output_.touch(state_.t, state_.y, contact_now());
+void Transitions::start(const InitialContact* continued) {
+    if (continued) {
+        first_approach_ = continued->first_approach.value_or(continued->approach_speed);
+        last_release_ = continued->last_release;
+    }
+    if (!state_.phase.touching) return;
+    if (!continued) start_friction();
+    const ContactState c = contact_now();
+    if (continued && !state_.phase.held) {
+        state_.clamp_side = c.factor < 0 ? -1 : 1;
+        integrator_.limit_first_step(kFirstTouchStep *
+                                     system_.touch_time(state_.t, state_.y.data(), c, state_.phase.approach));
+    }
+    output_.touch(state_.t, state_.y, c);
 }
 
 void Transitions::apply(const Event& event) {

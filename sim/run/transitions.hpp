@@ -12,7 +12,8 @@ class Transitions {
     Transitions(System& dynamics, System& event_system, Integrator& integrator, RunState& state, RunOutput& output)
         : dynamics_(dynamics), system_(event_system), integrator_(integrator), state_(state), output_(output) {}
 
-    void start_in_contact();
+    // At the start of the run. `continued`: the contact that the motion continues; null: a new one, if there is one.
+    void start(const InitialContact* continued);
     void apply(const Event& event);
     void end_chatter();  // summed-up chatter ends: the beam rests on the cam (S57)
     void enter_phase();

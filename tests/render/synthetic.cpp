@@ -28,7 +28,8 @@ struct Contact {
     double theta, x;
 };
 Contact resting(const sim::Problem& problem, Vec2 disc) {
-    const double d = norm(disc), r = problem.cam->radius + problem.contact.offset.value_or(problem.beam.depth / 2);
+    const double d = norm(disc),
+                 r = problem.cam->radius + problem.contact.offset.value_or(beam_depth(problem.beam) / 2);
     return {std::atan2(disc.y, disc.x) + std::asin(r / d), std::sqrt(d * d - r * r)};
 }
 
@@ -62,7 +63,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
     };
     bend(0);
     if (problem.cam) {
-        const double reach = problem.cam->radius + problem.contact.offset.value_or(problem.beam.depth / 2);
+        const double reach = problem.cam->radius + problem.contact.offset.value_or(beam_depth(problem.beam) / 2);
         sim::Nearest nearest;
         // Rotated until the gap is that of the straight rod, by secant steps.
         double turn = 0;
@@ -108,7 +109,7 @@ sim::Pose synthetic_pose(const sim::Problem& problem, const Synthetic& how, doub
 render::FilmSetup synthetic_film(const Synthetic& how) {
     render::FilmSetup film;
     sim::Problem& p = film.problem;
-    p.beam.length *= how.size, p.beam.depth *= how.size;
+    p.beam.length *= how.size, p.beam.depth = beam_depth(p.beam) * how.size;
     p.beam.area *= how.size * how.size, p.beam.second_moment *= std::pow(how.size, 4);
     p.cam->centre = p.cam->centre * how.size, p.cam->radius *= how.size, p.cam->eccentricity *= how.size;
     p.cam->speed = how.speed;

@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <random>
@@ -25,6 +26,12 @@ using Vector = Eigen::VectorXd;
 using Matrix = Eigen::MatrixXd;
 
 inline constexpr double kQuarterTurn = 0.78539816339744830962;  // π/4
+
+// No issues but that the dissipation law has another restitution than the pre-set one.
+inline bool is_plain(const Problem& problem) {
+    return std::ranges::all_of(validate(problem),
+                               [](const Issue& issue) { return !issue.fatal && issue.path == "contact.restitution"; });
+}
 
 inline void set_tolerance(Problem& problem, double rtol) {
     problem.solver.rtol = rtol;
@@ -115,7 +122,7 @@ inline Problem random_problem(Dice& dice, ModelKind kind) {
         p.contact.exponent = dice.between(1, 2);
         p.contact.restitution = dice.between(0.2, 1);
         p.contact.damping = dice.one_of(names(DampingLaw{}));
-        if (validate(p).empty()) return p;
+        if (is_plain(p)) return p;
     }
 }
 
@@ -147,7 +154,7 @@ inline Problem random_contact(unsigned seed) {
         if (dice.one_of(3) == 0) p.contact.offset.reset();
         p.initial.angle = dice.between(0.5, 1.1);
         p.initial.angular_velocity = dice.between(-2.5, 0);
-        if (validate(p).empty()) return p;
+        if (is_plain(p)) return p;
     }
 }
 

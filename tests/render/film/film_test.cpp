@@ -11,6 +11,7 @@
 
 #include "render/base/error.hpp"
 #include "render/draw/canvas.hpp"
+#include "render/film/panel.hpp"
 #include "render/gl/lit.hpp"
 #include "render/mechanism/mechanism.hpp"
 #include "render/mechanism/trace.hpp"
@@ -71,6 +72,20 @@ TEST(Film, SamePixelsOnThreads) { same_pixels_on_threads(Style::flat); }
 TEST(LitFilm, SamePixelsOnThreads) {
     SKIP_WITHOUT_GL();
     same_pixels_on_threads(Style::lit);
+}
+
+// At the instant of a touch the gap, and with it the force, is zero but for rounding.
+TEST(Film, ForcesBelowABillionthOfTheLargestAreNotShown) {
+    FilmSetup setup = small_film(Style::flat);
+    std::size_t touching = 0;
+    while (!setup.poses[touching].nearest->touching) ++touching;
+    setup.poses[touching].nearest->force = 2.4e-16;
+    setup.poses[touching].nearest->friction = 1e-16;
+    const FilmContext context(std::make_shared<const FilmSetup>(std::move(setup)));
+    ASSERT_GT(context.largest_force, 0);
+    const sim::Pose pose = context.pose(0, static_cast<int>(touching));
+    EXPECT_EQ(pose.nearest->force, 0);
+    EXPECT_EQ(pose.nearest->friction, 0);
 }
 
 TEST(Film, EveryPixelIsOpaque) {
@@ -184,7 +199,7 @@ TEST(Mechanism, MarkOfTheDiscStandsAtTheCamAngle) {
     const FilmSetup film = test::synthetic_film();
     MechanismLook look;
     look.camera = {500, {100, 400}};
-    look.depth = film.problem.beam.depth;
+    look.depth = beam_depth(film.problem.beam);
     for (int k : {0, 13, 77}) {
         const sim::Pose& pose = film.poses[std::size_t(k)];
         const DrawnBeam beam = drawn_beam(film.problem, pose, 1, look.depth);
@@ -203,7 +218,7 @@ TEST(Mechanism, TheBeamsRootIsWithinItsHub) {
         film.problem.hub.radius = radius;
         MechanismLook look;
         look.camera = {900, {100, 400}};
-        look.depth = film.problem.beam.depth;
+        look.depth = beam_depth(film.problem.beam);
         sim::Pose pose = film.poses.front();
         for (Vec2& p : pose.centreline) p = p + sim::unit(pose.theta) * radius;
         const DrawnBeam beam = drawn_beam(film.problem, pose, 1, look.depth);

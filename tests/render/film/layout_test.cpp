@@ -194,7 +194,7 @@ ViewExtent swinging(const sim::Problem& problem, double from, double to) {
     ViewExtent extent;
     extent.problems = {&problem};
     for (double angle = from; angle <= to; angle += 0.01) extent.beams.add(sim::unit(angle) * problem.beam.length);
-    extent.beams.add({0, 0}, problem.beam.depth);
+    extent.beams.add({0, 0}, beam_depth(problem.beam));
     return extent;
 }
 

@@ -42,7 +42,7 @@ TEST_P(Exaggerated, TouchingBeamStillTouchesWithinHalfAPixel) {
     for (const sim::Pose& pose : film.poses) {
         if (!pose.nearest->touching || pose.nearest->gap > 1e-6) continue;
         ++touching;
-        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, beam_depth(film.problem.beam));
         EXPECT_LT(std::abs(face_gap(beam, pose, film.problem.cam->radius)), 0.5 * px) << "t = " << pose.t;
     }
     EXPECT_GT(touching, 10);
@@ -50,14 +50,14 @@ TEST_P(Exaggerated, TouchingBeamStillTouchesWithinHalfAPixel) {
 
 TEST_P(Exaggerated, HingeStays) {
     for (const sim::Pose& pose : film.poses) {
-        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, beam_depth(film.problem.beam));
         EXPECT_LT(norm(beam.line.front()), 1e-15);
     }
 }
 
 TEST_P(Exaggerated, BeamEntersTheDiscNowhere) {
     for (const sim::Pose& pose : film.poses) {
-        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, GetParam().factor, beam_depth(film.problem.beam));
         EXPECT_TRUE(beam.clear);
         EXPECT_GT(face_gap(beam, pose, film.problem.cam->radius), -0.1 * px) << "t = " << pose.t;
     }
@@ -70,7 +70,7 @@ INSTANTIATE_TEST_SUITE_P(Factors, Exaggerated,
 TEST(Exaggeration, FactorOneIsTheTruth) {
     const FilmSetup film = test::synthetic_film();
     const sim::Pose& pose = film.poses[40];
-    EXPECT_EQ(drawn_beam(film.problem, pose, 1, film.problem.beam.depth).line, pose.centreline);
+    EXPECT_EQ(drawn_beam(film.problem, pose, 1, beam_depth(film.problem.beam)).line, pose.centreline);
 }
 
 struct Held final : PoseStore {
@@ -114,7 +114,7 @@ TEST(Exaggeration, FreeVibrationIsMultipliedAboutTheMeanLine) {
         const double x = i / 100.0;
         pose.centreline.push_back({x, 1e-3 * x * x - xy / xx * x});
     }
-    const DrawnBeam beam = drawn_beam(problem, pose, 50, problem.beam.depth);
+    const DrawnBeam beam = drawn_beam(problem, pose, 50, beam_depth(problem.beam));
     for (std::size_t i = 0; i < pose.centreline.size(); ++i) {
         EXPECT_NEAR(beam.line[i].y, 50 * pose.centreline[i].y, 1e-12);
         EXPECT_NEAR(beam.line[i].x, pose.centreline[i].x, 1e-12);
@@ -133,7 +133,7 @@ TEST(Exaggeration, DeflectionFromALedHubIsMultipliedAboutItsDirection) {
         const double x = i / 100.0;
         pose.centreline.push_back(along * x + across * (0.01 * x * x));
     }
-    const DrawnBeam beam = drawn_beam(problem, pose, 10, problem.beam.depth);
+    const DrawnBeam beam = drawn_beam(problem, pose, 10, beam_depth(problem.beam));
     EXPECT_NEAR(beam.base_angle, 0.7, 1e-15);
     for (int i = 0; i <= 100; ++i) {
         const double x = i / 100.0;
@@ -154,14 +154,14 @@ TEST(Exaggeration, TheSideOfTheCamIsThatOfTheContact) {
     }
     pose.nearest = sim::Nearest{};
     pose.nearest->x = 0.4 * length, pose.nearest->normal = {0, 1}, pose.nearest->touching = true;
-    EXPECT_EQ(drawn_beam(film.problem, pose, 1, film.problem.beam.depth).side, 1);
+    EXPECT_EQ(drawn_beam(film.problem, pose, 1, beam_depth(film.problem.beam)).side, 1);
     pose.nearest->normal = {0, -1};
-    EXPECT_EQ(drawn_beam(film.problem, pose, 1, film.problem.beam.depth).side, -1);
+    EXPECT_EQ(drawn_beam(film.problem, pose, 1, beam_depth(film.problem.beam)).side, -1);
 }
 
 TEST(Exaggeration, SectionExtendsAwayFromTheCamByItsDepth) {
     FilmSetup film = test::synthetic_film();
-    const double h = film.problem.beam.depth;
+    const double h = beam_depth(film.problem.beam);
     const DrawnBeam on_line = drawn_beam(film.problem, film.poses[0], 1, h);
     EXPECT_DOUBLE_EQ(on_line.low, 0);
     EXPECT_DOUBLE_EQ(on_line.high, h);
@@ -178,7 +178,7 @@ TEST(Exaggeration, MotionIsContinuousThroughTouchAndRelease) {
     Vec2 tip{};
     for (int i = 0; i < 8000; ++i) {
         const sim::Pose pose = test::synthetic_pose(film.problem, how, 0.25 + i * dt);
-        const Vec2 now = drawn_beam(film.problem, pose, 20, film.problem.beam.depth).line.back();
+        const Vec2 now = drawn_beam(film.problem, pose, 20, beam_depth(film.problem.beam)).line.back();
         // True tips move at 3 m/s, exaggerated vibration adds 20·0.08 m/s·…; a jump of a pixel in 0.1 ms would be 10
         // m/s.
         if (i > 0) {
@@ -206,7 +206,7 @@ TEST(Exaggeration, AutomaticFactorIsRoundAndShowsATenthOfTheLengthAtMost) {
     EXPECT_GT(n, 1);
     EXPECT_DOUBLE_EQ(round_down_125(n), n);
     for (const sim::Pose& pose : film.poses) {
-        const DrawnBeam beam = drawn_beam(film.problem, pose, n, film.problem.beam.depth);
+        const DrawnBeam beam = drawn_beam(film.problem, pose, n, beam_depth(film.problem.beam));
         const Vec2 base = sim::unit(beam.base_angle);
         for (Vec2 p : beam.line) EXPECT_LE(std::abs(cross(base, p)), 0.1001 * film.problem.beam.length);
     }
@@ -217,7 +217,7 @@ TEST(Exaggeration, AFactorThatWouldEnterTheCamYields) {
     const double n = factor_of(film, 5000.0);
     EXPECT_LT(n, 5000);
     for (const sim::Pose& pose : film.poses)
-        EXPECT_TRUE(drawn_beam(film.problem, pose, n, film.problem.beam.depth).clear);
+        EXPECT_TRUE(drawn_beam(film.problem, pose, n, beam_depth(film.problem.beam)).clear);
 }
 
 // Equal motions are drawn at the same place, even if one of them has no cam.
@@ -227,7 +227,7 @@ TEST(Exaggeration, ABeamWithoutACamLiesAsTheOneItIsComparedWith) {
     without.cam.reset();
     sim::Pose pose = with.poses.front(), free = pose;
     free.nearest.reset();
-    const double depth = with.problem.beam.depth;
+    const double depth = beam_depth(with.problem.beam);
     const DrawnBeam a = drawn_beam(with.problem, pose, 1, depth),
                     b = drawn_beam(without, free, 1, depth, &with.problem), alone = drawn_beam(without, free, 1, depth);
     ASSERT_EQ(a.side, 1);
@@ -243,7 +243,7 @@ TEST(Exaggeration, ABeamWithoutACamLiesAsTheOneItIsComparedWith) {
 TEST(Exaggeration, TheSectionOfABeamThatPointsAwayIsCentredOnTheHinge) {
     const FilmSetup film = test::synthetic_film();
     const sim::Problem& problem = film.problem;
-    const double h = problem.beam.depth;
+    const double h = beam_depth(problem.beam);
     sim::Pose pose = film.poses.front();
     const double last = double(pose.centreline.size() - 1);
     double before = 1;
@@ -277,7 +277,7 @@ TEST(Exaggeration, ATouchingBeamIsDrawnTouchingWhereItDoes) {
         const double n = factor_of(film, wanted);
         int touching = 0;
         for (const sim::Pose& pose : film.poses) {
-            const DrawnBeam beam = drawn_beam(film.problem, pose, n, film.problem.beam.depth);
+            const DrawnBeam beam = drawn_beam(film.problem, pose, n, beam_depth(film.problem.beam));
             if (!pose.nearest->touching) continue;
             ++touching;
             EXPECT_NEAR(beam.contact->x, pose.nearest->x, 0.05 * film.problem.beam.length) << n;

@@ -76,7 +76,7 @@ TEST(Reader, EveryKeyReachesItsPlace) {
     EXPECT_EQ(p.beam.density, 2700);
     EXPECT_EQ(p.beam.youngs_modulus, 7e10);
     EXPECT_EQ(p.beam.poisson_ratio, 0.31);
-    EXPECT_EQ(p.beam.depth, 0.02);
+    EXPECT_EQ(beam_depth(p.beam), 0.02);
     EXPECT_EQ(p.beam.model, sim::ModelKind::second_order);
     EXPECT_EQ(p.beam.basis, sim::Basis::cantilever);
     EXPECT_EQ(p.beam.modes, 5);

@@ -53,7 +53,7 @@ void touches_within_half_a_pixel(const std::string& overrides, double wanted_fac
     constexpr double kPixel = 1.0 / 950;  // [m], of a film 1920 pixels wide
     int touching = 0;
     for (const sim::Pose& pose : poses) {
-        const render::DrawnBeam beam = render::drawn_beam(problem, pose, factor, problem.beam.depth);
+        const render::DrawnBeam beam = render::drawn_beam(problem, pose, factor, beam_depth(problem.beam));
         const double gap = drawn_gap(beam, pose, problem.cam->radius);
         // Penetration is real: the drawing may show as much of it as there is, and no more.
         EXPECT_GT(gap, std::min(pose.nearest->gap, 0.0) - 0.5 * kPixel) << "t = " << pose.t << ", ×" << factor;

@@ -70,7 +70,7 @@ TEST(Model, ItsJointsAreWhereTheFilmDrawsTheBeam) {
         ASSERT_EQ(places.size(), 3 * setup.poses.size());
         for (std::size_t k = 0; k < setup.poses.size(); ++k) {
             const render::DrawnBeam beam =
-                render::drawn_beam(setup.problem, setup.poses[k], factor, setup.problem.beam.depth);
+                render::drawn_beam(setup.problem, setup.poses[k], factor, beam_depth(setup.problem.beam));
             const std::size_t at = joint * (beam.line.size() - 1) / 24;
             EXPECT_NEAR(places[3 * k], beam.line[at].x, 1e-6);
             EXPECT_NEAR(places[3 * k + 1], beam.line[at].y, 1e-6);

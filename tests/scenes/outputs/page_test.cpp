@@ -61,7 +61,7 @@ TEST(Page, ItsPosesAgreeWithTheMotionToTheToleranceThatItStates) {
     EXPECT_LT(n, setup.poses.size());
     const double tick = d["tick"], quantum = d["quantum"], tolerance = d["tolerance"];
     EXPECT_EQ(tolerance, 1e-3);
-    const double depth = setup.problem.beam.depth;
+    const double depth = beam_depth(setup.problem.beam);
     std::size_t low = 0;
     for (const sim::Pose& pose : setup.poses) {
         while (low + 2 < n && times[low + 1] * tick < pose.t - 1e-9) ++low;

@@ -181,7 +181,7 @@ TEST(PlanText, EveryOutputAtOnce) {
 frames      scene-####.png: 30 frames
 figure      s.pdf: series
             s.csv
-trajectory  scene.csv: 1501 rows
+trajectory  scene.csv: rows that follow the motion
 impacts     scene-impacts.json
 summary     scene-summary.json
 )");
@@ -206,7 +206,7 @@ TEST(PlanText, IsTheSameAsJson) {
     const Scene scene = scene_of(R"({"outputs": [{"type": "trajectory"}]})");
     EXPECT_EQ(to_json(plan(scene), scene), R"([
   {"what": "motion", "name": "first-order, 2 modes", "content": "until 1.5 s"},
-  {"what": "trajectory", "name": "scene.csv", "content": "1501 rows"}
+  {"what": "trajectory", "name": "scene.csv", "content": "rows that follow the motion"}
 ]
 )");
 }

@@ -70,7 +70,7 @@ TEST(Offset, IsGivenOrHalfTheDepth) {
     Problem p;
     EXPECT_EQ(contact_offset(p), 0);
     p.contact.offset.reset();
-    EXPECT_EQ(contact_offset(p), 0.5 * p.beam.depth);
+    EXPECT_EQ(contact_offset(p), 0.5 * beam_depth(p.beam));
 }
 
 }  // namespace

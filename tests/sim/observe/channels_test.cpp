@@ -11,7 +11,7 @@ TEST(Channels, NamesAndBackAgain) {
     Problem p;
     p.beam.modes = 12;
     const std::vector<Channel> all = all_channels(p);
-    EXPECT_EQ(all.size(), kChannels.size() - 1 + 12);  // the row of q is that of all modes
+    EXPECT_EQ(all.size(), kChannels.size() - 2 + 2 * 12);  // the rows of q and q_dot are those of all modes
     for (const Channel& c : all) {
         const auto back = channel_named(name(c));
         ASSERT_TRUE(back) << name(c);
@@ -20,7 +20,7 @@ TEST(Channels, NamesAndBackAgain) {
 }
 
 TEST(Channels, RefuseNamesThatAreNone) {
-    for (const char* text : {"", "q", "q0", "q01", "q-1", "q1x", "Theta", "theta ", "q99999999999999999999"})
+    for (const char* text : {"", "q", "q0", "q01", "q-1", "q1x", "q_dot", "q0_dot", "q1_do", "q1_dotx", "Theta", "theta ", "q99999999999999999999"})
         EXPECT_FALSE(channel_named(text)) << text;
 }
 
@@ -28,8 +28,10 @@ TEST(Channels, HaveUnits) {
     Problem p;
     EXPECT_STREQ(unit(channel("theta_dot"), p), "rad/s");
     EXPECT_STREQ(unit(channel("q2"), p), "m");
+    EXPECT_STREQ(unit(channel("q2_dot"), p), "m/s");
     p.beam.model = ModelKind::exact;
     EXPECT_STREQ(unit(channel("q2"), p), "rad");
+    EXPECT_STREQ(unit(channel("q2_dot"), p), "rad/s");
 }
 
 TEST(Channels, OfTheContactAreEmptyWithoutACam) {
@@ -54,6 +56,23 @@ TEST(Channels, OfTheTipAreThoseOfTheRootTangentInBothBases) {
         const Pose& pose = r.poses[0][0];
         EXPECT_EQ(pose.theta, v[2][0]);
         EXPECT_NEAR(cross(unit(pose.theta), pose.centreline.back() - pose.centreline.front()), v[0][0], 1e-15);
+    }
+}
+
+TEST(Channels, RatesOfTheModesAreTheirDerivatives) {
+    for (const ModelKind kind : {ModelKind::first_order, ModelKind::exact}) {
+        Problem p;
+        p.beam.model = kind;
+        p.beam.modes = 3;
+        set_tolerance(p, 1e-12);
+        const double h = 1e-5;
+        for (const double t : {0.1, 0.45})
+            for (const char* mode : {"q1", "q2", "q3"}) {
+                const std::vector<double> q = series(p, mode, {t - 2 * h, t - h, t + h, t + 2 * h});
+                const double slope = (q[0] - 8 * q[1] + 8 * q[2] - q[3]) / (12 * h);
+                const double rate = series(p, (std::string(mode) + "_dot").c_str(), {t})[0];
+                EXPECT_NEAR(rate, slope, 1e-6 * std::fabs(rate) + 1e-8) << name(kind) << " " << mode << " " << t;
+            }
     }
 }
 

@@ -480,7 +480,7 @@ TEST(Extrema, OfABeamAtRestNeedNoSearch) {
     Problem p = turning_cam(ModelKind::second_order, 12, 0);  // compliant contact
     p.hub.radius = 0;
     p.initial.shape = InitialShape::resting;
-    p.contact.offset = 0.5 * p.beam.depth;
+    p.contact.offset = 0.5 * beam_depth(p.beam);
     p.contact.friction = CoulombFriction{0.5, 1e-3};
     EXPECT_LE(searches_times_256(p, 0.05, searched_channels(p)), 20);
 }

@@ -262,7 +262,6 @@ TEST(Validate, TakesBeamsOfNanometresAndKilometres) {
         p.beam.length = length;
         p.beam.area *= length * length;
         p.beam.second_moment *= std::pow(length, 4);
-        p.beam.depth *= length;
         p.cam->centre = length * p.cam->centre;
         p.cam->radius *= length;
         p.cam->eccentricity *= length;

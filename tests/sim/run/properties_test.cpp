@@ -312,7 +312,6 @@ TEST_P(PropertyOfProblems, ScaledLengthMassAndTimeScaleTheMotion) {
             s.beam.second_moment *= std::pow(l, 4);
             s.beam.density *= m / (l * l * l);
             s.beam.youngs_modulus *= force / (l * l);
-            s.beam.depth *= l;
             s.hub.radius *= l;
             s.hub.inertia *= m * l * l;
             s.cam->centre = l * p.cam->centre;

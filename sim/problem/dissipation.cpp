@@ -7,11 +7,14 @@
 
 #include "sim/base/assert.hpp"
 #include "sim/base/numerics.hpp"
-#include "sim/contact/constants.hpp"
 #include "sim/problem/problem.hpp"
 
 namespace beamcam::sim {
 namespace {
+
+// For D below this the restitution equation is evaluated by its series: the closed form would cancel.
+constexpr double kSeriesFactor = 0.02;
+constexpr double kPoleMargin = 1e-15;  // of 1/c or 1/D, where the logarithm of that equation diverges
 
 // {D(1+e) − ln[(1+D)/(1−eD)]}/D², whose zero relates the factor D and the effective restitution e    (S31)
 double restitution_residual(double d, double e) {
@@ -65,6 +68,16 @@ std::span<const Named<DampingLaw>> names(DampingLaw) {
 double damping_factor(DampingLaw law, double c) {
     BEAMCAM_ASSERT(c >= 0 && c <= 1);
     return std::ranges::find(kLaws, law, [](const LawRow& row) { return row.law.value; })->factor(c);
+}
+
+// The residual is >= 0 at e = 0, and negative at e = 1 or, for D >= 1, at the pole e = 1/D.
+double effective_restitution(DampingLaw law, double c) {
+    const double d = damping_factor(law, c);
+    if (d == 0) return 1;
+    if (!std::isfinite(d)) return 0;
+    const auto f = [d](double e) { return restitution_residual(d, e); };
+    const double top = d < 1 ? 1 : (1 - kPoleMargin) / d;
+    return f(top) < 0 ? find_root(f, 0.0, top) : top;
 }
 
 }  // namespace beamcam::sim
