@@ -258,7 +258,7 @@ const std::vector<std::pair<std::string, sim::Channel>>& measurable_channels() {
     static const auto kAll = [] {
         std::vector<std::pair<std::string, sim::Channel>> all;
         for (const sim::Channel& channel : sim::all_channels({}))
-            if (channel.kind != sim::ChannelKind::t && channel.kind != sim::ChannelKind::q)
+            if (channel.kind != sim::ChannelKind::t && !sim::traits(channel.kind).of_mode)
                 all.emplace_back(name(channel), channel);
         return all;
     }();
