@@ -65,11 +65,11 @@ void visit(SceneVisitor& v, Baseline& entry) {
         node_format(entry.scene_key, "file name or scene", R"({"anyOf": [{"type": "string"}, {"type": "object"}]})"),
         "A scene file, relative to this one, or a scene.");
     v.value("set", texts_format(entry.set), "Changes of the scene, as --set takes them.");
-    v.value(
-        "output", node_format(entry.output_key, "object", R"({"type": "object", "required": ["type"]})"),
-        "What is tested, as an output of a scene: still, frames, figure (a picture and the motion behind it); "
-        "trajectory, shapes, impacts, summary (their numbers and the motion behind them); or sweep, the scene's own "
-        "(the attractors).");
+    v.value("output", node_format(entry.output_key, "object", R"({"type": "object", "required": ["type"]})"),
+            "What is tested, as an output of a scene: still, frames, figure (a picture and the motion behind it); "
+            "trajectory (by default 1 kHz), shapes, impacts, summary, state (their numbers and the motion behind "
+            "them); or sweep, the scene's own "
+            "(the attractors).");
     v.constrain_schema(R"({"required": ["scene", "output"]})");
     v.boolean("physics", entry.physics, "Whether the motion behind a picture is compared, too.");
     v.object("tolerance", entry.tolerance, "Tolerance of this entry.");

@@ -91,8 +91,10 @@ void EntryTest::request_compared_records() {
 
 void EntryTest::judge(std::vector<sim::Result> results, RunOptions options) {
     const sim::Result& run = results.front();
-    const bool is_whole = test_.result.picture || std::holds_alternative<SummaryOutput>(test_.entry.output());
-    if (is_whole) require_reproducible(run, until_);
+    const Output& output = test_.entry.output();
+    if (test_.result.picture || std::holds_alternative<SummaryOutput>(output) ||
+        std::holds_alternative<StateOutput>(output))
+        require_reproducible(run, until_);
     if (needs_motion()) motion_.judge(0, "", run.tables[recorded_], run.impacts, until_, run.reproducible_until);
     judge_numbers(run);
     DrawCallbacks callbacks{
@@ -118,7 +120,7 @@ void EntryTest::judge_numbers(const sim::Result& run) {
     motion_.judge_numbers(name, [&](const output::Target& file) {
         const output::Work work;
         Progress silent(ProgressStyle::none);
-        const Simulation& simulation = *plan_.simulation;
+        const PlannedMotion& simulation = *plan_.simulation;
         for (const DataFile& data : plan_.data)
             data.write({simulation.problem, simulation.request, run, work, &file, nullptr, silent});
     });

@@ -192,6 +192,7 @@ std::optional<MotionRecord> read_record(const References& references, const Reco
     if (!references.has(names.table) || !references.has(names.impacts)) return std::nullopt;
     MotionRecord record;
     record.table = output::read_table(references.file(names.table));
+    for (const output::TableColumn& column : record.table.columns) record.table.find(column.name);  // numbers only
     const Parsed parsed = parse(output::read_file(references.file(names.impacts)));
     const Member *list = parsed.root.find("impacts"), *horizon = parsed.root.find("reproducible_until");
     if (!parsed.is_json || !list || list->value.kind != Node::Kind::array)
