@@ -79,8 +79,10 @@ void warn_of_undrawn_data(ObjectReader& r, const SeriesKeys& series) {
     for (const Measurement& data : r.context().scene.data)
         if (series.against == "frequency" && !equally_spaced(data.times) &&
             std::ranges::any_of(series.panels, [&](const SeriesPanel& panel) { return shows(panel, data); }))
-            r.warn("x", " = \"frequency\": the instants of the data {} are too few or not equally spaced; they are not drawn",
-                   in_quotes(data.label));
+            r.warn(
+                "x",
+                " = \"frequency\": the instants of the data {} are too few or not equally spaced; they are not drawn",
+                in_quotes(data.label));
     const auto along = sim::channel_named(series.against);
     if (!along || along->kind == sim::ChannelKind::t || along->kind == sim::ChannelKind::cam_angle) return;
     for (const Measurement& data : r.context().scene.data)
@@ -113,7 +115,9 @@ void check_comparison(ObjectReader& r, const SeriesKeys& series) {
 void check_series(ObjectReader& r, FigureOutput& figure) {
     SeriesKeys& series = figure.series;
     if (series.panels.empty() && !r.diagnostics().any())
-        r.reject_object("channels", " shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"]");
+        r.reject_object("channels",
+                        " shows nothing; name \"channels\", for example [\"theta\", \"contact_force\"], or "
+                        "another \"figure\" than \"series\"");
     // Lines of a spectrum differ by orders of magnitude. Explicit panels choose their own scale.
     if (series.against == "frequency" && r.has("channels"))
         for (SeriesPanel& panel : series.panels) panel.logarithmic = true;

@@ -1,6 +1,7 @@
 // Output "figure": a figure for print, made by its type.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <functional>
 
 #include "render/plot/style.hpp"
@@ -14,7 +15,7 @@
 namespace beamcam::scenes {
 
 namespace dim = sim::dimension;
-using sim::between, sim::required;
+using sim::between;
 
 static void visit(SceneVisitor& v, SeriesSum& sum) {
     v.text("label", sum.label, "Name in the legend; $θ$ is a formula.");
@@ -63,9 +64,13 @@ static std::vector<std::string> names_with(std::string_view key) {
 static const std::string& constraint_of_figures() {
     static const std::string kText = [] {
         Node others = object_node();
-        for (const std::string_view key : keys_of_figures())
-            add(others, std::string(key),
-                object_node({{"properties", object_node({{"figure", object_node({{"enum", names_with(key)}})}})}}));
+        for (const std::string_view key : keys_of_figures()) {
+            const std::vector<std::string> names = names_with(key);
+            Node having = object_node({{"properties", object_node({{"figure", object_node({{"enum", names}})}})}});
+            if (std::ranges::find(names, "series") == names.end())  // which is the default
+                add(having, "required", std::vector<std::string>{"figure"});
+            add(others, std::string(key), std::move(having));
+        }
         return fmt::format(
             R"({{"if": {{"properties": {{"figure": {{"const": "series"}}}}}},
                 "then": {{"anyOf": [{{"required": ["channels"]}}, {{"required": ["panels"]}}]}},
@@ -148,7 +153,7 @@ static void visit_series(SceneVisitor& v, SeriesKeys& series, const std::string&
 void FigureOutput::visit(SceneVisitor& v) {
     v.value("file", file_format(file, kFigureEndings),
             "Name of the file; by default the name of the figure with .pdf.");
-    v.choice(required("figure", "\"free-fall\""), figure, names_of_figures_and_presets(),
+    v.choice("figure", figure, names_of_figures_and_presets(),
              "Name of the figure, or of a preset, whose keys the output then has besides its own.");
     v.text(sim::written_if(!title.empty(), "title"), title,
            "Title in the caption and the properties of the file; $θ$ is a formula.");
