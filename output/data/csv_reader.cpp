@@ -83,7 +83,9 @@ struct Row {
     std::vector<std::string_view> cells;  // trimmed, with their quotes
 
     bool is_blank() const { return trimmed(text).empty(); }
-    bool is_comment() const { return text.starts_with('#') || text.starts_with('%'); }
+    bool is_comment() const {  // also the hint of Excel, "sep=;"
+        return text.starts_with('#') || text.starts_with('%') || text.starts_with("sep=");
+    }
     bool is_empty() const {
         return std::ranges::all_of(cells, [](std::string_view cell) { return cell.empty(); });
     }
@@ -276,7 +278,8 @@ class CsvParser {
         for (Rows before = rows; rows.next(row); before = rows) {
             if (row.is_blank()) continue;
             if (row.is_comment()) {
-                if (Row found = without_mark(row); found.cells.size() == width_) comment = std::move(found);
+                if (Row found = without_mark(row); found.cells.size() == width_ && !row.text.starts_with("sep="))
+                    comment = std::move(found);
                 continue;
             }
             if (row.cells.size() < width_) {
@@ -370,10 +373,12 @@ class CsvParser {
         const bool infinite = found && std::isinf(found->value) && column.name != "exponent";  // −∞ is an exponent
         if (found && !other_sign && !infinite) return column.values.push_back(found->value);
         if (column.problem.empty())
-            column.problem = place_of(row, cell) + in_quotes(unquoted(cell)) +
-                             (other_sign ? " has another decimal sign than the numbers above"
-                              : infinite ? " is not a finite number; leave cells without a value empty"
-                                         : " is not a number; correct this cell, or leave it empty");
+            column.problem =
+                place_of(row, cell) + in_quotes(unquoted(cell)) +
+                (other_sign ? " has another decimal sign than the numbers above"
+                 : infinite ? " is not a finite number; leave cells without a value empty"
+                            : (cell.find(':') == cell.npos ? " is not a number; correct this cell, or leave it empty"
+                                                           : " is not a number; write times in seconds"));
         column.texts.resize(column.values.size());
         column.texts.push_back(unquoted(cell));
         column.values.push_back(kNothing);

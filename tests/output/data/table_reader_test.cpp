@@ -86,8 +86,8 @@ TEST(TableReader, ReadsWhatNumpyAndSpreadsheetsWrite) {
 TEST(TableReader, ReadsWhatMachinesWrite) {
     for (const std::string text :
          {"t,x\n0,1.5\n0.5,-2e-3\n", "t;x\n0;1,5\n0,5;-2e-3\n", "t\tx\r\n0\t1,5\r\n0,5\t-0,002\r\n\r\n\r\n",
-          "t x\n  0  1.5\n  0.5  -2e-3\n", "\xEF\xBB\xBFt,x\r0,1.5\r0.5,-2e-3\r", ",t,x\n0,0,1.5\n1,0.5,-0.002\n",
-          "t,x\ns,m\n0,1.5\n0.5,-2e-3\n", "t,note,x\n0,ok,1.5\n0.5,\"a, b\",-2e-3\n",
+          "sep=;\nt;x\n0;1,5\n0,5;-2e-3\n", "t x\n  0  1.5\n  0.5  -2e-3\n", "\xEF\xBB\xBFt,x\r0,1.5\r0.5,-2e-3\r",
+          ",t,x\n0,0,1.5\n1,0.5,-0.002\n", "t,x\ns,m\n0,1.5\n0.5,-2e-3\n", "t,note,x\n0,ok,1.5\n0.5,\"a, b\",-2e-3\n",
           "# rig 7\n# 2026-11-28\nt,x\n0,1.5\n0.5,-2e-3\n", "% t,x\n0,1.5\n0.5,-2e-3\n",
           "Rig 7\nOperator: X\n\nt;x;y\n[s];[m];[m]\n0;1,5;NA\n0,5;-0,002;\n;;\n;;\n",
           "when,t,x\n2026-11-28 12:00:00,0,1.5\n2026-11-28 12:00:01,0.5,-2e-3\n", "t,x,x2,x2\n0,1.5,a,b\n0.5,-2e-3,,\n",

@@ -175,7 +175,8 @@ TEST_F(MachineFiles, AreRefusedWithThePlaceWhereANamedColumnIsWrong) {
           std::pair{"# rig\n\ntime,angle\ns,rad\n0,0.1\n0.1,bad\n", "rig.csv:6:5: \"bad\" is not a number"},
           std::pair{"time,angle\n0,0.1\n\n\n0,0.1\n", "line 5: the time does not increase"},
           std::pair{"time;angle\n0,1;1,5\n0,2;1.5\n", "rig.csv:3:5: \"1.5\" has another decimal sign"},
-          std::pair{"time,angle\n2026-11-28 12:00:00,1\n", "rig.csv:2:1: \"2026-11-28 12:00:00\" is not a number"},
+          std::pair{"time,angle\n2026-11-28 12:00:00,1\n",
+                    "rig.csv:2:1: \"2026-11-28 12:00:00\" is not a number; write times in seconds"},
           std::pair{"0,0.1\n0.1,0.2\n", "rig.csv:1:1: a number where the names of the columns should be"}}) {
         const Finished done = read(text);
         EXPECT_EQ(done.code, 3) << text;
