@@ -6,10 +6,7 @@ namespace beamcam::render {
 
 using sim::ChannelKind;
 
-std::string heading(ChannelKind kind, Lang lang) {
-    const sim::ChannelLabel& label = sim::row(kind).label;
-    return std::string(lang == Lang::zh ? label.chinese : label.words) + " ";
-}
+std::string heading(ChannelKind kind, Lang lang) { return phrase(lang, sim::row(kind).label.words) + " "; }
 
 std::string subscript(sim::Channel channel) {
     return sim::traits(channel.kind).of_mode ? std::to_string(channel.index) : sim::row(channel.kind).label.subscript;

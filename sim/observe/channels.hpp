@@ -15,8 +15,8 @@ namespace beamcam::sim {
 
 // The words for a channel in pictures, and its symbol; `rate`: that is the symbol's rate by time.
 struct ChannelLabel {
-    const char *words, *chinese;  // "Hub angle"
-    const char *symbol, *subscript = "";
+    const char *words, *symbol;  // "Hub angle", "θ"
+    const char* subscript = "";
     bool rate = false;
 };
 

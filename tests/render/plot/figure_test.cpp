@@ -11,6 +11,7 @@
 #include <set>
 
 #include "render/base/error.hpp"
+#include "render/plot/channel_label.hpp"
 #include "render/plot/panel.hpp"
 
 namespace beamcam::render::figure {
@@ -549,6 +550,13 @@ TEST(FigureData, ACurveHasEachInstantOnceUnlessItJumpsThere) {
     const std::string csv = data_csv(figure);
     EXPECT_EQ(std::ranges::count(csv, '\n'), 1 + 4) << csv;
     EXPECT_THAT(csv, HasSubstr("\n1,6,3\n2,7,\n2,8,\n"));
+}
+
+TEST(Phrases, HaveChineseForEveryChannel) {
+    for (const sim::ChannelRow& row : sim::kChannels)
+        EXPECT_NE(translated(Lang::zh, row.label.words), row.label.words) << row.name;
+    EXPECT_EQ(translated(Lang::zh, "my own label"), "my own label");
+    EXPECT_EQ(phrase(Lang::zh, "error of {} / rad", "$θ$"), "$θ$ 的误差 / rad");
 }
 
 }  // namespace
