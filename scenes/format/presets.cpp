@@ -16,7 +16,10 @@ std::string word_of(const Node& object, std::string_view key) {
 
 }  // namespace
 
-std::string Preset::figure() const { return word_of(keys, "figure"); }
+std::string Preset::figure() const {
+    const std::string given = word_of(keys, "figure");
+    return given.empty() ? "series" : given;
+}
 std::string Preset::title() const { return word_of(keys, "title"); }
 
 const std::vector<Preset>& embedded_presets() {
@@ -50,7 +53,8 @@ void add_preset(Node& output, const Preset& preset) {
 }
 
 void resolve_preset(Node& output) {
-    if (output.kind != Node::Kind::object || word_of(output, "type") != "figure") return;
+    const std::string type = word_of(output, "type");
+    if (output.kind != Node::Kind::object || (!type.empty() && type != "figure")) return;
     if (const Preset* preset = embedded_preset(word_of(output, "figure"))) add_preset(output, *preset);
 }
 

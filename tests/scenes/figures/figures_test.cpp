@@ -195,7 +195,7 @@ TEST(Presets, WithMistakesAreReported) {
     };
     EXPECT_THAT(refusal(R"({"figure": "series", "chanels": ["theta"]})"), HasSubstr("chanels"));
     EXPECT_THAT(refusal(R"({"figure": "serious", "channels": ["theta"]})"), HasSubstr("there is no figure \"serious\""));
-    EXPECT_THAT(refusal(R"({"channels": ["theta"]})"), HasSubstr("there is no figure"));
+    EXPECT_THAT(refusal(R"({"channels": ["thetta"]})"), HasSubstr("did you mean \"theta\"?"));
     EXPECT_THAT(refusal("[1]"), HasSubstr("a preset is an object"));
     EXPECT_THAT(refusal(R"({"figure": )"), HasSubstr("mine.json:1:"));
     EXPECT_EQ(shell(folder, "$BEAMCAM figure s.json energy --preset mine.json -o a.svg").code, 2);
