@@ -1,6 +1,6 @@
-// Words that a user may expect in a scene or on the command line, and that beamcam does not have: what is not modelled,
-// and what was withdrawn. One table (absent.cpp) holds them with the sentence that the error then ends with; a word
-// that exists is never looked up here.
+// One table (absent.cpp) holds the words that a user may expect in a scene or on the command line and that beamcam does
+// not have, because the thing is not modelled or was withdrawn. The error of such a word ends with the sentence of the
+// table. A word that exists is never looked up.
 #pragma once
 
 #include <string>
