@@ -159,12 +159,14 @@ void FileList::require_own(const fs::path& file) {
     const Versions& listed = known_in_[directory_of(file)];
     const auto versions = listed.find(file.filename().string());
     const bool was_own = versions != listed.end() && std::ranges::any_of(versions->second, &FileRecord::is_own);
-    throw WouldOverwrite(fmt::format("{} {}; move it, choose another name, or replace it with --force", file.string(),
-                                     was_own ? "was changed after beamcam made it"
-                                     : versions != listed.end()
-                                         ? "exists and was not made by a run of yours: the list of files beside it "
-                                           "came from elsewhere"
-                                         : "exists and was not made by beamcam"));
+    const char* why =
+        was_own                    ? "was changed after beamcam made it"
+        : versions == listed.end() ? "exists and was not made by beamcam"
+        : owner_mark("", "").empty()
+            ? "may be another user's: the folder of XDG_STATE_HOME cannot keep what tells your files"
+            : "exists and was not made by a run of yours: the list of files beside it came from elsewhere";
+    throw WouldOverwrite(
+        fmt::format("{} {}; move it, choose another name, or replace it with --force", file.string(), why));
 }
 
 bool FileList::is_up_to_date(const fs::path& file, const std::string& inputs) {

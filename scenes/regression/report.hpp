@@ -22,7 +22,7 @@ std::string to_text(const RegressionResult& result);
 std::string to_json(const RegressionResult& result);
 // A test case for each picture and each motion.
 std::string to_junit(const RegressionResult& result, const std::string& suite, const PassRule& rule);
-// Writes index.html, report.css and report.json into a folder that contains the pictures
+// Writes index.html and report.css into a folder that contains the pictures
 // (RegressionOptions::report). The page works without scripts and inline styles, so that a strict content security
 // policy allows it.
 void write_page(const std::filesystem::path& folder, const RegressionResult& result, const std::string& title,

@@ -133,9 +133,13 @@ std::string to_html(const RegressionResult& result, const std::string& title, co
 void write_page(const fs::path& folder, const RegressionResult& result, const std::string& title, const PassRule& rule,
                 output::FileList& file_list) {
     output::ensure_directory(folder);
-    output::write_file(file_list.target(folder / "report.css"), std::string(kStyle));
-    output::write_file(file_list.target(folder / "report.json"), to_json(result));
-    output::write_file(file_list.target(folder / "index.html"), to_html(result, title, rule));
+    const auto write = [&](const char* name, const std::string& text) {
+        output::Target target = file_list.target(folder / name);
+        target.within = folder;
+        output::write_file(target, text);
+    };
+    write("report.css", std::string(kStyle));
+    write("index.html", to_html(result, title, rule));
 }
 
 }  // namespace beamcam::scenes
