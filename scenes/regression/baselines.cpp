@@ -73,7 +73,7 @@ class Reader {
             entry.tolerance = defaults_for(entry).overridden_by(given);
     }
 
-    // Of the entry, at `key` in it: "entries.NAME.KEY<why>".
+    // Adds the error "entries.NAME.KEY<why>" to the entry.
     bool reject(Baseline& entry, const Place& place, const char* key, const std::string& why) {
         const std::string text = fmt::format("entries.{}{}{}", entry.name, key, why);
         entry.problem += describe({all_.source}, Message{place, text});

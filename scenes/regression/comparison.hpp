@@ -42,7 +42,7 @@ PictureComparison compare(const output::Raster& a, const output::Raster& b, int 
 struct Comparison {
     std::string a, b;  // as the user named them
     Verdict verdict = Verdict::identical;
-    // Of pictures: those that are not identical, and the numbers of all pictures.
+    // The pictures that are not identical, and the numbers of all pictures.
     std::vector<PictureComparison> pictures;
     std::size_t pictures_a = 0, pictures_b = 0;
     std::optional<output::TableDifference> table;

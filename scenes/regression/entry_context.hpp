@@ -1,4 +1,4 @@
-// What the judges of an entry's pictures and motion share.
+// The judges of an entry's pictures and motion share this context.
 #pragma once
 
 #include <filesystem>

@@ -40,7 +40,7 @@ class EntryTest {
     void request_record();
     void request_compared_records();
     void judge_numbers(const sim::Result& run);
-    // What the entry shows must be reproducible up to `until`: otherwise an update throws render::PictureError.
+    // An update throws render::PictureError if the motion is not reproducible up to `until`.
     void require_reproducible(const sim::Result& motion, double until) const;
     double last_shown() const;  // the last instant of the pictures [s]
     void update();

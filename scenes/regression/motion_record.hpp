@@ -53,7 +53,7 @@ struct Finding {
     double excess;
     std::string line;
 };
-// Of records that are not identical.
+// The verdict on records that are not identical.
 MotionVerdict verdict_of(std::vector<Finding> findings);
 
 }  // namespace beamcam::scenes
