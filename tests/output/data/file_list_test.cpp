@@ -25,7 +25,7 @@ std::string refusal(const fs::path& file) {
     return "";
 }
 
-bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+bool mentions(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
 std::vector<FileRecord> records_in(const Scratch& scratch) {
     return parse_file_list(read_file(scratch / FileList::kFileName));
@@ -41,7 +41,7 @@ TEST(FileList, AForeignFileIsRefusedWithTheRemedy) {
     write_file(scratch / "a.csv", "precious");
     const std::string message = refusal(scratch / "a.csv");
     for (const std::string part : {(scratch / "a.csv").string().c_str(), "not made by beamcam", "--force"})
-        EXPECT_TRUE(contains(message, part)) << message;
+        EXPECT_TRUE(mentions(message, part)) << message;
 }
 
 TEST(FileList, OnesOwnUnchangedFileIsReplaced) {
@@ -55,7 +55,7 @@ TEST(FileList, OnesOwnFileIsRefusedOnceSomebodyChangedIt) {
     Scratch scratch;
     make(scratch / "a.csv", "first");
     write_file(scratch / "a.csv", "edits");  // of the same size
-    EXPECT_TRUE(contains(refusal(scratch / "a.csv"), "changed after beamcam made it"));
+    EXPECT_TRUE(mentions(refusal(scratch / "a.csv"), "changed after beamcam made it"));
 }
 
 TEST(FileList, ForceReplacesAnything) {
@@ -90,14 +90,14 @@ TEST(FileList, AListThatCameWithAFolderMakesNothingOnesOwn) {
         record.mark = mark;
         write_file(scratch / FileList::kFileName, line_of(record));
         const std::string message = refusal(scratch / "a.csv");
-        EXPECT_TRUE(contains(message, "came from elsewhere") && contains(message, "--force")) << message;
+        EXPECT_TRUE(mentions(message, "came from elsewhere") && mentions(message, "--force")) << message;
         EXPECT_FALSE(FileList(false).is_up_to_date(scratch / "a.csv", record.origin.inputs));
     }
     record.mark = own;
     record.name = "b.csv";
     write_file(scratch / FileList::kFileName, line_of(record));
     fs::copy_file(scratch / "a.csv", scratch / "b.csv");
-    EXPECT_TRUE(contains(refusal(scratch / "b.csv"), "came from elsewhere"));
+    EXPECT_TRUE(mentions(refusal(scratch / "b.csv"), "came from elsewhere"));
 }
 
 TEST(FileList, LinesThatAreNoRecordsAreSkipped) {
@@ -201,7 +201,7 @@ TEST(FileList, AFileThatTheUserPutsWhereAKilledRunWasAboutToIsTheUsers) {
         file->write("half");
     });
     write_file(scratch / "a.csv", "precious");
-    EXPECT_TRUE(contains(refusal(scratch / "a.csv"), "not made by beamcam"));
+    EXPECT_TRUE(mentions(refusal(scratch / "a.csv"), "not made by beamcam"));
 }
 
 // Killed between the line and the new name: either content is beamcam's own, and no third one.
@@ -223,7 +223,7 @@ TEST(FileList, WhicheverOfTwoVersionsAKillLeavesIsOnesOwn) {
         FileList::recover(scratch.path());
         EXPECT_EQ(refusal(scratch / "a.csv"), "");
         write_file(scratch / "a.csv", "edited");
-        EXPECT_TRUE(contains(refusal(scratch / "a.csv"), "changed after beamcam made it"));
+        EXPECT_TRUE(mentions(refusal(scratch / "a.csv"), "changed after beamcam made it"));
     }
 }
 
