@@ -101,17 +101,15 @@ void keep_system_settings_out() {
 
 }  // namespace
 
-// The scripts from U+2E80 on, without pictographs, variation selectors and mathematical letters, which CJK fonts do not
-// contain.
+bool is_cjk(char32_t c) {
+    return (c >= 0x2E80 && c < 0xE000) || (c >= 0xF900 && c < 0xFB00) || (c >= 0xFE30 && c < 0xFE50) ||
+           (c >= 0xFF00 && c < 0xFFF0) || (c >= 0x20000 && c < 0x40000);
+}
+
 bool needs_cjk(std::string_view utf8) {
     const char* const end = utf8.data() + utf8.size();
-    for (const char* at = utf8.data(); at < end; at = g_utf8_next_char(at)) {
-        const gunichar letter = g_utf8_get_char_validated(at, end - at);
-        if ((letter >= 0x2E80 && letter < 0xE000) || (letter >= 0xF900 && letter < 0xFB00) ||
-            (letter >= 0xFE30 && letter < 0xFE50) || (letter >= 0xFF00 && letter < 0xFFF0) ||
-            (letter >= 0x20000 && letter < 0x40000))
-            return true;
-    }
+    for (const char* at = utf8.data(); at < end; at = g_utf8_next_char(at))
+        if (is_cjk(g_utf8_get_char_validated(at, end - at))) return true;
     return false;
 }
 

@@ -15,8 +15,10 @@
 
 namespace beamcam::render {
 
-// Whether the text has characters that only the Chinese-Japanese-Korean font has.
-bool needs_cjk(std::string_view utf8);
+// Characters that the Chinese-Japanese-Korean font writes: the scripts from U+2E80 on, without pictographs, variation
+// selectors and mathematical letters.
+bool is_cjk(char32_t character);
+bool needs_cjk(std::string_view utf8);  // whether the text has any
 
 // Figures for print use TrueType fonts, which every publisher accepts embedded: Liberation Sans, Liberation Serif for
 // symbols, Droid Sans Fallback for Chinese. serif: Liberation Serif for all letters.

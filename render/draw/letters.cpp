@@ -13,6 +13,7 @@ namespace {
 // The letters of each set of typefaces.
 struct Typography {
     const char *family, *symbols;  // of text, and of the italic symbols of mathematics
+    const char* cjk;               // of Chinese, Japanese and Korean
     double symbol_size;            // relative: the x-heights of both become equal
     bool tabular, light_symbols;   // digits of equal width; symbols are regular in bold text, too
     LetterRules rules;
@@ -22,16 +23,19 @@ struct Typography {
 constexpr Typography kScreenLetters{
     "Inter,STIXGeneral,STIX Two Text,Noto Sans CJK SC",
     "STIXGeneral,STIX Two Text",
+    "Noto Sans CJK SC",
     1.12,
     true,
     true,
     {.cap_height = 0.727, .script_size = 1690. / 2816, .raised = 986. / 2816, .lowered = 0.17, .behind_italic = 0}};
 // No letter of a page is smaller than 6 pt, sub- and superscripts included.
 constexpr Typography kPrintLetters{
-    "Liberation Sans,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", 1.12, false, false,
+    "Liberation Sans,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", "Droid Sans Fallback", 1.12, false,
+    false,
     {.cap_height = 0.716, .smallest = 6}};
 constexpr Typography kSerifLetters{
-    "Liberation Serif,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", 1, false, false,
+    "Liberation Serif,Droid Sans Fallback", "Liberation Serif,Droid Sans Fallback", "Droid Sans Fallback", 1, false,
+    false,
     {.cap_height = 0.655, .smallest = 6}};
 
 const Typography& typography(Typefaces typefaces) {
@@ -42,7 +46,24 @@ const Typography& typography(Typefaces typefaces) {
 
 constexpr guint16 kFaintOpacity = 14417;  // 22 % of 65535
 
-PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, bool tabular) {
+// Runs of Chinese, Japanese and Korean are written by one font, although those of mathematics have a few of the letters.
+void add_cjk_runs(PangoAttrList* attributes, const char* family, const std::string& text) {
+    const char *const begin = text.data(), *const end = begin + text.size();
+    for (const char* at = begin; at < end;) {
+        const char* const from = at;
+        while (at < end && is_cjk(g_utf8_get_char(at))) at = g_utf8_next_char(at);
+        if (at == from) {
+            at = g_utf8_next_char(at);
+            continue;
+        }
+        PangoAttribute* run = pango_attr_family_new(family);
+        run->start_index = static_cast<guint>(from - begin), run->end_index = static_cast<guint>(at - begin);
+        pango_attr_list_insert(attributes, run);
+    }
+}
+
+PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const std::string& text, const Typography& t,
+                         bool tabular) {
     PangoLayout* layout = pango_layout_new(context);
     PangoFontDescription* font = pango_font_description_new();
     pango_font_description_set_family_static(font, face.family);
@@ -56,6 +77,7 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
     pango_layout_set_width(layout, face.max_width > 0 ? static_cast<int>(face.max_width * PANGO_SCALE) : -1);
     PangoAttrList* attributes = pango_attr_list_new();
     if (tabular) pango_attr_list_insert(attributes, pango_attr_font_features_new("tnum=1"));
+    add_cjk_runs(attributes, t.cjk, text);
     if (face.faint_to > 0) {
         PangoAttribute* faint = pango_attr_foreground_alpha_new(kFaintOpacity);
         faint->start_index = static_cast<guint>(face.faint_from), faint->end_index = static_cast<guint>(face.faint_to);
@@ -67,8 +89,8 @@ PangoLayout* make_layout(PangoContext* context, const LetterFace& face, const st
     return layout;
 }
 
-bool is_drawn(PangoContext* context, const LetterFace& face, const std::string& text) {
-    PangoLayout* layout = make_layout(context, face, text, false);
+bool is_drawn(PangoContext* context, const LetterFace& face, const std::string& text, const Typography& t) {
+    PangoLayout* layout = make_layout(context, face, text, t, false);
     const bool known = pango_layout_get_unknown_glyphs_count(layout) == 0;
     g_object_unref(layout);
     return known;
@@ -113,8 +135,8 @@ std::string drawable(const Fonts& fonts, std::string_view text) {
         const std::string one(at, static_cast<std::size_t>(g_utf8_next_char(at) - at));
         // Joiners and variation selectors are not visible.
         if (character == 0x200D || (character >= 0xFE00 && character <= 0xFE0F)) continue;
-        const LetterFace face{.family = typography(fonts.typefaces()).family};
-        if (character < 0x80 || is_drawn(fonts.handles().context, face, one)) out += one;
+        const Typography& t = typography(fonts.typefaces());
+        if (character < 0x80 || is_drawn(fonts.handles().context, {.family = t.family}, one, t)) out += one;
     }
     return out;
 }
@@ -122,12 +144,12 @@ std::string drawable(const Fonts& fonts, std::string_view text) {
 PangoLayout* layout_of(const Fonts& fonts, const LetterFace& face, const std::string& text) {
     const Fonts::Handles& handles = fonts.handles();
     return handles.layouts.get(face.key(text), [&] {
-        const bool tabular = typography(fonts.typefaces()).tabular;
-        PangoLayout* layout = make_layout(handles.context, face, text, tabular);
+        const Typography& t = typography(fonts.typefaces());
+        PangoLayout* layout = make_layout(handles.context, face, text, t, t.tabular);
         if (pango_layout_get_unknown_glyphs_count(layout) == 0) return layout;
         g_object_unref(layout);
         if (fonts.typefaces() != Typefaces::screen) throw FontError(missing_glyphs(text));
-        return make_layout(handles.context, face, drawable(fonts, text), tabular);
+        return make_layout(handles.context, face, drawable(fonts, text), t, t.tabular);
     });
 }
 
