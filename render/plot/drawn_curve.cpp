@@ -24,6 +24,13 @@ std::vector<bool> not_covered(const std::vector<Vec2>& points, double apart) {
     return seen;
 }
 
+// The radius of markers without a line: smaller where they are so many that they would join.
+double marker_radius(const std::vector<Vec2>& points, const Box& plot, double usual) {
+    constexpr double kLeast = 0.4;  // of the usual one: below that, shapes are not told apart
+    const auto seen = std::ranges::count_if(points, [&](const Vec2 p) { return inside(plot, p, 0.5); });
+    return std::clamp(0.5 * plot.w / std::max<double>(1, static_cast<double>(seen)), kLeast * usual, usual);
+}
+
 // The items with these indices; `broken` for kBreak.
 template <class Item>
 std::vector<Item> taken(const std::vector<std::size_t>& indices, const std::vector<Item>& from, Item broken) {
@@ -172,11 +179,12 @@ void DrawnCurve::draw_markers(const Box& plot, const PlotStyle& style, Painter& 
     const bool toned = !value_.empty();
     const std::vector<bool> seen =
         toned ? not_covered(points_, 0.15 * style.marker) : std::vector<bool>(points_.size(), true);
+    const double radius = s.line ? style.marker : marker_radius(points_, plot, style.marker);
     for (std::size_t i = 0; i < points_.size(); ++i) {
         const Vec2 p = points_[i];
         if (!seen[i] || !std::isfinite(p.x + p.y) || !inside(plot, p, 0.5)) continue;
         if (!toned)
-            draw_marker(on, style, look(s.look).marker, p, style.marker, curve_pen(s, style).color, s.look % 2 == 1);
+            draw_marker(on, style, look(s.look).marker, p, radius, curve_pen(s, style).color, s.look % 2 == 1);
         else if (std::isfinite(value_[i]))
             draw_marker(on, style, look(s.look).marker, p, 0.8 * style.marker, map_color(value_[i]), false);
     }

@@ -108,6 +108,12 @@ double PanelDrawing::place_boxes(bool legend_first) {
 void PanelDrawing::draw() {
     sheet_.clip(plot_.box(), [&] { draw_backgrounds(); });
     std::deque<PanelDrawing> insets = draw_inset_backgrounds();
+    const bool any_line = std::ranges::any_of(panel_.series, &Series::line);
+    const auto draw_markers = [&](bool beneath) {  // of points without a line, such as data, beneath the lines
+        for (const DrawnCurve& curve : curves_)
+            if (beneath == (any_line && !curve.series().line)) curve.draw_markers(plot_.box(), style_, sheet_);
+    };
+    draw_markers(true);
     sheet_.clip(plot_.box(), [&] {
         for (const DrawnCurve& curve : curves_) curve.draw(style_, sheet_);
         for (const Cloud& cloud : panel_.clouds) draw_cloud(cloud, plot_, sheet_);  // dots are smaller than lines
@@ -116,7 +122,7 @@ void PanelDrawing::draw() {
     plot_.draw_y_axis(sheet_);
     plot_.draw_frame(sheet_);
     plot_.draw_dots_and_events(sheet_);
-    for (const DrawnCurve& curve : curves_) curve.draw_markers(plot_.box(), style_, sheet_);
+    draw_markers(false);
     for (const Mark& m : panel_.marks) {
         const Vec2 p = plot_.at(m.x, m.y, m.right);
         if (!inside(plot_.box(), p, 1)) continue;

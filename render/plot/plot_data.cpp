@@ -122,8 +122,8 @@ void Plot::draw_dots_and_events(Painter& on, const Interval& part) const {
 
 void Plot::draw_data(Painter& on, const Interval& part) const {
     draw_bands(on, part);
+    draw_dots_and_events(on, part);  // below the curves, which many dots would hide
     for (const Series& curve : panel_->series) draw_curve(on, curve, part);
-    draw_dots_and_events(on, part);
 }
 
 }  // namespace beamcam::render::figure
