@@ -30,7 +30,7 @@ std::string short_form(std::string words, Brevity brevity) {
 ClockLine::ClockLine(const FilmContext& context) : context_(context) {
     const FilmSetup& setup = *context.setup;
     if (setup.view.show.legend && context.factor > 1 && context.places.first(PanelKind::mechanism))
-        pills_.push_back({context.translate("deflection ×") + power_text(context.factor), context.palette->motion});
+        pills_.push_back({context.translate("deflection ×" + power_text(context.factor)), context.palette->motion});
     if (setup.view.show.legend && !setup.speeds.empty())
         pills_.push_back({context.translate(widest_speed_text(setup.speeds)), context.palette->contact, 0, true});
     steady_ = steady_speed(setup.speeds);

@@ -53,7 +53,7 @@ class EnergyPanel final : public ChartPanel {
         const int member = std::min(spec.member, context.members() - 1);
         ChartContent c = blank_content(context, spec, member);
         if (is_wide(context, slot.box))
-            c.words = context.translate("Energy ");  // otherwise only the symbol and the legend fit
+            c.words = context.translate("Energy") + " ";  // otherwise only the symbol and the legend fit
         const sim::Table& table = context.motion(member).chart;
         const auto* t = column(table, {ChannelKind::t, 0});
         std::vector<double> base(t ? t->size() : 0, 0.0);
@@ -90,7 +90,7 @@ class EnergyPanel final : public ChartPanel {
         std::erase_if(shown, [&](const Part& part) { return !occurs(part); });
         const double first = plot.x +
                              canvas
-                                 .measure(context_.translate(is_wide(context_, box_) ? "Energy E / mJ" : "E / mJ"),
+                                 .measure((is_wide(context_, box_) ? context_.translate("Energy") + " E / mJ" : "E / mJ"),
                                           {.size = context_.heading(), .weight = Weight::semibold})
                                  .w +
                              20 * u;

@@ -104,7 +104,7 @@ class CollisionPanel final : public FilmPanel {
                 time = {first - kShown - span.low, first - span.low};
             else if (context_.span.low > shown_until && span.high > context_.span.low)
                 time = {context_.span.low - span.low, std::min(span.high, context_.span.high) - span.low};
-            c.words = context_.translate(fmt::format("Collision {}, ", spans_[which].number));
+            c.words = context_.translate(fmt::format("Collision {}", spans_[which].number)) + ", ";
         }
         const Prefix prefix = time.high < 1 ? prefix_for(time.high) : Prefix{"", 1};
         c.set_time(time, prefix.factor, fmt::format("($t$ − $t$_{{0}}) / {}s", prefix.symbol));

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <iterator>
+#include <optional>
 #include <utility>
+#include <vector>
 
 namespace beamcam::render {
 namespace {
@@ -57,11 +59,6 @@ constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     {"unknown", "未知"},
     {"unstable", "不稳定"},
     {"zeroth-order", "零阶模型"},
-    // impacts in subtitles and chapters
-    {"Impact {}", "第 {} 次冲击"},
-    {"Impacts {}–{}", "第 {}–{} 次冲击"},
-    {" · up to {}", " · 最大 {}"},
-    {"Start", "开始"},
     // channels
     {"Time", "时间"},
     {"Hub angle", "转角"},
@@ -106,19 +103,24 @@ constexpr std::pair<std::string_view, std::string_view> kPhrases[] = {
     {"unsettled", "未定"},
 };
 
-// The words of films. Longer phrases come before those that they contain.
-constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
+constexpr std::string_view kHole = "{}";  // in a phrase: any text without a separator
+constexpr std::string_view kSeparators[] = {" · ", ", "};
+
+// The phrases of films. The same number of holes in both, in the same order. The first phrase that is the whole text counts.
+struct Phrase {
+    std::string_view english, chinese;
+};
+constexpr Phrase kFilmPhrases[] = {
     {"contact force, trace (√ scale)", "接触力（轨迹，√ 标度）"},
-    {"Contact trace on disc and beam", "圆盘与梁上的接触轨迹"},
-    {"Contact trace", "接触轨迹"},
     {"Contact close-up", "接触点放大"},
-    {"age of the trace", "轨迹时间"},
+    {"Contact", "接触"},
     {"bending moment", "弯矩"},
-    {" against widths", "（相对水平方向）"},
-    {"heights in ", "高度单位 "},
-    {"energy closes to ", "能量误差 "},
+    {"heights in {}", "高度单位 {}"},
+    {"{} against widths", "{}（相对水平方向）"},
+    {"energy closes to {}", "能量误差 {}"},
     {"paler: θ not reproducible", "浅色：θ 不能重现"},
-    {"bends beyond ", "挠曲超出 "},
+    {"paler: θ not reproducible {}", "浅色：θ 不能重现 {}"},
+    {"bends beyond {}", "挠曲超出 {}"},
     {"inextensible elastica", "不可伸长弹性线"},
     {"second-order", "二阶模型"},
     {"first-order", "一阶模型"},
@@ -132,31 +134,29 @@ constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"impulses", "冲量碰撞"},
     {"elastic", "弹性"},
     {"no gravity", "无重力"},
-    {"face offset ", "接触面偏置 "},
+    {"face offset {}", "接触面偏置 {}"},
     {"torque by table", "转矩按表"},
     {"hub by table", "转角按表"},
-    {"torque ", "转矩 "},
+    {"torque {}", "转矩 {}"},
     {"hub held", "轮毂固定"},
-    {"hub at ", "轮毂转速 "},
-    {"hub to ", "轮毂加速至 "},
-    {" modes", " 阶模态"},
-    {" mode", " 阶模态"},
-    {"deflection ×", "挠度 ×"},
-    {" speed", " 倍速"},
+    {"hub at {}", "轮毂转速 {}"},
+    {"hub to {} in {}", "轮毂加速至 {}，历时 {}"},
+    {"{} modes", "{} 阶模态"},
+    {"{} mode", "{} 阶模态"},
+    {"deflection ×{}", "挠度 ×{}"},
+    {"{} speed", "{} 倍速"},
     {"frozen", "定格"},
-    {"Collision ", "碰撞 "},
-    {"collision ", "碰撞 "},
-    {"impact ", "冲击 "},
-    {" of ", "/"},
+    {"Collision {}", "碰撞 {}"},
+    {"collision {}", "碰撞 {}"},
+    {"impact {} of {}", "冲击 {}/{}"},
+    {"impact {}", "冲击 {}"},
     {"penetration", "压入"},
-    {"friction ", "摩擦 "},
     {"friction", "摩擦"},
     {"potential", "势能"},
     {"kinetic", "动能"},
     {"bending", "弯曲能"},
-    {"Contact", "接触"},
     {"contact", "接触能"},
-    {"Energy ", "能量 "},
+    {"Energy", "能量"},
     {"lost", "耗散"},
     {"force", "力"},
     {"peak", "峰值"},
@@ -164,10 +164,48 @@ constexpr std::pair<std::string_view, std::string_view> kChinese[] = {
     {"impulses only", "仅有冲量"},
     {"beam", "梁"},
     {"cam", "凸轮"},
-    {"root", "根部"},
-    {"tip", "端部"},
     {"gap", "间隙"},
 };
+
+// The texts in the holes if the phrase is the whole text.
+std::optional<std::vector<std::string_view>> match(std::string_view phrase, std::string_view text) {
+    std::vector<std::string_view> found;
+    for (std::size_t hole = 0; (hole = phrase.find(kHole)) != std::string_view::npos;) {
+        const std::string_view before = phrase.substr(0, hole);
+        if (!text.starts_with(before)) return std::nullopt;
+        text.remove_prefix(before.size());
+        phrase.remove_prefix(hole + kHole.size());
+        const std::string_view after = phrase.substr(0, phrase.find(kHole));
+        const std::size_t end = after.empty() ? text.size() : text.find(after);
+        if (end == 0 || end == std::string_view::npos) return std::nullopt;
+        found.push_back(text.substr(0, end));
+        for (const std::string_view separator : kSeparators)
+            if (found.back().find(separator) != std::string_view::npos) return std::nullopt;
+        text.remove_prefix(end);
+    }
+    return text == phrase ? std::optional(found) : std::nullopt;
+}
+
+std::string in_chinese(std::string_view text) {
+    for (const auto& [english, chinese] : kFilmPhrases) {
+        const auto found = match(english, text);
+        if (!found) continue;
+        std::string out(chinese);
+        std::size_t at = 0;
+        for (const std::string_view each : *found) {
+            const std::string in_hole = in_chinese(each);
+            at = out.find(kHole, at);
+            out.replace(at, kHole.size(), in_hole);
+            at += in_hole.size();
+        }
+        return out;
+    }
+    for (const std::string_view separator : kSeparators)
+        if (const std::size_t at = text.find(separator); at != std::string_view::npos)
+            return in_chinese(text.substr(0, at)) + std::string(separator) +
+                   in_chinese(text.substr(at + separator.size()));
+    return std::string(text);
+}
 
 }  // namespace
 
@@ -177,12 +215,6 @@ std::string_view translated(Lang lang, std::string_view english) {
     return found == std::end(kPhrases) ? english : found->second;
 }
 
-std::string in(Lang lang, std::string text) {
-    if (lang == Lang::en) return text;
-    for (const auto& [english, chinese] : kChinese)
-        for (std::size_t at = 0; (at = text.find(english, at)) != std::string::npos; at += chinese.size())
-            text.replace(at, english.size(), chinese);
-    return text;
-}
+std::string in(Lang lang, std::string text) { return lang == Lang::en ? text : in_chinese(text); }
 
 }  // namespace beamcam::render

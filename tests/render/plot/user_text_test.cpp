@@ -4,7 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
+#include <set>
+
 #include "render/draw/markup.hpp"
+#include "render/plot/labels.hpp"
 #include "render/plot/lang.hpp"
 #include "tests/render/drawing.hpp"
 
@@ -111,6 +115,46 @@ TEST(Lang, TellsThePicturesOwnWordsInChinese) {
     EXPECT_EQ(in(Lang::zh, "bending moment"), "弯矩");
     EXPECT_EQ(in(Lang::zh, "1/50 speed"), "1/50 倍速");
     EXPECT_EQ(in(Lang::zh, "first-order, 2 modes"), "一阶模型, 2 阶模态");
+    EXPECT_EQ(in(Lang::zh, "rtol 10⁻⁸ · energy closes to 10⁻⁹ · bends beyond first-order"),
+              "rtol 10⁻⁸ · 能量误差 10⁻⁹ · 挠曲超出 一阶模型");
+    EXPECT_EQ(in(Lang::zh, "collision 2 · impact 3 of 5"), "碰撞 2 · 冲击 3/5");
+}
+
+// Whole phrases: a word within a phrase is not translated by itself.
+TEST(Lang, TranslatesWholePhrases) {
+    EXPECT_EQ(in(Lang::zh, "no contact"), "无接触");
+    EXPECT_EQ(in(Lang::zh, "impulses only"), "仅有冲量");
+    EXPECT_EQ(in(Lang::zh, "hub to 3\u00A0rad/s in 2\u00A0s"), "轮毂加速至 3\u00A0rad/s，历时 2\u00A0s");
+    EXPECT_EQ(in(Lang::zh, "hub held"), "轮毂固定");
+    EXPECT_EQ(in(Lang::zh, "multiple tips"), "multiple tips");
+}
+
+// Every piece of the parameter line, for every drive, contact, friction and model: what is left in Latin letters are
+// symbols and units.
+TEST(Lang, LeavesNoEnglishWordInTheParameters) {
+    const auto english_word = [](const std::string& text) {
+        static const std::regex kWord("[A-Za-z]{3,}");
+        static const std::set<std::string> kUnits{"rad", "rpm"};
+        std::string found;
+        for (std::sregex_iterator at(text.begin(), text.end(), kWord), end; at != end; ++at)
+            if (!kUnits.contains(at->str())) found += at->str() + " ";
+        return found;
+    };
+    std::vector<sim::Problem> problems(1);
+    const auto more = [&](auto change) { change(problems.emplace_back()); };
+    for (const sim::Drive& drive : std::initializer_list<sim::Drive>{
+             sim::ConstantTorque{2}, sim::HarmonicTorque{1, 5}, sim::ConstantSpeed{0}, sim::ConstantSpeed{3},
+             sim::SpinUp{3, 2}})
+        more([&](sim::Problem& p) { p.hub.drive = drive; });
+    for (const sim::ModelKind model : {sim::ModelKind::rigid, sim::ModelKind::zeroth_order, sim::ModelKind::first_order,
+                                       sim::ModelKind::second_order, sim::ModelKind::exact, sim::ModelKind::paper})
+        more([&](sim::Problem& p) { p.beam.model = model; });
+    more([](sim::Problem& p) { p.contact.model = sim::ContactModel::restitution, p.gravity = 0; });
+    more([](sim::Problem& p) { p.contact.friction = sim::CoulombFriction{0.2}; });
+    more([](sim::Problem& p) { p.contact.damping = sim::DampingLaw::none; });
+    for (const sim::Problem& problem : problems)
+        for (const std::string& piece : parameter_pieces(problem))
+            EXPECT_EQ(english_word(in(Lang::zh, piece)), "") << piece << " → " << in(Lang::zh, piece);
 }
 
 }  // namespace
