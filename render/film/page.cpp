@@ -8,8 +8,8 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <initializer_list>
 #include <iterator>
+#include <map>
 #include <numbers>
 #include <optional>
 
@@ -166,6 +166,21 @@ std::string numbers_json(const std::vector<Instant>& kept) {
         base64(points));
 }
 
+// The page with these texts in place of "@NAME@". One pass: a text that looks like a name stays as it is.
+std::string filled(std::string_view page, const std::map<std::string_view, std::string>& texts) {
+    std::string out;
+    for (std::size_t at = 0; at < page.size();) {
+        const std::size_t mark = page.find('@', at), end = page.find('@', std::min(mark, page.size() - 1) + 1);
+        const auto text = end == std::string_view::npos ? texts.end() : texts.find(page.substr(mark + 1, end - mark - 1));
+        const std::size_t kept = text == texts.end() && mark != std::string_view::npos ? mark + 1 : mark;
+        out += page.substr(at, kept - at);
+        if (mark == std::string_view::npos) break;
+        at = mark + 1;
+        if (text != texts.end()) out += text->second, at = end + 1;
+    }
+    return out;
+}
+
 // Radius of the arc of θ: outside the hub and clear of the disc, unless there is no room between them.
 double arc_radius(const sim::Problem& problem) {
     const double length = problem.beam.length, usual = std::max(0.14 * length, problem.hub.radius + 0.1 * length),
@@ -206,28 +221,23 @@ std::string html_page(const FilmSetup& setup) {
         json_text(plain_text(setup.title)), context.factor, kPageTolerance * length, length, thickness,
         problem.hub.radius, arc_radius(problem), context.frame_force, setup.units.degrees, colors, cam_json(context),
         impacts_json(context), numbers_json(thinned_instants(std::move(all), length)));
-    std::string page(player_html());
     const auto words = [&](const char* en, const char* zh) { return setup.view.lang == Lang::en ? en : zh; };
-    for (const auto& [mark, text] : std::initializer_list<std::pair<std::string, std::string>>{
-             {"@LANG@", words("en", "zh")},
-             {"@MECHANISM@", words("The mechanism", "机构")},
-             {"@INSTANT@", words("Instant", "时刻")},
-             {"@PLAY@", words("Play", "播放")},
-             {"@PAUSE@", words("Pause", "暂停")},
-             {"@SPACE@", words("Space", "空格键")},
-             {"@SPEED@", words("Speed", "速度")},
-             {"@ARROWS@", words("Up and Down", "上下方向键")},
-             {"@DEFLECTION@", words("deflection", "挠度")},
-             {"@TITLE@", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
-             {"@PAPER@", hex(p.paper)},
-             {"@INK@", hex(p.ink)},
-             {"@MUTED@", hex(p.muted)},
-             {"@MOTION@", hex(p.motion)},
-             {"@SCHEME@", setup.view.theme == Theme::dark ? "dark" : "light"},
-             {"@DATA@", data}})
-        for (std::size_t at = 0; (at = page.find(mark, at)) != std::string::npos; at += text.size())
-            page.replace(at, mark.size(), text);
-    return page;
+    return filled(player_html(), {{"LANG", words("en", "zh")},
+                                  {"MECHANISM", words("The mechanism", "机构")},
+                                  {"INSTANT", words("Instant", "时刻")},
+                                  {"PLAY", words("Play", "播放")},
+                                  {"PAUSE", words("Pause", "暂停")},
+                                  {"SPACE", words("Space", "空格键")},
+                                  {"SPEED", words("Speed", "速度")},
+                                  {"ARROWS", words("Up and Down", "上下方向键")},
+                                  {"DEFLECTION", words("deflection", "挠度")},
+                                  {"TITLE", setup.title.empty() ? "beamcam" : xml(plain_text(setup.title))},
+                                  {"PAPER", hex(p.paper)},
+                                  {"INK", hex(p.ink)},
+                                  {"MUTED", hex(p.muted)},
+                                  {"MOTION", hex(p.motion)},
+                                  {"SCHEME", setup.view.theme == Theme::dark ? "dark" : "light"},
+                                  {"DATA", data}});
 }
 
 }  // namespace beamcam::render

@@ -189,6 +189,8 @@ ValueFormat format_of_bound(Time& time, std::optional<Instant>& event) {
             time = at->t;
         else if constexpr (requires { time.reset(); })
             time.reset();
+        else if (at->kind == Instant::Kind::last)
+            time = r.context().scene.end_time;
     };
     out.write = [&] { return event ? written(*event) : Node(time); };
     return out;

@@ -48,6 +48,18 @@ nlohmann::json data_of(const std::string& page) {
     return nlohmann::json::parse(page.substr(from, page.find(";\n", from) - from));
 }
 
+// The texts of the user are put in as they are, also those that look like the names in player.html.
+TEST(Page, ATitleMayLookLikeAPlaceOfThePage) {
+    render::FilmSetup setup = setup_until(0.05, 100);
+    for (const char* title : {"@DATA@", "@PAPER@ @TITLE@", "a@b@c", "@", "@@", "@INK"}) {
+        setup.title = title;
+        const std::string page = render::html_page(setup);
+        EXPECT_THAT(page, HasSubstr("<title>" + std::string(title) + "</title>"));
+        EXPECT_THAT(page, HasSubstr("<h1>" + std::string(title) + "</h1>"));
+        EXPECT_EQ(data_of(page)["title"], title);
+    }
+}
+
 TEST(Page, ItsPosesAgreeWithTheMotionToTheToleranceThatItStates) {
     const render::FilmSetup setup = setup_until(0.6, 1000);
     const nlohmann::json d = data_of(render::html_page(setup));
